@@ -1,0 +1,1 @@
+"""The work cell: abstract ports, and the simulated cell behind them. Importing this package needs no MuJoCo."""

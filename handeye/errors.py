@@ -1,0 +1,48 @@
+"""Exceptions for callers, and the numbered errors that a script can test.
+
+A wrong script is a `Diagnostic`, collected and never raised. A world that does not cooperate is an error
+*number*, tested by SKIPE and SKIPN. The exceptions here are for a caller who misuses the interface or hands
+over an unusable file; each carries one clear sentence for the user.
+"""
+
+from typing import Final
+
+
+class HandeyeError(Exception):
+    """Base of every exception a caller may want to catch; `str(error)` is a sentence for the user."""
+
+
+class InvalidInput(HandeyeError):
+    """A file or an argument cannot be used."""
+
+
+JOINT_LIMIT: Final = 1
+NOTHING_HELD: Final = 2
+NO_SOLUTION: Final = 3
+SERVO_LAG: Final = 4
+WATCHDOG: Final = 5
+SEARCH_EXHAUSTED: Final = 6
+WRONG_THICKNESS: Final = 7
+WRONG_TRAVEL: Final = 8
+NO_FORCE: Final = 23
+NO_TORQUE: Final = 24
+PART_NOT_SEEN: Final = 30
+FEATURES_NOT_SEEN: Final = 31
+GASKET_WRONG: Final = 32
+
+ERRORS: Final[dict[int, str]] = {
+    JOINT_LIMIT: "a joint would have to go beyond its limit",
+    NOTHING_HELD: "the fingers closed beyond the minimum gap: nothing, or too thin a thing, is between them",
+    NO_SOLUTION: "the position is out of the arm's reach",
+    SERVO_LAG: "the arm did not follow its set-points: something is in the way",
+    WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
+    SEARCH_EXHAUSTED: "the search has tried all its places",
+    WRONG_THICKNESS: "what is between the fingers is not as thick as it should be",
+    WRONG_TRAVEL: "the last motion went less far, or farther, than it should",
+    NO_FORCE: "the motion ended without meeting the force it was to stop on",
+    NO_TORQUE: "the motion ended without meeting the torque it was to stop on",
+    PART_NOT_SEEN: "the part is not seen in the picture",
+    FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
+    GASKET_WRONG: "the gasket is not on properly",
+}
+"""Error numbers a script can test, with what the operator is told. 2 and 23 are the period's."""

@@ -1,0 +1,266 @@
+"""A checked program: labelled operations with symbolic goals, in SI units, of no particular language.
+
+This is the first waist of the system: every arm language ends here, and the planner starts here. The same
+operations, joined by planned motions, make the plan.
+"""
+
+from typing import Literal
+
+import msgspec
+
+Vector = tuple[float, float, float]
+
+
+class Record(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Base of everything that goes to disk."""
+
+
+class Operation(Record, tag_field="op", tag=lambda name: name.lower()):
+    """Base of the operations; the class name in lower case is the tag on disk."""
+
+
+class Stop(Record):
+    """End the motion when a force or torque is met; if it ends without, an error is raised.
+
+    Exactly one of `force`, `against` and `torque` is set.
+    """
+
+    force: Vector | None = None
+    """Direction and size (N, table coordinates) of the force *the hand exerts*: the motion ends when the hand
+    presses on something along this vector with more than its length. Else error 23."""
+    against: float | None = None
+    """The motion ends when it is opposed with more than this force (N), in whatever direction it goes. Else
+    error 23."""
+    torque: float | None = None
+    """The motion ends when the screwdriver's motor exerts this torque (N m). Else error 24."""
+
+
+class Restore(Record):
+    """Shift a goal by a saved difference."""
+
+    name: str
+    level: bool = False
+    """Use only the horizontal components."""
+
+
+class Move(Operation):
+    """Planned motion to a position, with departure upwards and approach from above."""
+
+    goal: str
+    restore: tuple[Restore, ...] = ()
+    searching: bool = False
+    """Inside a search loop: the present search offset is added to the goal."""
+    direct: bool = False
+    """Without departure and approach."""
+    stop: Stop | None = None
+
+
+class Change(Operation):
+    """Straight motion from the present place, orientation kept."""
+
+    displacement: Vector
+    """m, table coordinates."""
+    speed: float | None = None
+    """m/s; None: the speed of guarded moves, or of free ones without a stop."""
+    stop: Stop | None = None
+    press: Vector | None = None
+    """Force to exert while moving (N, table coordinates): the hand follows what it presses on."""
+
+
+class Turn(Operation):
+    """Motion of the hand on a circle about the vertical through a position, the hand turning with it."""
+
+    centre: str
+    angle: float
+    """rad, positive counter-clockwise seen from above."""
+    stop: Stop | None = None
+
+
+class Open(Operation):
+    """Drive the fingers to a gap."""
+
+    gap: float
+
+
+class Close(Operation):
+    """Close until both switches fire; error 2 below `minimum`, error 7 above `maximum` (m)."""
+
+    minimum: float = 0.0
+    maximum: float | None = None
+
+
+class Center(Operation):
+    """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m)."""
+
+    minimum: float = 0.0
+
+
+class Search(Operation):
+    """Set up a spiral search with this step (m) and at most `limit` places; the present place is the first."""
+
+    step: float
+    limit: int = 49
+
+
+class Advance(Operation):
+    """Go to the next place of the search (AOJ); error 6 when there is none."""
+
+
+class Test(Operation):
+    """Ask whether the last action raised an error, and clear it.
+
+    `raised`: next step when error `number` was raised; otherwise the step's `next`.
+    """
+
+    __test__ = False
+
+    number: int
+    raised: int
+
+
+class Jump(Operation):
+    """Go on elsewhere (the step's `next`)."""
+
+
+class Save(Operation):
+    """Keep the difference actual minus planned goal of the last Move; after Center only its component along the finger line."""
+
+    name: str
+
+
+class Wait(Operation):
+    """Stop, set the brakes, tell the operator."""
+
+    message: str
+
+
+class Load(Operation):
+    """Declare the weight (N) of what the hand carries, so that the servo compensates it."""
+
+    weight: float
+
+
+class Tool(Operation):
+    """Set the screwdriver's spindle speed, rad/s; 0 is off."""
+
+    speed: float
+
+
+class Travel(Operation):
+    """Check how far the last motion went (m): error 8 outside the range."""
+
+    minimum: float
+    maximum: float
+
+
+class Lens(Operation):
+    """Turn the lens turret; focal length in m."""
+
+    focal_length: float
+
+
+class Aim(Operation):
+    """Point the camera at a position or part and focus there."""
+
+    target: str
+
+
+class Look(Operation):
+    """Take a picture under a name."""
+
+    picture: str
+    hold_target: bool = False
+    """Keep the target voltage of the picture before, as differencing needs."""
+
+
+class General(Operation):
+    """General location: find the part's outline in the picture; measures where it is, roughly. Else error 30."""
+
+    part: str
+    picture: str
+
+
+class Specific(Operation):
+    """Specific location: find the part's holes in the picture; measures its pose. Else error 31."""
+
+    part: str
+    picture: str
+
+
+class Inspect(Operation):
+    """Difference two pictures and check that the part lies where it should. Else error 32."""
+
+    part: str
+    before: str
+    after: str
+
+
+AnyOperation = (
+    Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Jump | Save | Wait | Load
+    | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
+)  # fmt: skip
+
+ACTIONS = (
+    Move, Change, Turn, Open, Close, Center, Advance, Travel, Lens, Aim, Look, General, Specific, Inspect
+)  # fmt: skip
+"""Operations that can raise an error, or clear the one before."""
+
+
+class Step(Record):
+    """One step of the graph. Steps are numbered by their place in the list."""
+
+    operation: AnyOperation
+    stage: int
+    """Index of the stage it belongs to."""
+    line: int
+    """Line of the source, from 1."""
+    text: str
+    """The source statement, for people."""
+    next: int | None
+    """Step that follows; None ends the program."""
+
+
+class Position(Record):
+    """A taught or written hand position."""
+
+    at: tuple[float, float, float, float, float, float]
+    """x, y, z (m) of the tool centre point and the angles O, A, T (rad); relative to the part if `of`."""
+    of: str | None = None
+
+
+class Hole(Record):
+    """A round hole in a part's upper face, in part coordinates."""
+
+    x: float
+    y: float
+    diameter: float
+
+
+class Part(Record):
+    """What the program knows of a part: where it is planned to be, and what it looks like from above."""
+
+    at: tuple[float, float, float, float]
+    """Planned x, y, z (m) and yaw (rad) of its reference point and reference direction."""
+    face: float = 0.0
+    """Height (m) of its upper face over its reference point."""
+    holes: tuple[Hole, ...] = ()
+    """Large convex holes, largest first; the reference point is the centre of the first, and the reference
+    direction points from it to the second."""
+    screw_holes: tuple[Hole, ...] = ()
+    region: tuple[float, float] | None = None
+    """Half width and half depth (m) of where its reference point may be, about the planned place."""
+    outline: tuple[float, float, float, float] | None = None
+    """Box around it in part coordinates: x from, y from, x to, y to (m)."""
+
+
+class Program(Record):
+    """A checked program."""
+
+    name: str
+    language: Literal["wave"]
+    source: str
+    """The text it was made from."""
+    stages: tuple[str, ...]
+    steps: tuple[Step, ...]
+    positions: dict[str, Position]
+    parts: dict[str, Part]

@@ -1,0 +1,71 @@
+"""Poses as 4x4 homogeneous matrices `X_AB`: the pose of frame B in frame A, so that inner letters cancel.
+
+Letters: W world (the table frame: origin at a table corner, z up, table top z = 0), B arm base, T tool
+centre point (midway between the finger tips), C camera, P part.
+
+The hand frame at T has z along the approach direction and y along the finger line. Its orientation is
+written with the three angles O, A, T of the arm programs of the period: all zero, the hand points along
+-Y with the finger line along X; O turns about the vertical, A tilts the approach direction downwards,
+T rolls about it. A hand that points straight down has A = 90 degrees and T = 0; O is then the direction of
+the finger line from table x.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Pose = NDArray[np.float64]
+"""A homogeneous matrix, shape (4, 4), lengths in metres."""
+
+_R_ZERO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
+
+
+def rotation_x(angle: float) -> Array:
+    """Rotation about x, shape (3, 3); `angle` in radians."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def rotation_z(angle: float) -> Array:
+    """Rotation about z, shape (3, 3); `angle` in radians."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def pose(R: Array, p: Array | Sequence[float]) -> Pose:
+    """The pose with rotation `R`, shape (3, 3), and position `p`, shape (3,), in metres."""
+    X = np.eye(4)
+    X[:3, :3] = R
+    X[:3, 3] = p
+    return X
+
+
+def inverse(X_AB: Pose) -> Pose:
+    """`X_BA` from `X_AB`."""
+    R = X_AB[:3, :3].T
+    return pose(R, -R @ X_AB[:3, 3])
+
+
+def planar(x: float, y: float, z: float, yaw: float) -> Pose:
+    """A part that stands upright: position in metres, `yaw` about the vertical in radians."""
+    return pose(rotation_z(yaw), (x, y, z))
+
+
+def yaw(X: Pose) -> float:
+    """The turn about the vertical of an upright part, in radians, in (-pi, pi]."""
+    return math.atan2(X[1, 0], X[0, 0])
+
+
+def hand(x: float, y: float, z: float, o: float, a: float, t: float) -> Pose:
+    """The hand pose with its tool centre point at (x, y, z) metres and angles O, A, T in radians."""
+    return pose(rotation_z(o) @ rotation_x(a) @ _R_ZERO @ rotation_z(t), (x, y, z))
+
+
+def translated(X: Pose, p: Array | Sequence[float]) -> Pose:
+    """`X` moved by `p` (metres), given in the outer frame."""
+    Y = X.copy()
+    Y[:3, 3] += p
+    return Y
