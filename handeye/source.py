@@ -1,7 +1,15 @@
 """Source text and spans of it, for diagnostics and for showing the line that is being executed."""
 
+from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
+from typing import Final
+
+from handeye.errors import InvalidInput
+
+LARGEST: Final = 4_000_000
+"""Bytes of the largest file taken for a text; a program of the period has a few thousand."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, order=True)
@@ -27,8 +35,6 @@ class Source:
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of a character offset."""
-        from bisect import bisect_right
-
         line = bisect_right(self._starts, offset)
         return line, offset - self._starts[line - 1] + 1
 
@@ -37,3 +43,36 @@ class Source:
         start = self._starts[number - 1]
         end = self._starts[number] - 1 if number < len(self._starts) else len(self.text)
         return self.text[start:end].rstrip("\r")
+
+    def line_span(self, number: int) -> Span:
+        """The statement on a line: from its first to its last visible character."""
+        text = self.line(number)
+        start = self._starts[number - 1]
+        return Span(start=start + len(text) - len(text.lstrip()), end=start + len(text.rstrip()))
+
+
+def read_source(path: str | Path) -> Source:
+    """The text in a file, named as the path was given.
+
+    Raises:
+        InvalidInput: no such file, a directory, unreadable, too large, or not UTF-8 (with the byte's offset).
+    """
+    file = Path(path)
+    try:
+        if not file.exists():
+            raise InvalidInput(f"{path}: there is no such file")
+        if file.is_dir():
+            raise InvalidInput(f"{path} is a directory, not a file")
+        if not file.is_file():
+            raise InvalidInput(f"{path} is a device or a pipe, not a file")
+        if file.stat().st_size > LARGEST:
+            raise InvalidInput(f"{path} has {file.stat().st_size} bytes; a text has at most {LARGEST}")
+        return Source(name=str(path), text=file.read_bytes().decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        # `utf-8-sig` counts from behind a byte order mark, if there is one.
+        byte = error.object[error.start]
+        offset = error.start + len(file.read_bytes()) - len(error.object)
+        raise InvalidInput(f"{path} is not UTF-8 text: byte {offset} is 0x{byte:02x}") from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InvalidInput(f"{path} cannot be read: {reason}") from None

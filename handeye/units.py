@@ -8,6 +8,7 @@ import math
 from typing import Final
 
 INCH: Final = 0.0254  # m, exact by definition
+MILLIMETRE: Final = 0.001  # m
 DEGREE: Final = math.pi / 180  # rad
 OUNCE_FORCE: Final = 0.27801385095378125  # N, avoirdupois ounce times standard gravity
 OUNCE_INCH: Final = OUNCE_FORCE * INCH  # N m

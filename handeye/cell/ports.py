@@ -51,6 +51,8 @@ class Drive:
     """Most force each finger may press with, N."""
     tool: float
     """Screwdriver spindle speed set-point, rad/s, positive drives a right-hand screw in; 0 is off."""
+    lamp: bool = False
+    """The small lamp on the hand, which the camera is calibrated by."""
 
 
 class TvCamera(ABC):

@@ -109,13 +109,13 @@ class Advance(Operation):
 class Test(Operation):
     """Ask whether the last action raised an error, and clear it.
 
-    `raised`: next step when error `number` was raised; otherwise the step's `next`.
+    `raised`: next step when error `number` was raised (None ends the program); otherwise the step's `next`.
     """
 
     __test__ = False
 
     number: int
-    raised: int
+    raised: int | None
 
 
 class Jump(Operation):
@@ -188,7 +188,7 @@ class Specific(Operation):
 
 
 class Inspect(Operation):
-    """Difference two pictures and check that the part lies where it should. Else error 32."""
+    """Difference pictures of a part before and after its gasket was put on; error 32 if that lies wrong."""
 
     part: str
     before: str

@@ -1,0 +1,1 @@
+"""Whole runs and statistics over them: where concrete cells, plans and referees are put together."""

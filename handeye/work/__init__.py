@@ -1,0 +1,1 @@
+"""The working phase: a plan meets a cell through its ports."""

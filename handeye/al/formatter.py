@@ -1,0 +1,53 @@
+"""One look for all programs: columns as in a listing of the period, every comment kept."""
+
+from typing import Final
+
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.operands import free_text
+from handeye.al.scanner import Kind, Line, Token, scan
+
+OPERATION: Final = 8
+OPERANDS: Final = 16
+COMMENT: Final = 40
+
+
+def format_text(text: str) -> str:
+    """`text` in columns, instructions in capitals; it keeps its meaning, its mistakes and its lines."""
+    return "".join(_format(line) + "\n" for line in scan(text))
+
+
+def _format(line: Line) -> str:
+    tokens = list(line.tokens)
+    if not tokens:
+        return (" " * OPERATION if line.indented and line.comment else "") + (line.comment or "")
+    labels = ""
+    while len(tokens) > 1 and tokens[0].kind is Kind.NAME and tokens[1].text == ":":
+        labels += f"{tokens[0].text}: "
+        tokens = tokens[2:]
+    text = labels.rstrip()
+    if tokens and tokens[0].text.upper() == "DEFINE":
+        text = _column(text, 0) + f"DEFINE {_operands(tokens[1:])}".rstrip()
+    elif tokens:
+        word = tokens[0].text.upper() if tokens[0].kind is Kind.NAME else tokens[0].text
+        operands = free_text(tokens[1:]) if _is_free(word, tokens) else _operands(tokens[1:])
+        text = _column(text, OPERATION) + word
+        text = _column(text, OPERANDS) + operands if operands else text
+    return text if line.comment is None else _column(text, COMMENT) + line.comment
+
+
+def _is_free(word: str, tokens: list[Token]) -> bool:
+    definition = INSTRUCTIONS.get(word)
+    return definition is not None and any(o.free for o in definition.operands) and len(tokens) > 1
+
+
+def _column(text: str, column: int) -> str:
+    """`text` filled up to a column, at least one blank unless it is empty."""
+    return text.ljust(column) if len(text) < column else text + " " if text else text
+
+
+def _operands(tokens: list[Token]) -> str:
+    text = ""
+    for token in tokens:
+        tight = not text or text[-1] == "[" or token.text in ("]", ":")
+        text += token.text if tight else f" {token.text}"
+    return text

@@ -1,0 +1,386 @@
+"""The instructions of the language as a table, from which parser, checker, formatter and manual derive.
+
+Words and meanings of the period: Bolles and Paul, AIM-220 (1973), and what is left of the arm program's
+manual. What the period does not document and we added in its spirit has `ours` set.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Final
+
+from handeye import units
+from handeye.al.syntax import Name, Number, Text, Value, Vector
+
+BIGGEST: Final = 1e6
+"""No number of a program is larger; keeps squares of numbers finite."""
+ANY: Final = "no number of a program is larger than a million"
+SMALLEST: Final = 0.001
+"""Least size of what has to be larger than nothing, in its unit."""
+HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
+LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unit:
+    """A unit as written, and its SI value."""
+
+    name: str
+    si: float
+
+
+ONE = Unit(name="", si=1.0)
+IN = Unit(name="in", si=units.INCH)
+IN_PER_S = Unit(name="in/s", si=units.INCH)
+MM = Unit(name="mm", si=units.MILLIMETRE)
+DEG = Unit(name="degrees", si=units.DEGREE)
+OZ = Unit(name="oz", si=units.OUNCE_FORCE)
+OZ_IN = Unit(name="oz-in", si=units.OUNCE_INCH)
+REV_PER_MIN = Unit(name="rpm", si=units.RPM)
+
+
+class Refers(Enum):
+    """What a name must be the name of."""
+
+    POSITION = "position"
+    PART = "part"
+    TARGET = "position or part"
+    PICTURE = "picture"
+    SAVED = "saved difference"
+    LABEL = "label"
+    NEW = "new name"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Operand:
+    """One place of an instruction, and what may stand there."""
+
+    name: str
+    """As the manual calls it."""
+    takes: tuple[type[Value], ...]
+    units: tuple[Unit, ...] = ()
+    """Of a number: one; of a vector: one for each component."""
+    low: float = -BIGGEST
+    high: float = BIGGEST
+    why: str = ANY
+    whole: bool = False
+    choices: tuple[float, ...] = ()
+    free: bool = False
+    """Words up to the end of the line, with or without quotes."""
+    optional: bool = False
+    refers: Refers = Refers.NEW
+    word: str = ""
+    """A word of the language that stands here, alone or (`OF part`) before the operand."""
+    ours: bool = False
+
+    @property
+    def plain(self) -> str:
+        """As a sentence calls it."""
+        return f"vector {self.name}" if self.name.startswith("[") else self.name
+
+    @property
+    def shown(self) -> str:
+        """As it stands in the manual; what is optional in parentheses."""
+        text = f"{self.word} {self.name}".strip()
+        return f"({text})" if self.optional else text
+
+
+class Role(Enum):
+    """How an instruction takes part in the flow of a program."""
+
+    MOTION = "motion"
+    MODIFIER = "modifier"  # of the next motion
+    SHIFT = "shift"  # of the MOVE before
+    SKIP = "skip"
+    DECLARATION = "declaration"  # no step of its own
+    STEP = "step"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Instruction:
+    """An instruction of the language."""
+
+    op: str
+    group: str
+    help: str
+    operands: tuple[Operand, ...] = ()
+    role: Role = Role.STEP
+    fits: tuple[str, ...] = ()
+    """Motions a modifier can modify."""
+    ours: bool = False
+
+    @property
+    def origin(self) -> str:
+        """`period`, `ours`, or which operands of a word of the period are ours."""
+        added = ", ".join(f"`{operand.shown}`" for operand in self.operands if operand.ours)
+        return "ours" if self.ours else f"period; {added} ours" if added else "period"
+
+    @property
+    def usage(self) -> str:
+        """The instruction with its operands."""
+        return " ".join((self.op, *(operand.shown for operand in self.operands)))
+
+
+def _number(
+    name: str, unit: Unit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
+) -> Operand:
+    why = f"it has to be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
+    return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
+
+
+def _gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
+    why = f"the hand opens from 0 to {HAND:g} in"
+    return Operand(
+        name=name, takes=(Number,), units=(IN,), low=0.0, high=HAND, why=why, optional=optional, ours=ours
+    )
+
+
+def _vector(name: str, *components: Unit) -> Operand:
+    return Operand(name=name, takes=(Vector,), units=components)
+
+
+def _name(name: str, refers: Refers) -> Operand:
+    return Operand(name=name, takes=(Name,), refers=refers)
+
+
+def _word(word: str) -> Operand:
+    return Operand(name="", takes=(), word=word, optional=True, ours=True)
+
+
+_FORCE = _vector("[x y z]", OZ, OZ, OZ)
+_ERROR = Operand(
+    name="error",
+    takes=(Number,),
+    units=(ONE,),
+    low=1,
+    high=63,
+    why="errors have numbers from 1 to 63",
+    whole=True,
+)
+_LABEL = _name("label", Refers.LABEL)
+_PICTURE = _name("picture", Refers.PICTURE)
+_PART = _name("part", Refers.PART)
+_ALL = ("MOVE", "CHANGE", "TURN", "PARK")
+
+MOTIONS, MODIFIERS, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flow"
+PLACES, TOOL, VISION, RUN = "Positions", "Tool and load", "Vision", "Order of the work"
+
+_TABLE = (
+    Instruction(
+        op="MOVE",
+        group=MOTIONS,
+        help="go to a position: up first, over it, and down; with DIRECT, straight there",
+        operands=(_name("position", Refers.POSITION), _word("DIRECT")),
+        role=Role.MOTION,
+    ),
+    Instruction(
+        op="CHANGE",
+        group=MOTIONS,
+        help="move straight from the present place: direction in table coordinates, inches, inches a second",
+        operands=(
+            _vector("[x y z]", ONE, ONE, ONE),
+            _number("distance", IN, SMALLEST),
+            _number("speed", IN_PER_S, SMALLEST, optional=True, ours=True),
+        ),
+        role=Role.MOTION,
+    ),
+    Instruction(op="PARK", group=MOTIONS, help="go to the position called PARK", role=Role.MOTION),
+    Instruction(
+        op="TURN",
+        group=MOTIONS,
+        help="move on a circle about the vertical through a position, degrees counter-clockwise",
+        operands=(_name("position", Refers.POSITION), _number("angle", DEG)),
+        role=Role.MOTION,
+        ours=True,
+    ),
+    Instruction(
+        op="STOP",
+        group=MODIFIERS,
+        help="end the next motion when the hand presses along the vector with more than its length (oz), "
+        "or, given one number (ours), when anything opposes the motion with more; else error 23",
+        operands=(
+            Operand(
+                name="force",
+                takes=(Vector, Number),
+                units=(OZ, OZ, OZ),
+                low=SMALLEST,
+                why=f"it has to be at least {SMALLEST:g} oz",
+            ),
+        ),
+        role=Role.MODIFIER,
+        fits=_ALL,
+    ),
+    Instruction(
+        op="FORCE",
+        group=MODIFIERS,
+        help="press with this force (oz) during the next CHANGE",
+        operands=(_FORCE,),
+        role=Role.MODIFIER,
+        fits=("CHANGE",),
+    ),
+    Instruction(
+        op="TORQUE",
+        group=MODIFIERS,
+        help="end the next motion when the screwdriver turns with this torque (oz-in); else error 24",
+        operands=(_number("torque", OZ_IN, SMALLEST),),
+        role=Role.MODIFIER,
+        fits=_ALL,
+        ours=True,
+    ),
+    Instruction(
+        op="RESTORE",
+        group=MODIFIERS,
+        help="shift the goal of the MOVE just before by a saved difference; with LEVEL, only horizontally",
+        operands=(_name("name", Refers.SAVED), _word("LEVEL")),
+        role=Role.SHIFT,
+    ),
+    Instruction(
+        op="OPEN", group=HAND_WORDS, help="drive the fingers to this gap (in)", operands=(_gap("gap"),)
+    ),
+    Instruction(
+        op="CLOSE",
+        group=HAND_WORDS,
+        help="close on something; error 2 if thinner than the minimum (in), 7 if thicker than the maximum",
+        operands=(_gap("minimum", optional=True), _gap("maximum", optional=True, ours=True)),
+    ),
+    Instruction(
+        op="CENTER",
+        group=HAND_WORDS,
+        help="close, the hand giving way, so that the thing is not pushed; error 2 below the minimum (in)",
+        operands=(_gap("minimum", optional=True),),
+    ),
+    Instruction(
+        op="SKIPE",
+        group=FLOW,
+        help="skip the next instruction if the last action raised this error; clears it",
+        operands=(_ERROR,),
+        role=Role.SKIP,
+    ),
+    Instruction(
+        op="SKIPN",
+        group=FLOW,
+        help="skip the next instruction if the last action did not raise this error; clears it",
+        operands=(_ERROR,),
+        role=Role.SKIP,
+    ),
+    Instruction(
+        op="SEARCH",
+        group=FLOW,
+        help="start a spiral search with this step (in); the present place is the first",
+        operands=(_number("step", IN, SMALLEST),),
+    ),
+    Instruction(
+        op="AOJ",
+        group=FLOW,
+        help="go to the next place of the search (error 6: there is none) and jump back to the label",
+        operands=(_LABEL,),
+    ),
+    Instruction(op="JUMP", group=FLOW, help="go on at the label", operands=(_LABEL,)),
+    Instruction(
+        op="WAIT",
+        group=FLOW,
+        help="stop, set the brakes, show the operator the text, and go on when told to",
+        operands=(Operand(name="text", takes=(Text,), free=True),),
+    ),
+    Instruction(
+        op="TRANS",
+        group=PLACES,
+        help="a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
+        operands=(
+            _name("name", Refers.NEW),
+            _vector("[x y z o a t]", IN, IN, IN, DEG, DEG, DEG),
+            Operand(name="part", takes=(Name,), refers=Refers.PART, word="OF", optional=True, ours=True),
+        ),
+        role=Role.DECLARATION,
+    ),
+    Instruction(
+        op="SAVE",
+        group=PLACES,
+        help="keep where the hand is, less where the last MOVE was to bring it; after CENTER only along the "
+        "finger line",
+        operands=(_name("name", Refers.NEW),),
+    ),
+    Instruction(
+        op="TRAVEL",
+        group=PLACES,
+        help="check how far (in) the last motion went; error 8 outside the range",
+        operands=(_number("minimum", IN, 0.0), _number("maximum", IN, 0.0)),
+        ours=True,
+    ),
+    Instruction(
+        op="TOOL",
+        group=TOOL,
+        help="run the screwdriver (rpm, positive drives in); 0 is off",
+        operands=(_number("speed", REV_PER_MIN),),
+        ours=True,
+    ),
+    Instruction(
+        op="LOAD",
+        group=TOOL,
+        help="say what the thing in the hand weighs (oz), so that the arm carries it",
+        operands=(_number("weight", OZ, 0.0),),
+        ours=True,
+    ),
+    Instruction(
+        op="LENS",
+        group=VISION,
+        help="turn the lens turret to the 25 or the 50 mm lens",
+        operands=(Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES),),
+        ours=True,
+    ),
+    Instruction(
+        op="AIM",
+        group=VISION,
+        help="point the camera at a position or a part, and focus",
+        operands=(_name("name", Refers.TARGET),),
+        ours=True,
+    ),
+    Instruction(
+        op="LOOK",
+        group=VISION,
+        help="take a picture; with HOLD, at the target voltage of the one before",
+        operands=(_name("picture", Refers.NEW), _word("HOLD")),
+        ours=True,
+    ),
+    Instruction(
+        op="GENERAL",
+        group=VISION,
+        help="find the part's outline in the picture; error 30 when it is not seen",
+        operands=(_PART, _PICTURE),
+        ours=True,
+    ),
+    Instruction(
+        op="SPECIFIC",
+        group=VISION,
+        help="find the part's holes in the picture; error 31 when they are not seen",
+        operands=(_PART, _PICTURE),
+        ours=True,
+    ),
+    Instruction(
+        op="INSPECT",
+        group=VISION,
+        help="compare two pictures and check that the part lies where it should; error 32 when it does not",
+        operands=(_PART, _name("before", Refers.PICTURE), _name("after", Refers.PICTURE)),
+        ours=True,
+    ),
+    Instruction(
+        op="STAGE",
+        group=RUN,
+        help="begin a stage of the work, under this name in the reports",
+        operands=(Operand(name='"name"', takes=(Text,)),),
+        role=Role.DECLARATION,
+        ours=True,
+    ),
+)
+
+INSTRUCTIONS: Final[dict[str, Instruction]] = {instruction.op: instruction for instruction in _TABLE}
+"""Every instruction, by its word. `DEFINE`, which makes macros, is the parser's own."""
+
+
+def manual() -> str:
+    """The instructions as Markdown tables, one for each group."""
+    out = []
+    for group in dict.fromkeys(instruction.group for instruction in _TABLE):
+        out += [f"### {group}", "", "| instruction | origin | what it does |", "|---|---|---|"]
+        out += [f"| `{i.usage}` | {i.origin} | {i.help} |" for i in _TABLE if i.group == group]
+        out.append("")
+    return "\n".join(out)

@@ -1,0 +1,257 @@
+"""Statements to steps: modifiers join motions, RESTOREs their MOVE, jumps and skips find their targets."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import msgspec
+
+from handeye.al.instructions import INSTRUCTIONS, Role
+from handeye.al.macros import Call, Placed
+from handeye.al.operations import operation, restore
+from handeye.al.syntax import Name, Statement, Text
+from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
+from handeye.plan.program import AnyOperation, Move, Step, Test
+
+Report = Callable[[Diagnostic], None]
+FIRST_STAGE = "program"
+
+
+def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[str, ...], tuple[Step, ...]]:
+    """Stages and steps of an expanded program; worth something only if no error was reported."""
+    lowering = _Lowering(report=report)
+    for item in placed:
+        lowering.place(item)
+    lowering.end()
+    drafts = lowering.drafts
+    targets = [lowering.link(index) for index in range(len(drafts))]
+    steps = tuple(
+        Step(
+            operation=draft.operation,
+            stage=draft.stage,
+            line=draft.statement.line,
+            text=text[draft.statement.span.start : draft.statement.span.end],
+            next=target,
+        )
+        for draft, target in zip(drafts, targets, strict=True)
+        if draft.operation is not None
+    )
+    return tuple(lowering.stages), steps
+
+
+@dataclass(slots=True)
+class _Draft:
+    """A step in the making."""
+
+    statement: Statement
+    call: Call
+    stage: int
+    operation: AnyOperation | None
+    """None if the statement is broken."""
+    modifier: Placed | None
+    """The first of its modifiers."""
+
+    @property
+    def word(self) -> str:
+        return "" if self.statement.word is None else self.statement.word.text
+
+
+@dataclass(slots=True)
+class _Lowering:
+    report: Report
+    drafts: list[_Draft] = field(default_factory=list)
+    stages: list[str] = field(default_factory=list)
+    stage: int = 0
+    labels: dict[tuple[Call, str], tuple[int, Name]] = field(default_factory=dict)
+    pending: list[Placed] = field(default_factory=list)
+    """Modifiers that wait for their motion."""
+    shiftable: bool = False
+    """The statement before is a MOVE, or one of its RESTOREs."""
+    lost: int = 0
+    """Jumps to nowhere so far."""
+
+    def place(self, item: Placed) -> None:
+        statement = item.statement
+        for label in statement.labels:
+            self.label(label, item.call)
+        if statement.word is None and not statement.broken:
+            return
+        definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
+        role = Role.STEP if definition is None else definition.role
+        if statement.broken:
+            # It may have been anything: say nothing about what depends on it.
+            if role not in (Role.MODIFIER, Role.DECLARATION, Role.SHIFT):
+                self.pending.clear()
+                self.draft(item, None)
+            self.shiftable = True
+        elif role is Role.MODIFIER:
+            self.pending.append(item)
+            self.shiftable = False
+        elif role is Role.SHIFT:
+            self.restore(statement)
+        elif role is Role.DECLARATION:
+            self.declare(statement)
+        else:
+            self.step(item, role)
+
+    def label(self, label: Name, call: Call) -> None:
+        before = self.labels.setdefault((call, label.text), (len(self.drafts), label))[1]
+        if before is not label:
+            first = Label(span=before.span, text="first here")
+            self.problem("label-twice", f"label {quoted(label.text)} stands twice", label, first)
+        if self.pending:
+            word = _word(self.pending[0])
+            first = Label(span=word.span, text="a jump to the label would lose this")
+            message = f"label {quoted(label.text)} stands between `{word.text}` and its motion"
+            help = f"put the label before `{word.text}`"
+            self.problem("label-splits-modifier", message, label, first, help=help)
+        self.shiftable = False
+
+    def declare(self, statement: Statement) -> None:
+        name = statement.operands[0]
+        if isinstance(name, Text):
+            if name.text not in self.stages:
+                self.stages.append(name.text)
+            self.stage = self.stages.index(name.text)
+
+    def restore(self, statement: Statement) -> None:
+        assert statement.word is not None
+        if not self.shiftable:
+            help = "a `RESTORE` shifts the goal of the `MOVE` on the line above it"
+            self.problem("restore-without-move", "there is no `MOVE` to shift", statement.word, help=help)
+        elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
+            shifts = (*move.restore, restore(statement))
+            self.drafts[-1].operation = msgspec.structs.replace(move, restore=shifts)
+
+    def step(self, item: Placed, role: Role) -> None:
+        statement = item.statement
+        if role is not Role.MOTION and self.pending:
+            self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
+        modifiers = [m for m in self.pending if self.fits(m, statement)]
+        self.draft(item, operation(statement, [m.statement for m in modifiers]))
+        self.pending.clear()
+        self.shiftable = self.drafts[-1].word == "MOVE"
+
+    def draft(self, item: Placed, made: AnyOperation | None) -> None:
+        if not self.stages:
+            self.stages.append(FIRST_STAGE)
+        modifier = self.pending[0] if self.pending else None
+        self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier))
+
+    def fits(self, modifier: Placed, motion: Statement) -> bool:
+        word = _word(modifier)
+        assert motion.word is not None
+        fits = INSTRUCTIONS[word.text].fits
+        if motion.word.text not in fits:
+            modified = Label(span=motion.word.span, text="the motion")
+            message = f"`{word.text}` cannot modify `{motion.word.text}`"
+            help = "it modifies " + ", ".join(f"`{op}`" for op in fits)
+            self.problem("modifier-misplaced", message, word, modified, help=help)
+            return False
+        # A motion ends in one way and presses in one way.
+        same = [m for m in self.pending if (_word(m).text == "FORCE") == (word.text == "FORCE")]
+        if modifier is not same[0]:
+            first = Label(span=_word(same[0]).span, text="the other one")
+            message = f"`{motion.word.text}` has both `{_word(same[0]).text}` and `{word.text}`"
+            if _word(same[0]).text == word.text:
+                message = f"`{motion.word.text}` has `{word.text}` twice"
+            self.problem("modifier-twice", message, word, first)
+        return modifier is same[0]
+
+    def no_motion(self, after: Label | None) -> None:
+        word = _word(self.pending[0])
+        secondary = () if after is None else (after,)
+        help = "a modifier stands before the motion it modifies"
+        self.problem(
+            "modifier-without-motion", f"no motion follows `{word.text}`", word, *secondary, help=help
+        )
+        self.pending.clear()
+
+    def end(self) -> None:
+        if self.pending:
+            self.no_motion(None)
+
+    def link(self, index: int) -> int | None:
+        """What follows a step; sets what follows after an error."""
+        draft = self.drafts[index]
+        following = self.at(index + 1)
+        if draft.operation is None:
+            return following
+        if draft.word in ("AOJ", "JUMP"):
+            return self.jump(index)
+        if draft.word in ("SKIPE", "SKIPN"):
+            assert isinstance(draft.operation, Test)
+            skipped = self.skip(index)
+            raised, other = (skipped, following) if draft.word == "SKIPE" else (following, skipped)
+            draft.operation = msgspec.structs.replace(draft.operation, raised=raised)
+            return other
+        return following
+
+    def at(self, index: int) -> int | None:
+        return index if index < len(self.drafts) else None
+
+    def jump(self, index: int) -> int | None:
+        draft = self.drafts[index]
+        label = draft.statement.operands[0]
+        assert isinstance(label, Name)
+        scopes = [draft.call[:depth] for depth in range(len(draft.call), -1, -1)]
+        for scope in scopes:
+            if (scope, label.text) in self.labels:
+                target = self.labels[scope, label.text][0]
+                if draft.word == "AOJ":
+                    self.search_between(target, index)
+                return self.at(target)
+        known = [name for scope, name in self.labels if scope in scopes]
+        message = f"no statement has the label {quoted(label.text)}"
+        # Looking for what was meant takes time: only for those that will be shown.
+        help = suggestion(label.text, known) if self.lost < LIMIT else None
+        self.lost += 1
+        self.problem("unknown-label", message, label, help=help)
+        return None
+
+    def search_between(self, first: int, last: int) -> None:
+        for draft in self.drafts[first:last]:
+            if isinstance(draft.operation, Move) and draft.word == "MOVE":
+                draft.operation = msgspec.structs.replace(draft.operation, searching=True)
+
+    def skip(self, index: int) -> int | None:
+        """The step after the instruction after a skip; a call of a macro is one instruction."""
+        draft = self.drafts[index]
+        assert draft.statement.word is not None
+        if index + 1 == len(self.drafts):
+            self.problem(
+                "skip-at-end", f"there is no instruction for `{draft.word}` to skip", draft.statement.word
+            )
+            return None
+        skipped = self.drafts[index + 1]
+        depth = next(
+            (d for d, (a, b) in enumerate(zip(draft.call, skipped.call, strict=False)) if a != b),
+            min(len(draft.call), len(skipped.call)),
+        )
+        unit, end = skipped.call[: depth + 1], index + 2
+        if len(unit) > depth:
+            while end < len(self.drafts) and self.drafts[end].call[: depth + 1] == unit:
+                end += 1
+        modifier = skipped.modifier
+        if modifier is not None and (len(unit) == depth or modifier.call[: depth + 1] != unit):
+            self.skips_modifier(draft.statement.word, _word(modifier))
+        return self.at(end)
+
+    def skips_modifier(self, skip: Name, modifier: Name) -> None:
+        skipped = Label(span=modifier.span, text="only this would be skipped")
+        message = f"`{skip.text}` would skip `{modifier.text}` and not the motion it modifies"
+        self.problem(
+            "skip-over-modifier",
+            message,
+            skip,
+            skipped,
+            help="jump over both with the opposite test and `JUMP`",
+        )
+
+    def problem(self, code: str, message: str, at: Name, *secondary: Label, help: str | None = None) -> None:
+        primary = Label(span=at.span)
+        self.report(Diagnostic(code=code, message=message, primary=primary, secondary=secondary, help=help))
+
+
+def _word(item: Placed) -> Name:
+    assert item.statement.word is not None
+    return item.statement.word

@@ -1,0 +1,124 @@
+"""Statements to operations: the place where inches, degrees and ounces become SI."""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Final
+
+from handeye.al.instructions import INSTRUCTIONS, Instruction
+from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
+from handeye.plan import program as p
+
+
+class Operands:
+    """The operands of a checked statement by name, in SI units."""
+
+    def __init__(self, statement: Statement) -> None:
+        assert statement.word is not None
+        definition: Instruction = INSTRUCTIONS[statement.word.text]
+        self._values: dict[str, Value | None] = {}
+        self._units = {}
+        for operand, value in zip(definition.operands, statement.operands, strict=True):
+            key = operand.name or operand.word
+            self._values[key] = value
+            self._units[key] = tuple(unit.si for unit in operand.units)
+
+    def has(self, key: str) -> bool:
+        """Whether an optional operand or word is there."""
+        return self._values[key] is not None
+
+    def number(self, key: str) -> float:
+        value = self._values[key]
+        assert isinstance(value, Number)
+        return value.value * self._units[key][0]
+
+    def number_or(self, key: str) -> float | None:
+        return self.number(key) if self.has(key) else None
+
+    def vector(self, key: str) -> tuple[float, ...]:
+        value = self._values[key]
+        assert isinstance(value, Vector)
+        return tuple(x * si for x, si in zip(value.values, self._units[key], strict=True))
+
+    def vector3(self, key: str) -> p.Vector:
+        x, y, z = self.vector(key)
+        return x, y, z
+
+    def name(self, key: str) -> str:
+        value = self._values[key]
+        assert isinstance(value, Name | Text)
+        return value.text
+
+
+def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOperation:
+    """The operation of a statement whose modifiers fit it, jumps and skips still without their targets."""
+    assert statement.word is not None
+    stop = press = None
+    for modifier in modifiers:
+        assert modifier.word is not None
+        if modifier.word.text == "FORCE":
+            press = Operands(modifier).vector3("[x y z]")
+        else:
+            stop = _stop(modifier.word.text, Operands(modifier), modifier.operands[0])
+    motion = _MOTIONS.get(statement.word.text)
+    if motion is not None:
+        return motion(Operands(statement), stop, press)
+    return _STEPS[statement.word.text](Operands(statement))
+
+
+def position(statement: Statement) -> tuple[str, p.Position]:
+    """Name and value of a `TRANS`."""
+    operands = Operands(statement)
+    x, y, z, o, a, t = operands.vector("[x y z o a t]")
+    of = operands.name("part") if operands.has("part") else None
+    return operands.name("name"), p.Position(at=(x, y, z, o, a, t), of=of)
+
+
+def restore(statement: Statement) -> p.Restore:
+    """What a `RESTORE` adds to its `MOVE`."""
+    operands = Operands(statement)
+    return p.Restore(name=operands.name("name"), level=operands.has("LEVEL"))
+
+
+def _stop(op: str, operands: Operands, value: Value | None) -> p.Stop:
+    if op == "TORQUE":
+        return p.Stop(torque=operands.number("torque"))
+    if isinstance(value, Vector):
+        return p.Stop(force=operands.vector3("force"))
+    return p.Stop(against=operands.number("force"))
+
+
+def _change(operands: Operands, stop: p.Stop | None, press: p.Vector | None) -> p.Change:
+    x, y, z = operands.vector3("[x y z]")
+    scale = operands.number("distance") / math.hypot(x, y, z)
+    displacement = (x * scale, y * scale, z * scale)
+    return p.Change(displacement=displacement, speed=operands.number_or("speed"), stop=stop, press=press)
+
+
+_Motion = Callable[[Operands, p.Stop | None, p.Vector | None], p.AnyOperation]
+_MOTIONS: Final[dict[str, _Motion]] = {
+    "MOVE": lambda o, stop, _: p.Move(goal=o.name("position"), direct=o.has("DIRECT"), stop=stop),
+    "PARK": lambda _o, stop, _: p.Move(goal="PARK", stop=stop),
+    "TURN": lambda o, stop, _: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=stop),
+    "CHANGE": _change,
+}
+_STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
+    "OPEN": lambda o: p.Open(gap=o.number("gap")),
+    "CLOSE": lambda o: p.Close(minimum=o.number_or("minimum") or 0.0, maximum=o.number_or("maximum")),
+    "CENTER": lambda o: p.Center(minimum=o.number_or("minimum") or 0.0),
+    "SEARCH": lambda o: p.Search(step=o.number("step")),
+    "SKIPE": lambda o: p.Test(number=int(o.number("error")), raised=None),
+    "SKIPN": lambda o: p.Test(number=int(o.number("error")), raised=None),
+    "AOJ": lambda _: p.Advance(),
+    "JUMP": lambda _: p.Jump(),
+    "WAIT": lambda o: p.Wait(message=o.name("text")),
+    "SAVE": lambda o: p.Save(name=o.name("name")),
+    "TRAVEL": lambda o: p.Travel(minimum=o.number("minimum"), maximum=o.number("maximum")),
+    "TOOL": lambda o: p.Tool(speed=o.number("speed")),
+    "LOAD": lambda o: p.Load(weight=o.number("weight")),
+    "LENS": lambda o: p.Lens(focal_length=o.number("mm")),
+    "AIM": lambda o: p.Aim(target=o.name("name")),
+    "LOOK": lambda o: p.Look(picture=o.name("picture"), hold_target=o.has("HOLD")),
+    "GENERAL": lambda o: p.General(part=o.name("part"), picture=o.name("picture")),
+    "SPECIFIC": lambda o: p.Specific(part=o.name("part"), picture=o.name("picture")),
+    "INSPECT": lambda o: p.Inspect(part=o.name("part"), before=o.name("before"), after=o.name("after")),
+}

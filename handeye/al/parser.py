@@ -1,0 +1,175 @@
+"""Text to syntax tree: one diagnostic for a mistake, then on to the next line."""
+
+from dataclasses import dataclass, field, replace
+
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.operands import Mistake, read_operands
+from handeye.al.scanner import Kind, Line, Token, scan
+from handeye.al.syntax import Macro, Name, Script, Statement
+from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
+from handeye.source import Span
+
+
+def parse(text: str) -> tuple[Script, list[Diagnostic]]:
+    """The tree of a text and what is wrong with its form; reading ends after `LIMIT` mistakes."""
+    lines = scan(text)
+    parser = _Parser(macro_names=_macro_names(lines))
+    for line in lines:
+        parser.line(line)
+        if len(parser.diagnostics) >= LIMIT:
+            break
+    parser.end()
+    return Script(statements=tuple(parser.statements), macros=parser.macros), parser.diagnostics
+
+
+def _macro_names(lines: list[Line]) -> set[str]:
+    """Names of macros, known before they are defined, so that a call may stand first."""
+    return {
+        line.tokens[1].text.upper()
+        for line in lines
+        if len(line.tokens) > 1
+        and line.tokens[0].text.upper() == "DEFINE"
+        and line.tokens[1].kind is Kind.NAME
+    }
+
+
+@dataclass(slots=True)
+class _Parser:
+    macro_names: set[str]
+    statements: list[Statement] = field(default_factory=list)
+    macros: dict[str, Macro] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    opened: Name | None = None
+    """The macro whose body is being read."""
+    body: list[Statement] = field(default_factory=list)
+
+    def line(self, line: Line) -> None:
+        if line.is_blank and self.opened is not None:
+            self.close()
+        elif line.tokens and line.tokens[0].text.upper() == "DEFINE":
+            self.define(line.tokens)
+        elif line.tokens:
+            (self.statements if self.opened is None else self.body).append(self.statement(line))
+
+    def end(self) -> None:
+        if self.opened is not None and len(self.diagnostics) < LIMIT:
+            self.unterminated("the text ends before it does")
+        self.close()
+
+    def close(self) -> None:
+        if self.opened is not None and self.opened.text not in {*self.macros, *INSTRUCTIONS}:
+            self.macros[self.opened.text] = Macro(name=self.opened, body=tuple(self.body))
+        self.opened, self.body = None, []
+
+    def define(self, tokens: tuple[Token, ...]) -> None:
+        if self.opened is not None:
+            self.unterminated(f"line {quoted(' '.join(t.text for t in tokens[:2]))} comes before its end")
+            self.close()
+        if len(tokens) < 2 or tokens[1].kind is not Kind.NAME:
+            at = tokens[1].span if len(tokens) > 1 else _behind(tokens[0])
+            self.report(
+                "missing-operand", "`DEFINE` needs the name of the macro", at, "the name is expected here"
+            )
+            self.opened = Name("", tokens[0].span)
+            return
+        name = Name(tokens[1].text.upper(), tokens[1].span)
+        if len(tokens) > 2:
+            self.report(
+                "too-many-operands",
+                "`DEFINE` takes a name only",
+                Span(start=tokens[2].start, end=tokens[-1].end),
+                help="the instructions of a macro stand on the lines below",
+            )
+        elif name.text in INSTRUCTIONS or name.text == "DEFINE":
+            self.report("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span)
+        elif name.text in self.macros:
+            first = Label(span=self.macros[name.text].name.span, text="first defined here")
+            self.report(
+                "macro-twice", f"macro {quoted(name.text)} is defined twice", name.span, secondary=(first,)
+            )
+        self.opened = name
+
+    def unterminated(self, why: str) -> None:
+        if self.opened is None or not self.opened.text:
+            return
+        self.report(
+            "unterminated-macro",
+            f"macro {quoted(self.opened.text)} has no end",
+            self.opened.span,
+            why,
+            help="end a macro with a blank line",
+        )
+
+    def statement(self, line: Line) -> Statement:
+        tokens = line.tokens
+        labels = []
+        while len(tokens) > 1 and tokens[0].kind is Kind.NAME and tokens[1].text == ":":
+            labels.append(Name(tokens[0].text, tokens[0].span))
+            tokens = tokens[2:]
+        if not tokens:
+            span = Span(start=line.tokens[0].start, end=line.end)
+            return _statement(labels, None, line, span)
+        span = Span(start=tokens[0].start, end=tokens[-1].end)
+        head, rest = tokens[0], tokens[1:]
+        word = Name(head.text.upper(), head.span)
+        if head.kind is not Kind.NAME:
+            self.unreadable(head)
+            return _statement(labels, None, line, span, broken=True)
+        definition = INSTRUCTIONS.get(word.text)
+        if definition is None:
+            return _statement(labels, word, line, span, broken=not self.is_call(word, head, rest))
+        try:
+            operands = read_operands(definition, head, rest)
+        except Mistake as mistake:
+            self.diagnostics.append(mistake.diagnostic)
+            # What it would have named is not missing as well.
+            named = tuple(Name(t.text, t.span) for t in rest[:1] if t.kind is Kind.NAME)
+            broken = _statement(labels, word, line, span, broken=True)
+            return replace(broken, operands=named)
+        return Statement(
+            labels=tuple(labels), word=word, operands=operands, broken=False, line=line.number, span=span
+        )
+
+    def is_call(self, word: Name, head: Token, rest: tuple[Token, ...]) -> bool:
+        if word.text in self.macro_names:
+            if rest:
+                extra = Span(start=rest[0].start, end=rest[-1].end)
+                self.report("too-many-operands", f"macro {quoted(word.text)} takes no operands", extra)
+            return not rest
+        help = suggestion(word.text, {*INSTRUCTIONS, *self.macro_names, "DEFINE"})
+        if help is None and rest and rest[0].text.upper() in INSTRUCTIONS:
+            help = f"a label ends with a colon: `{head.text}:`"
+        self.report(
+            "unknown-instruction", f"there is no instruction {quoted(head.text)}", word.span, help=help
+        )
+        return False
+
+    def unreadable(self, token: Token) -> None:
+        message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"
+        code = "unexpected-character" if token.kind in (Kind.JUNK, Kind.MARK) else "unknown-instruction"
+        self.report(code, message, token.span)
+
+    def report(
+        self,
+        code: str,
+        message: str,
+        span: Span,
+        text: str = "",
+        *,
+        help: str | None = None,
+        secondary: tuple[Label, ...] = (),
+    ) -> None:
+        primary = Label(span=span, text=text)
+        self.diagnostics.append(
+            Diagnostic(code=code, message=message, primary=primary, help=help, secondary=secondary)
+        )
+
+
+def _statement(
+    labels: list[Name], word: Name | None, line: Line, span: Span, *, broken: bool = False
+) -> Statement:
+    return Statement(labels=tuple(labels), word=word, operands=(), broken=broken, line=line.number, span=span)
+
+
+def _behind(token: Token) -> Span:
+    return Span(start=token.end, end=token.end)

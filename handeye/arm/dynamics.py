@@ -1,0 +1,95 @@
+"""Torques that move the arm and hold it up.
+
+The equation of motion is M(q) qdd + h(q, qd) + damping qd = tau + J^T F, with F the force on the hand. Drive
+inertia is a part of M. All functions are vectorised over leading dimensions: the N ticks of a motion at once.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from handeye.arm.chain import centripetal, chain, cross, point_jacobian
+from handeye.arm.model import ArmModel, constants
+from handeye.pose import Array
+
+GRAVITY = 9.81
+"""m/s2, downwards along world z."""
+
+_LINKS = np.arange(6)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Links:
+    """The six links in the world, as functions of the joint positions."""
+
+    R: Array
+    p: Array
+    centre: Array
+    """Mass centres, (..., 6, 3)."""
+    linear: Array
+    """Velocity of each mass centre per joint rate, (..., 6, 6, 3)."""
+    angular: Array
+    """Angular velocity of each link per joint rate, (..., 6, 6, 3)."""
+    inertia: Array
+    """Inertia tensors about the mass centres in world axes, (..., 6, 3, 3)."""
+
+
+def mass_matrix(arm: ArmModel, q: Array) -> Array:
+    """M(q), drive inertia included; shape (..., 6) to (..., 6, 6)."""
+    return _mass_matrix(arm, _links(arm, q))
+
+
+def inverse_dynamics(arm: ArmModel, q: Array, qd: Array, qdd: Array) -> Array:
+    """Torques M qdd + h(q, qd) that give these accelerations, friction apart; each of shape (..., 6)."""
+    links = _links(arm, q)
+    inertial = (_mass_matrix(arm, links) @ np.asarray(qdd, dtype=np.float64)[..., None])[..., 0]
+    return np.asarray(inertial + _bias(arm, links, np.asarray(qd, dtype=np.float64)))
+
+
+def gravity(arm: ArmModel, q: Array) -> Array:
+    """Torques that hold the arm up at rest, shape (..., 6); gravity itself pulls with the opposite ones."""
+    return _bias(arm, _links(arm, q), None)
+
+
+def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
+    """Torques h(q, qd) + damping qd that keep the joints at these rates: gravity, Coriolis, friction."""
+    qd = np.asarray(qd, dtype=np.float64)
+    return np.asarray(_bias(arm, _links(arm, q), qd) + constants(arm).damping * qd)
+
+
+def _links(arm: ArmModel, q: Array) -> _Links:
+    k = constants(arm)
+    R, p = chain(arm, q)
+    rotation = R[..., 1:, :, :]
+    centre = p[..., 1:, :] + (rotation @ k.centre[..., None])[..., 0]
+    linear, angular = point_jacobian(arm, R, p, centre)
+    carried = np.tri(6)[:, :, None]  # a joint moves its own link and those after it
+    return _Links(
+        R=R, p=p, centre=centre, linear=linear * carried, angular=angular[..., None, :, :] * carried,
+        inertia=(rotation * k.inertia[:, None, :]) @ np.swapaxes(rotation, -1, -2),
+    )  # fmt: skip
+
+
+def _mass_matrix(arm: ArmModel, links: _Links) -> Array:
+    k = constants(arm)
+    linear, angular = links.linear, links.angular
+    M = (linear * k.mass[:, None, None]) @ np.swapaxes(linear, -1, -2)
+    M += angular @ links.inertia @ np.swapaxes(angular, -1, -2)
+    return np.asarray(M.sum(axis=-3) + np.diag(k.armature))
+
+
+def _bias(arm: ArmModel, links: _Links, qd: Array | None) -> Array:
+    force = np.zeros_like(links.centre)
+    force[..., 2] = GRAVITY
+    turning = None
+    if qd is not None:
+        acceleration, spin = centripetal(arm, links.R, links.p, links.centre, _LINKS, qd)
+        force = force + acceleration
+        omega = (links.angular * qd[..., None, :, None]).sum(axis=-2)
+        momentum = (links.inertia @ omega[..., None])[..., 0]
+        turning = (links.inertia @ spin[..., None])[..., 0] + cross(omega, momentum)
+    force = force * constants(arm).mass[:, None]
+    torque = (links.linear @ force[..., None])[..., 0].sum(axis=-2)
+    if turning is not None:
+        torque = torque + (links.angular @ turning[..., None])[..., 0].sum(axis=-2)
+    return np.asarray(torque)

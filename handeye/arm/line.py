@@ -1,0 +1,124 @@
+"""Motions of the hand on a straight line or an arc: every set-point is solved for, with exact joint rates."""
+
+import math
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, branches, drift, forward, jacobian, solve
+from handeye.arm.model import ArmModel, constants
+from handeye.arm.samples import Samples, check_samples
+from handeye.pose import Array, Pose, rotation_z, translated
+from handeye.units import JIFFY
+
+RAMP = 0.1
+"""Time to reach and to leave the cruising speed, s. Chosen: six servo periods."""
+SINGULAR = 0.02
+"""Sine of joint 5 below which a hand that must keep its orientation would need absurd speeds of joint 4."""
+
+
+def straight(
+    arm: ArmModel, q_start: Array, displacement: Array, speed: float, ramp: float = RAMP
+) -> Samples | IKResult:
+    """Set-points of a straight motion of the tool point with the orientation kept, or why there are none.
+
+    Args:
+        q_start: shape (6,).
+        displacement: shape (3,), m, world.
+        speed: m/s while cruising, at most; a short motion is slower.
+    """
+    displacement = np.asarray(displacement, dtype=np.float64)
+    distance = float(np.linalg.norm(displacement))
+    s, sd, sdd = _profile(distance, speed, ramp)
+    u = displacement / distance if distance else displacement
+    X = np.tile(forward(arm, q_start), (len(s), 1, 1))
+    X[:, :3, 3] += s[:, None] * u
+    along = np.concatenate([u, np.zeros(3)])
+    return _follow(arm, q_start, X, sd[:, None] * along, sdd[:, None] * along)
+
+
+def arc(
+    arm: ArmModel, q_start: Array, centre_xy: Array, angle: float, speed: float, ramp: float = RAMP
+) -> Samples | IKResult:
+    """Set-points of a turn of the hand about a vertical axis, or why there are none.
+
+    Args:
+        centre_xy: where the axis stands, shape (2,), m.
+        angle: rad, counter-clockwise seen from above.
+        speed: rad/s while cruising, at most.
+    """
+    s, sd, sdd = _profile(abs(angle), speed, ramp)
+    s, sd, sdd = (math.copysign(1.0, angle) * x for x in (s, sd, sdd))
+    X_start = forward(arm, q_start)
+    centre = np.array([centre_xy[0], centre_xy[1], 0.0])
+    X = np.stack([_turned(X_start, centre, a) for a in s]) if len(s) else np.zeros((0, 4, 4))
+    lever = X[:, :3, 3] - [centre_xy[0], centre_xy[1], X_start[2, 3]]
+    across = np.stack([-lever[:, 1], lever[:, 0], np.zeros(len(s))], axis=1)
+    up = np.array([0.0, 0.0, 1.0])
+    V = np.concatenate([sd[:, None] * across, sd[:, None] * up], axis=1)
+    A = np.concatenate([sdd[:, None] * across - (sd**2)[:, None] * lever, sdd[:, None] * up], axis=1)
+    return _follow(arm, q_start, X, V, A)
+
+
+def _turned(X: Pose, centre: Array, angle: float) -> Pose:
+    Y = translated(X, -centre)
+    Y[:3] = rotation_z(angle) @ Y[:3]
+    return translated(Y, centre)
+
+
+def _profile(distance: float, speed: float, ramp: float) -> tuple[Array, Array, Array]:
+    """Way, speed and acceleration at ticks 1 to N: a cruise between two ramps without jolt at their ends.
+
+    The speed on a ramp is v (3 r2 - 2 r3) of its share r, so that a ramp covers half of what cruising would.
+    """
+    if distance == 0.0:
+        return np.zeros(0), np.zeros(0), np.zeros(0)
+    cruise = max(distance / speed - ramp, 0.0)
+    count = math.ceil((cruise + 2 * ramp) / JIFFY - 1e-9)
+    duration = count * JIFFY
+    v = distance / (duration - ramp)
+    t = np.arange(1, count + 1) * JIFFY
+    r = np.clip(np.minimum(t, duration - t) / ramp, 0.0, 1.0)
+    rising = t < duration / 2
+    ramped = v * ramp * (r**3 - r**4 / 2)
+    way = np.where(t <= ramp, ramped, np.where(duration - t <= ramp, distance - ramped, v * (t - ramp / 2)))
+    return way, v * (3 * r**2 - 2 * r**3), np.where(rising, 1.0, -1.0) * v / ramp * 6 * (r - r**2)
+
+
+def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
+    """Joint positions, rates and accelerations for hand poses (N, 4, 4), twists and their rates (N, 6)."""
+    if len(X) == 0:
+        return Samples(q=np.zeros((0, 6)), qd=np.zeros((0, 6)), qdd=np.zeros((0, 6)))
+    found, exists = branches(arm, X)
+    if not exists.all():
+        return solve(arm, X[int(np.argmin(exists.all(axis=1)))], q_start)
+    turn = np.where(constants(arm).prismatic, np.inf, 2 * np.pi)
+    branch = int(np.argmin(_distance(found[0] - q_start, turn)))
+    q = found[:, branch]
+    if (np.abs(np.sin(q[:, 4])) < SINGULAR).any():
+        return IKResult(reason="singular", joint=4)
+    steps = np.diff(np.vstack([q_start, q]), axis=0)
+    q = q_start + np.cumsum(_shortest(steps, turn), axis=0)
+    fault = check_samples(arm, Samples(q=q, qd=q, qdd=q))
+    if fault is not None:
+        return fault
+    J = jacobian(arm, q)
+    qd = _solve(J, V)
+    if (np.abs(qd) > constants(arm).speed).any():
+        tick, joint = np.unravel_index(int(np.argmax(np.abs(qd) / constants(arm).speed)), qd.shape)
+        rate = abs(float(qd[tick, joint]))
+        return IKResult(reason="too fast", joint=int(joint), amount=rate, limit=arm.joints[joint].speed)
+    return Samples(q=q, qd=qd, qdd=_solve(J, A - drift(arm, q, qd)))
+
+
+def _solve(J: Array, x: Array) -> Array:
+    return np.asarray(np.linalg.solve(J, x[..., None])[..., 0], dtype=np.float64)
+
+
+def _shortest(step: Array, turn: Array) -> Array:
+    """`step` less whole turns, so that it is the shortest way."""
+    whole = np.round(step / turn)
+    return np.asarray(step - np.where(whole == 0, 0.0, whole * np.where(np.isinf(turn), 0.0, turn)))
+
+
+def _distance(step: Array, turn: Array) -> Array:
+    return np.asarray(np.abs(_shortest(step, turn)).sum(axis=-1))

@@ -1,0 +1,118 @@
+"""The Stanford arm (V. Scheinman, 1969) on its table, as data.
+
+Sources: DH rows, masses, mass centres, tensors and drive inertias: the Robotics Toolbox model after Paul
+(1981). Speeds, joint-5 range, hand opening: the data sheet of 1974. Figures without a source say chosen or
+placeholder.
+"""
+
+from math import pi
+from typing import Final, Literal
+
+from handeye.arm.model import ArmModel, Joint
+from handeye.pose import pose, rotation_z
+from handeye.units import DEGREE, INCH
+
+HAND_LENGTH: Final = 10 * INCH
+"""Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""
+
+Triple = tuple[float, float, float]
+
+
+def _moments_about_centre(about_origin: Triple, mass: float, centre: Triple) -> Triple:
+    """The published tensors are about the link *origins*: Steiner's theorem takes them to the mass centre.
+
+    They come without products of inertia, so only the three moments are known and the products at the centre
+    are left zero as well (the largest neglected one, of link 1, would be .018 kg m2).
+    """
+    x, y, z = centre
+    a, b, c = about_origin
+    return (a - mass * (y * y + z * z), b - mass * (x * x + z * z), c - mass * (x * x + y * y))
+
+
+def _joint(
+    name: str,
+    kind: Literal["revolute", "prismatic"],
+    *,
+    d: float,
+    alpha: float,
+    limits: tuple[float, float],
+    drive: tuple[float, float, float],
+    mass: float,
+    centre: Triple,
+    tensor: Triple,
+    armature: float,
+    damping: float,
+    wrist: float = 0.0,
+) -> Joint:
+    """A joint from published figures; `wrist` is where their frame's origin lies in ours along z."""
+    speed, acceleration, effort = drive
+    x, y, z = centre
+    return Joint(
+        name=name, kind=kind, d=d, alpha=alpha, lower=limits[0], upper=limits[1],
+        speed=speed, acceleration=acceleration, effort=effort,
+        mass=mass, centre=(x, y, z + wrist), inertia=_moments_about_centre(tensor, mass, centre),
+        armature=armature, damping=damping,
+    )  # fmt: skip
+
+
+# Mass centres: those of links 2 to 6 are published ten times too large (m r2 would exceed the tensor).
+# Divided by ten, the tensors of links 1 to 4 and 6 leave possible moments at the centre: positive, and none
+# greater than the sum of the others. Link 5 needs more: at (0, .0566, .0003) its centre would lie off to
+# the side, along the axis of joint 5, and .63 kg x (.0566 m)2 = .0020 would exceed its moment about z,
+# .0004 kg m2. The tensor is that of a body slender along z, the approach direction, so y and z are taken as
+# exchanged. Link 6 is published in a frame with its origin at the wrist centre; ours is a hand length
+# further out.
+#
+# drive = (speed, acceleration, effort). Accelerations: chosen, no source; they make a careful arm (J1 needs
+# 10-19 N m for its 3 rad/s2 with 2 kg and the boom .6-1 m out). Efforts: placeholder, enough to hold the
+# arm's own weight and the data sheet's greatest load (4.5 kg within .5 m) at these accelerations, not much
+# more. Damping: placeholder.
+_JOINTS: Final = (
+    _joint(
+        "column", "revolute", d=0.412, alpha=-pi / 2, limits=(-170 * DEGREE, 170 * DEGREE),
+        drive=(3.0, 3.0, 50.0), mass=9.29, centre=(0.0, 0.0175, -0.1105), tensor=(0.276, 0.255, 0.071),
+        armature=0.953, damping=2.0,
+    ),
+    _joint(
+        "shoulder", "revolute", d=0.154, alpha=pi / 2, limits=(-170 * DEGREE, 170 * DEGREE),
+        drive=(1.5, 2.5, 70.0), mass=5.01, centre=(0.0, -0.1054, 0.0), tensor=(0.108, 0.018, 0.100),
+        armature=2.193, damping=2.0,
+    ),
+    # a3 = 0 and theta3 = 0 as in Paul (1981); the toolbox has .0203 m and -90 degrees.
+    _joint(
+        "boom", "prismatic", d=0.0, alpha=0.0, limits=(12 * INCH, 50 * INCH),
+        drive=(1.0, 60 * INCH, 200.0), mass=4.25, centre=(0.0, 0.0, -0.6447), tensor=(2.51, 2.51, 0.006),
+        armature=0.782, damping=5.0,
+    ),
+    _joint(
+        "wrist roll", "revolute", d=0.0, alpha=-pi / 2, limits=(-170 * DEGREE, 170 * DEGREE),
+        drive=(6.0, 12.0, 15.0), mass=1.08, centre=(0.0, 0.0092, -0.0054), tensor=(0.002, 0.001, 0.001),
+        armature=0.106, damping=0.3,
+    ),
+    # 220 degrees by the data sheet; the toolbox has +-90, with which the hand could point down only while the
+    # boom slopes down.
+    _joint(
+        "wrist bend", "revolute", d=0.0, alpha=pi / 2, limits=(-110 * DEGREE, 110 * DEGREE),
+        drive=(6.0, 12.0, 15.0), mass=0.63, centre=(0.0, 0.0003, 0.0566), tensor=(0.003, 0.003, 0.0004),
+        armature=0.097, damping=0.3,
+    ),
+    _joint(
+        "hand roll", "revolute", d=HAND_LENGTH, alpha=0.0, limits=(-170 * DEGREE, 170 * DEGREE),
+        drive=(6.0, 12.0, 10.0), mass=0.51, centre=(0.0, 0.0, 0.1554), tensor=(0.013, 0.013, 0.0003),
+        armature=0.020, damping=0.1, wrist=-HAND_LENGTH,
+    ),
+)  # fmt: skip
+
+STANFORD: Final = ArmModel(
+    name="Stanford",
+    joints=_JOINTS,
+    # The base at (20, 10) in is the period's; the 6 in riser and the turn are chosen, so that the hand
+    # reaches all stations pointing down and the dead sector of joint 1 faces the near edge of the table.
+    X_WB=pose(rotation_z(pi / 2), (20 * INCH, 10 * INCH, 6 * INCH)),
+    hand_length=HAND_LENGTH,
+    hand_mass=0.24,  # two fingers of .12 kg. Placeholder.
+    hand_centre=0.20,  # Placeholder: fingers reach from .175 to .254 m.
+    gap_max=0.105,  # data sheet of 1974: 10.5 cm
+    gap_speed=0.08,  # data sheet of 1974: 8 cm/s free, 3 cm/s loaded
+)
+"""The arm of the pump assembly."""

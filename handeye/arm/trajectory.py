@@ -1,0 +1,178 @@
+"""Planned free motions: one polynomial of degree 4-3-4 per joint (Paul 1972).
+
+The hand lifts off upwards, goes over to a set-down point above the goal, and comes down. All joints share the
+segment times, so what is linear in the joints at the four positions stays so on the way: a hand that points
+straight down at all four never tilts.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.line import arc, straight
+from handeye.arm.model import ArmModel, constants
+from handeye.arm.samples import Samples, check_samples
+from handeye.pose import Array, Pose, translated
+from handeye.units import INCH, JIFFY
+
+__all__ = ["Samples", "Trajectory", "arc", "check_samples", "four_three_four", "move", "straight"]
+
+DIRECT_KNOT: Final = 1 / 9
+"""Share of the way at which a motion without departure or approach has its knots: 5 degrees of 45, as in the
+worked example of the reference."""
+_LOWERINGS: Final = (1.0, 0.75, 0.5, 0.25)
+"""Shares of the departure and approach heights that are tried in turn."""
+_SHARES: Final = (0.25, 0.35, 0.5, 0.7, 1.0, 1.4)
+"""Times of the end segments, as shares of the middle one's, among which the quickest pair is chosen."""
+_LOOK: Final = np.linspace(0.0, 1.0, 33)
+"""Places of a segment at which limits are looked at; a peak in between is at most .1 % higher."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Trajectory:
+    """Joint positions as functions of time: a polynomial per joint and segment."""
+
+    knots: Array
+    """Positions at the start, between the segments and at the end, shape (4, 6)."""
+    times: Array
+    """Duration of each segment, shape (3,), s."""
+    coefficients: Array
+    """Shape (3, 5, 6): segment, ascending power of the time since its beginning, joint."""
+
+    @property
+    def duration(self) -> float:
+        """s"""
+        return float(self.times.sum())
+
+    def at(self, time: Array) -> Samples:
+        """State at times from the start, shape (N,), s."""
+        ends = np.cumsum(self.times)
+        segment = np.minimum(np.searchsorted(ends, time, side="left"), len(ends) - 1)
+        t = np.clip(time - (ends - self.times)[segment], 0.0, self.times[segment])
+        q, qd, qdd = (_powers(t, order)[:, None, :] @ self.coefficients[segment] for order in range(3))
+        return Samples(q=q[:, 0], qd=qd[:, 0], qdd=qdd[:, 0])
+
+    def sample(self, period: float) -> Samples:
+        """Set-points at ticks 1 to N; the last is exactly the goal, at rest."""
+        count = max(1, math.ceil(self.duration / period - 1e-6))
+        found = self.at(np.arange(1.0, count + 1.0) * period)
+        found.q[-1], found.qd[-1], found.qdd[-1] = self.knots[-1], 0.0, 0.0
+        return found
+
+
+def four_three_four(q0: Array, q1: Array, q2: Array, q3: Array, times: Array) -> Trajectory:
+    """The trajectory at rest at `q0` and `q3` that passes `q1` and `q2`, smooth to the second derivative.
+
+    Args:
+        q0, q1, q2, q3: shape (6,), rad and m.
+        times: duration of each of the three segments, shape (3,), s.
+    """
+    knots = np.array([q0, q1, q2, q3], dtype=np.float64)
+    times = np.array(times, dtype=np.float64)
+    return Trajectory(knots=knots, times=times, coefficients=_coefficients(knots, times))
+
+
+def move(
+    arm: ArmModel, q_start: Array, X_WT_goal: Pose, *,
+    departure: float = 3 * INCH, approach: float = 3 * INCH, speed: float = 1.0,
+) -> Trajectory | IKResult:  # fmt: skip
+    """The free motion to a hand pose, or why there is none.
+
+    Args:
+        q_start: where the arm is, shape (6,).
+        departure, approach: heights of the lift-off and set-down points over the ends, m; 0 for none. What is
+            out of reach is lowered by quarters.
+        speed: share of the joints' greatest speeds, with its square of their accelerations.
+
+    Returns:
+        a trajectory of a whole number of servo periods, on the branch nearest to `q_start`.
+    """
+    height = float(X_WT_goal[2, 3])
+    if height < -1e-9:
+        return IKResult(reason="below the table", amount=height)
+    goal = solve(arm, X_WT_goal, q_start)
+    if goal.q is None:
+        return goal
+    fault = goal
+    for share in _LOWERINGS:
+        q1 = _raised(arm, forward(arm, q_start), q_start, share * departure)
+        q2 = _raised(arm, X_WT_goal, goal.q, share * approach)
+        trajectory = _quickest(arm, _knots(q_start, q1, q2, goal.q), speed)
+        beyond = check_samples(arm, trajectory.sample(JIFFY))
+        if beyond is None:
+            return trajectory
+        fault = beyond  # the polynomials swing a little beyond their knots
+    return fault
+
+
+def _raised(arm: ArmModel, X_WT: Pose, q: Array, height: float) -> Array | None:
+    """Joint positions with the hand so much higher, or as much as the arm reaches; None for no height."""
+    if height == 0.0:
+        return None
+    tried = (solve(arm, translated(X_WT, [0.0, 0.0, share * height]), q).q for share in _LOWERINGS)
+    return next((q for q in tried if q is not None), None)
+
+
+def _knots(q0: Array, q1: Array | None, q2: Array | None, q3: Array) -> Array:
+    """The four positions; instead of a missing lift-off or set-down point, one on the way in joint space."""
+    leave = q0 + DIRECT_KNOT * ((q3 if q2 is None else q2) - q0)
+    reach = q3 + DIRECT_KNOT * ((q0 if q1 is None else q1) - q3)
+    return np.array([q0, leave if q1 is None else q1, reach if q2 is None else q2, q3])
+
+
+def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
+    """The quickest division of time among the tried ones that keeps the limits, in whole servo periods."""
+    k = constants(arm)
+    shares = np.array([(a, 1.0, b) for a in _SHARES for b in _SHARES])
+    ways = np.abs(np.diff(knots, axis=0))
+    least = np.max(np.maximum(ways / k.speed, np.sqrt(ways / k.acceleration)), axis=1)
+    times = shares * max(float(least.max()), JIFFY)
+    times *= _stretch(arm, knots, times)[:, None]
+    best = times[np.argmin(times.sum(axis=1))] / speed
+    duration = float(best.sum())
+    best *= math.ceil(duration / JIFFY - 1e-9) * JIFFY / duration
+    return four_three_four(knots[0], knots[1], knots[2], knots[3], best)
+
+
+def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
+    """Factors on segment times (..., 3) that bring speeds and accelerations just within the limits, (...)."""
+    k = constants(arm)
+    coefficients = _coefficients(knots, times)
+    at = times[..., None] * _LOOK
+    rate = np.abs(_powers(at, 1) @ coefficients) / k.speed
+    acceleration = np.abs(_powers(at, 2) @ coefficients) / k.acceleration
+    peak = np.maximum(rate.max(axis=(-3, -2, -1)), np.sqrt(acceleration.max(axis=(-3, -2, -1))))
+    return np.asarray(np.maximum(peak, 1e-9))
+
+
+def _powers(t: Array, order: int) -> Array:
+    """Derivatives of 1, t, ..., t^4, shape (...) to (..., 5)."""
+    t = t[..., None]
+    n = np.arange(5.0)
+    factor = np.ones(5)
+    for i in range(order):
+        factor = factor * (n - i)
+    return np.asarray(factor * t ** np.maximum(n - order, 0.0))
+
+
+def _coefficients(knots: Array, times: Array) -> Array:
+    """The 14 coefficients of each joint, as (..., 3, 5, 6), for segment times of shape (..., 3)."""
+    A = np.zeros((*times.shape[:-1], 15, 15))
+    start = [_powers(np.zeros(times.shape[:-1]), order) for order in range(3)]
+    end = [[_powers(times[..., i], order) for order in range(3)] for i in range(3)]
+    row = 0
+    for order in range(3):  # at rest at both ends, smooth at both knots
+        A[..., row, 0:5], A[..., row + 1, 10:15] = start[order], end[2][order]
+        for i in (0, 1):
+            A[..., row + 2 + i, 5 * i : 5 * i + 5] = end[i][order]
+            A[..., row + 2 + i, 5 * i + 5 : 5 * i + 10] = -start[order]
+        row += 4
+    A[..., 12, 5:10], A[..., 13, 10:15] = start[0], start[0]  # the knots
+    A[..., 14, 9] = 1.0  # the middle segment is a cubic
+    b = np.zeros((15, knots.shape[-1]))
+    b[0], b[1], b[12], b[13] = knots[0], knots[3], knots[1], knots[2]
+    flat = np.asarray(np.linalg.solve(A, b), dtype=np.float64)
+    return flat.reshape(*times.shape[:-1], 3, 5, knots.shape[-1])

@@ -1,0 +1,109 @@
+"""The simulated television camera: the camera as drawn, off by the errors of the world, behind its port."""
+
+import math
+from dataclasses import replace
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.imperfection import CameraErrors
+from handeye.cell.ports import Picture, TvCamera
+from handeye.cell.rendering import SceneRenderer, cast
+from handeye.cell.vidicon import Vidicon, blur_disc
+from handeye.vision.camera import DRAWING, CameraModel, View
+
+TURRET: Final = 20.0
+REFOCUS: Final = 12.0
+SLEW: Final = 4.0
+DIGITISE: Final = 0.5
+"""s. Fitted to the 90 s that the paper gives for all lens changes and focusing; layout study, section 6."""
+FIRST_LENS: Final = 0.050
+"""Lens in place when the cell is switched on, m: as the last look of a run leaves it."""
+
+
+class SimulatedCamera(TvCamera):
+    """Takes pictures of the simulated cell."""
+
+    def __init__(
+        self,
+        data: mujoco.MjData,
+        errors: CameraErrors,
+        rng: np.random.Generator,
+        renderer: SceneRenderer,
+        drawing: CameraModel = DRAWING,
+    ) -> None:
+        """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
+
+        `rng`: noise of the tube and of the mount.
+        """
+        self._data = data
+        self._rng = rng
+        self._renderer = renderer
+        self._pot_noise = errors.pot_noise
+        self._model = true_camera(errors, drawing)
+        self._vidicon = Vidicon(rng)
+        self._lens = self._model.lens(FIRST_LENS).focal_length
+        self._pots = self._stand = (0.0, 0.0)
+        self._focus = math.inf
+
+    def lens(self, focal_length: float) -> float:
+        chosen = self._model.lens(focal_length).focal_length
+        if chosen == self._lens:
+            return 0.0
+        self._lens = chosen
+        self._focus = math.inf
+        return TURRET
+
+    def aim(self, pan: float, tilt: float) -> float:
+        if (pan, tilt) == self._pots:
+            return 0.0
+        self._pots = (pan, tilt)
+        wobble = self._rng.normal(0.0, self._pot_noise, 2) if self._pot_noise else np.zeros(2)
+        self._stand = (pan + float(wobble[0]), tilt + float(wobble[1]))
+        return SLEW
+
+    def focus(self, distance: float) -> float:
+        if distance == self._focus:
+            return 0.0
+        self._focus = distance
+        return REFOCUS
+
+    def pots(self) -> tuple[float, float]:
+        return self._pots
+
+    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
+        view = self.true_view()
+        light = self._renderer.render(self._data, view)
+        disc = blur_disc(self._lens, self._focus, self._sight(view))
+        return self._vidicon.expose(light, disc=disc, hold_target=hold_target), DIGITISE
+
+    @property
+    def renderer(self) -> str:
+        return self._renderer.name
+
+    def true_view(self) -> View:
+        """What it really sees at present. For the referee and for tests: the program has `pots` only."""
+        return self._model.view(self._lens, *self._stand)
+
+    def _sight(self, view: View) -> float:
+        """Distance along the line of sight of what is in the middle of the picture, m."""
+        X_WC = view.X_WC
+        geom, distance, _ = cast(self._data.model, self._data, X_WC[:3, 3], X_WC[None, :3, 2])
+        return float(distance[0]) if geom[0] >= 0 else 1e3
+
+
+def true_camera(errors: CameraErrors, drawing: CameraModel = DRAWING) -> CameraModel:
+    """The camera that really stands there."""
+    x, y, z = np.add(drawing.mount, errors.place)
+    pan, tilt, roll = errors.turn
+    return CameraModel(
+        mount=(float(x), float(y), float(z)),
+        pan0=drawing.pan0 + pan,
+        tilt0=drawing.tilt0 + tilt,
+        roll=drawing.roll + roll,
+        lenses=tuple(
+            replace(lens, scale=lens.scale * scale)
+            for lens, scale in zip(drawing.lenses, errors.focal_scale, strict=True)
+        ),
+    )

@@ -1,0 +1,122 @@
+"""Pictures by OpenGL, off-screen, on a machine without a display.
+
+The OpenGL context is made here, after its libraries have been tried, rather than by the environment variable
+that MuJoCo reads when it is first imported: what works must not depend on who imported what first.
+"""
+
+import contextlib
+import ctypes
+import importlib
+from functools import cache
+from typing import Any, Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
+from handeye.cell.vidicon import Luminance
+from handeye.errors import InvalidInput
+from handeye.vision.camera import COLUMNS, ROWS, View
+
+PLATFORMS: Final = (
+    ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),
+    ("OSMesa", "mujoco.osmesa", ("libOSMesa.so.8", "libOSMesa.so"), ()),
+)
+"""Name, module, and alternatives for the libraries it needs."""
+NEAR, FAR = 0.3, 10.0
+"""Clipping planes, m."""
+MOST_GEOMS: Final = 10000
+
+_WIDTH, _HEIGHT = COLUMNS * FINE, ROWS * FINE
+
+
+class OpenGlRenderer(SceneRenderer):
+    """Renders with shadows at twice the resolution of the picture."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        """Raises InvalidInput if there is no usable OpenGL."""
+        self._model = model
+        platform, self._gl = context()
+        self.name = f"OpenGL ({platform})"
+        self._gl.make_current()
+        self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+        mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, self._context)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
+        self._scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
+        self._camera = mujoco.MjvCamera()
+        self._option = mujoco.MjvOption()
+        self._option.geomgroup[:] = SHOWN
+        self._option.sitegroup[:] = 0
+        self._option.flags[mujoco.mjtVisFlag.mjVIS_TEXTURE] = 0
+        for flag in ("REFLECTION", "SKYBOX", "FOG", "HAZE"):
+            self._scene.flags[getattr(mujoco.mjtRndFlag, f"mjRND_{flag}")] = 0
+
+    def __del__(self) -> None:
+        # what is freed must be this context's, and a renderer of somebody else may have made its own current
+        with contextlib.suppress(Exception):  # at exit the display may be gone before us
+            self._gl.make_current()
+            self._context.free()
+
+    def render(self, data: mujoco.MjData, view: View) -> Luminance:
+        every = int(mujoco.mjtCatBit.mjCAT_ALL)
+        mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, every, self._scene)
+        self._aim(view)
+        self._dull()
+        self._gl.make_current()
+        viewport = mujoco.MjrRect(0, 0, _WIDTH, _HEIGHT)
+        mujoco.mjr_render(viewport, self._scene, self._context)
+        rgb = np.zeros((_HEIGHT, _WIDTH, 3), dtype=np.uint8)
+        mujoco.mjr_readPixels(rgb, None, viewport, self._context)
+        fine = (rgb[::-1] / 255) @ LUMA
+        return averaged(fine)
+
+    def _aim(self, view: View) -> None:
+        """Look from where the television camera stands, through a raster of points that are not square."""
+        X_WC, (fx, fy) = view.X_WC, view.focal
+        for eye in self._scene.camera:
+            eye.pos[:] = X_WC[:3, 3]
+            eye.forward[:] = X_WC[:3, 2]
+            eye.up[:] = -X_WC[:3, 1]
+            eye.frustum_near, eye.frustum_far = NEAR, FAR
+            eye.frustum_center = 0.0
+            eye.frustum_width = NEAR * COLUMNS / 2 / fx
+            eye.frustum_top = NEAR * ROWS / 2 / fy
+            eye.frustum_bottom = -eye.frustum_top
+
+    def _dull(self) -> None:
+        """No gloss; and of the head light, which is for people's viewers, only the ambient part."""
+        for light in self._scene.lights[: self._scene.nlight]:
+            light.specular[:] = 0
+            if light.headlight:
+                light.diffuse[:] = 0
+
+
+@cache
+def context() -> tuple[str, Any]:
+    """The platform's name and the one OpenGL context of this program.
+
+    Every renderer shares it, so that the objects of one are never freed in the context of another.
+
+    Raises:
+        InvalidInput: OpenGL does not work here.
+    """
+    for name, module, *libraries in PLATFORMS:
+        if not all(_loads(alternatives) for alternatives in libraries if alternatives):
+            continue
+        # what a broken driver raises is not documented: ImportError, AttributeError, errors of PyOpenGL
+        with contextlib.suppress(Exception):
+            gl = importlib.import_module(module).GLContext(_WIDTH, _HEIGHT)
+            gl.make_current()
+            return name, gl
+    raise InvalidInput(
+        "OpenGL does not work on this machine; on Debian, install libegl1, libgl1-mesa-dri and libopengl0,"
+        " or choose the renderer `ray`, which needs none"
+    )
+
+
+def _loads(alternatives: tuple[str, ...]) -> bool:
+    for library in alternatives:
+        with contextlib.suppress(OSError):
+            ctypes.CDLL(library)
+            return True
+    return False

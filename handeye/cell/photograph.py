@@ -1,0 +1,46 @@
+"""Photographs of the cell for people, in colour, through the cameras of the scene. The program never sees them."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.opengl import MOST_GEOMS, context
+from handeye.errors import InvalidInput
+
+LARGEST: Final = 4096
+"""Most points along a side."""
+SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
+
+
+def photograph(
+    model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
+) -> NDArray[np.uint8]:
+    """What a camera of the scene sees, shape (height, width, 3), RGB.
+
+    Raises:
+        InvalidInput: no such camera, an unusable size, or no OpenGL on this machine.
+    """
+    names = [model.camera(i).name for i in range(model.ncam)]
+    if camera not in names:
+        raise InvalidInput(f"no camera {camera}; there are {', '.join(names)}")
+    if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
+        raise InvalidInput(f"a picture of {width} x {height} cannot be made; a side has 16 to {LARGEST} points")
+    _, gl = context()
+    gl.make_current()
+    drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+    mujoco.mjr_resizeOffscreen(width, height, drawing)
+    mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, drawing)
+    scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
+    option = mujoco.MjvOption()
+    option.geomgroup[:] = SHOWN
+    option.sitegroup[:] = 0
+    eye = mujoco.MjvCamera()
+    eye.type, eye.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, names.index(camera)
+    mujoco.mjv_updateScene(model, data, option, None, eye, int(mujoco.mjtCatBit.mjCAT_ALL), scene)
+    viewport = mujoco.MjrRect(0, 0, width, height)
+    mujoco.mjr_render(viewport, scene, drawing)
+    rgb = np.zeros((height, width, 3), dtype=np.uint8)
+    mujoco.mjr_readPixels(rgb, None, viewport, drawing)
+    return rgb[::-1]

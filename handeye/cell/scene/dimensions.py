@@ -1,0 +1,96 @@
+"""The figures of the work cell, read from `scenes/water_pump/dimensions.toml` into SI."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Final
+
+from handeye.errors import InvalidInput
+from handeye.resources import scenes
+from handeye.units import DEGREE, INCH
+
+UNITS: Final = {"in": INCH, "mm": 1e-3, "m": 1.0, "deg": DEGREE, "kg": 1.0, "N": 1.0, "N m": 1.0, "1": 1.0}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """One figure with its origin."""
+
+    values: tuple[float, ...]
+    """SI; a single one for a plain number."""
+    unit: str
+    """The unit it was written in."""
+    source: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Dimensions:
+    """All figures by dotted name, such as `base.plate.length`."""
+
+    figures: dict[str, Figure]
+
+    def __call__(self, name: str) -> float:
+        """A single figure in SI.
+
+        Raises:
+            InvalidInput: there is no such figure, or it is a list.
+        """
+        values = self.all(name)
+        if len(values) != 1:
+            raise InvalidInput(f"the dimension `{name}` is a list of {len(values)} figures")
+        return values[0]
+
+    def all(self, name: str) -> tuple[float, ...]:
+        """All figures of a list, in SI.
+
+        Raises:
+            InvalidInput: there is no such figure.
+        """
+        try:
+            return self.figures[name].values
+        except KeyError:
+            raise InvalidInput(f"the scene has no dimension `{name}`") from None
+
+
+def parse(text: str) -> Dimensions:
+    """Dimensions from TOML text.
+
+    Raises:
+        InvalidInput: not TOML, or a figure without value, known unit or source.
+    """
+    try:
+        tree = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidInput(f"the dimensions cannot be read: {error}") from error
+    figures: dict[str, Figure] = {}
+    _collect(tree, "", figures)
+    return Dimensions(figures=figures)
+
+
+@cache
+def dimensions() -> Dimensions:
+    """The figures of the water-pump work cell."""
+    return parse((scenes() / "water_pump" / "dimensions.toml").read_text(encoding="utf-8"))
+
+
+def _collect(table: dict[str, Any], prefix: str, figures: dict[str, Figure]) -> None:
+    for key, entry in table.items():
+        name = prefix + key
+        if not isinstance(entry, dict):
+            raise InvalidInput(f"the dimension `{name}` needs value, unit and source")
+        if "value" in entry:
+            figures[name] = _figure(name, entry)
+        else:
+            _collect(entry, name + ".", figures)
+
+
+def _figure(name: str, entry: dict[str, Any]) -> Figure:
+    value, unit, source = entry["value"], entry.get("unit"), entry.get("source")
+    if unit not in UNITS:
+        raise InvalidInput(f"the dimension `{name}` has the unit {unit!r}; known are {', '.join(UNITS)}")
+    if not isinstance(source, str) or not source:
+        raise InvalidInput(f"the dimension `{name}` does not say where it comes from")
+    values = value if isinstance(value, list) else [value]
+    if not values or not all(isinstance(v, int | float) and not isinstance(v, bool) for v in values):
+        raise InvalidInput(f"the value of the dimension `{name}` is not a number or a list of numbers")
+    return Figure(values=tuple(float(v) * UNITS[unit] for v in values), unit=unit, source=source)

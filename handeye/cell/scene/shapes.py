@@ -1,0 +1,135 @@
+"""Adds shapes to a MuJoCo specification: boxes, cylinders, meshes, and holes as rings of convex wedges."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.pose import Array
+
+BOX = mujoco.mjtGeom.mjGEOM_BOX
+CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
+MESH = mujoco.mjtGeom.mjGEOM_MESH
+
+Vector = Sequence[float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bore:
+    """A round hole along z, from z = 0 to `height`, in metal that reaches out to `outer`; all in m.
+
+    Its collision shape is a ring of convex wedges around the inscribed circle of `radius`, so a hole is never
+    narrower than drawn. 45 degree chamfers `above` and `below` are part of the wedge's profile.
+    """
+
+    radius: float
+    outer: float
+    height: float
+    above: float = 0.0
+    below: float = 0.0
+    sectors: int = 12
+
+    def wedge(self) -> Array:
+        """Corners of the sector around the x axis, shape (n, 3)."""
+        profile = [(self.outer, 0.0), (self.radius + self.below, 0.0), (self.radius, self.below)]
+        profile += [(self.radius, self.height - self.above), (self.radius + self.above, self.height)]
+        profile += [(self.outer, self.height)]
+        half = math.tan(math.pi / self.sectors)
+        return np.array([(r, side * r * half, z) for side in (-1, 1) for r, z in dict.fromkeys(profile)])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shaper:
+    """Adds geoms of the specification's default classes."""
+
+    spec: mujoco.MjSpec
+
+    def style(self, name: str) -> mujoco.MjsDefault:
+        """A default class by name."""
+        style = self.spec.find_default(name)
+        assert style is not None, name
+        return style
+
+    def box(
+        self,
+        body: mujoco.MjsBody,
+        style: str,
+        low: Vector,
+        high: Vector,
+        material: str | None = None,
+        name: str = "",
+    ) -> mujoco.MjsGeom:
+        """An upright box between two corners (m)."""
+        lower, upper = np.asarray(low, float), np.asarray(high, float)
+        geom = body.add_geom(self.style(style), type=BOX, pos=(lower + upper) / 2, size=(upper - lower) / 2)
+        return _named(geom, name, material)
+
+    def cylinder(
+        self, body: mujoco.MjsBody, style: str, radius: float, start: Vector, end: Vector,
+        material: str | None = None, name: str = "",
+    ) -> mujoco.MjsGeom:  # fmt: skip
+        """A cylinder between two points (m)."""
+        geom = body.add_geom(self.style(style), type=CYLINDER, fromto=[*start, *end], size=[radius, 0.0, 0.0])
+        return _named(geom, name, material)
+
+    def convex(self, name: str, points: Array) -> str:
+        """A mesh asset for collisions: the hull of `points`, shape (n, 3)."""
+        self.spec.add_mesh(name=name, uservert=points.ravel().tolist())
+        return name
+
+    def ring(
+        self,
+        body: mujoco.MjsBody,
+        mesh: str,
+        bore: Bore,
+        at: Vector,
+        style: Callable[[float], str],
+    ) -> None:
+        """The wedges of a bore with its axis through `at` (m); `style` gives their class by direction."""
+        if self.spec.mesh(mesh) is None:
+            self.convex(mesh, bore.wedge())
+        for k in range(bore.sectors):
+            angle = 2 * math.pi * k / bore.sectors
+            turn = [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
+            body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn)
+
+    def look(
+        self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
+        at: Vector = (0.0, 0.0, 0.0),
+    ) -> mujoco.MjsGeom:  # fmt: skip
+        """What is seen but never met: a surface of vertices, shape (n, 3), and triangles, shape (m, 3)."""
+        if self.spec.mesh(name) is None:
+            self.spec.add_mesh(
+                name=name,
+                uservert=surface[0].ravel().tolist(),
+                userface=surface[1].ravel().tolist(),
+                inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+            )
+        geom = body.add_geom(self.style("look"), type=MESH, meshname=name, pos=at)
+        geom.material = material
+        return geom
+
+
+def _named(geom: mujoco.MjsGeom, name: str, material: str | None) -> mujoco.MjsGeom:
+    if name:
+        geom.name = name
+    if material is not None:
+        geom.material = material
+    return geom
+
+
+def body_inertia(body: mujoco.MjsBody, mass: float, centre: Vector, moments: Vector) -> None:
+    """Give a body its mass (kg), mass centre (m) and principal moments (kg m2) instead of its geoms'."""
+    body.explicitinertial = True
+    body.mass = mass
+    body.ipos[:] = centre
+    body.inertia[:] = moments
+
+
+def box_moments(mass: float, size: Vector) -> list[float]:
+    """Principal moments of a uniform box of full lengths `size` (m)."""
+    x, y, z = size
+    return [mass * (y * y + z * z) / 12, mass * (x * x + z * z) / 12, mass * (x * x + y * y) / 12]

@@ -1,0 +1,101 @@
+"""The simulated work cell: MuJoCo behind the ports."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.camera import SimulatedCamera
+from handeye.cell.drives import ArmDrive, HandDrive, Lamp
+from handeye.cell.imperfection import World
+from handeye.cell.ports import TICK, Drive, Sensed, Workcell
+from handeye.cell.rendering import make_renderer
+from handeye.cell.resting import Resting
+from handeye.cell.scene import build
+from handeye.cell.sensors import Sensors
+from handeye.cell.threads import Threads
+from handeye.cell.truth import Truth
+from handeye.errors import HandeyeError, InvalidInput
+from handeye.units import DEGREE, INCH
+
+PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
+    DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
+]  # fmt: skip
+"""Where the arm stands at first: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
+
+
+class SimulationError(HandeyeError):
+    """The physics of the simulated cell broke down; not an event of the assembly."""
+
+
+class SimulatedCell(Workcell):
+    """A cell in one drawn world. Equal worlds and equal drives give equal bytes.
+
+    After a missed servo period the drives stay cut until a `Drive` with brakes acknowledges it.
+    """
+
+    def __init__(self, world: World, *, camera: str = "auto", rest: bool = True) -> None:
+        """Build the cell of a world.
+
+        Args:
+            camera: how to make pictures: `auto`, `gl` or `ray`.
+            rest: let parts sleep at rest and move as one when clamped; without, the same, slower.
+        """
+        model = build(world)
+        data = mujoco.MjData(model)
+        self._model, self._data = model, data
+        self._steps = round(TICK / model.opt.timestep)
+        self._arm, self._hand = ArmDrive(model, data), HandDrive(model, data)
+        self._lamp = Lamp(model)
+        self._threads, self._sensors = Threads(model, data, world), Sensors(model, data, world)
+        self._resting = Resting(model, data, allowed=rest)
+        self._tripped = False
+        data.qpos[self._arm.qpos] = PARK
+        self._arm.put(np.zeros(6), brakes=True)
+        mujoco.mj_forward(model, data)
+        self._sensed = self._read(braked=True)
+        self.camera = SimulatedCamera(data, world.camera, world.generator(2), make_renderer(camera, model))
+
+    @property
+    def truth(self) -> Truth:
+        """What is really so; for the referee and tests only."""
+        return Truth(model=self._model, data=self._data, threads=self._threads.holes, resting=self._resting)
+
+    def sense(self) -> Sensed:
+        """Read the interface at the present tick."""
+        return self._sensed
+
+    def tick(self, drive: Drive) -> None:
+        """Put `drive` out and let one servo period pass.
+
+        Raises:
+            InvalidInput: the drive holds something that is not a number.
+            SimulationError: the physics broke down.
+        """
+        values = (*drive.torque, drive.gap, drive.grip, drive.tool)
+        if not np.isfinite(values).all():
+            raise InvalidInput("the drive holds a value that is not a finite number")
+        self._tripped = self._tripped and not drive.brakes
+        self._arm.put(drive.torque, brakes=drive.brakes or self._tripped)
+        self._hand.put(drive.gap, drive.grip)
+        self._lamp.put(drive.lamp)
+        self._advance(tool=0.0 if self._tripped else drive.tool, braked=drive.brakes or self._tripped)
+
+    def late(self) -> None:
+        """Let one servo period pass without an answer: the watchdog cuts drives and sets brakes."""
+        self._tripped = True
+        self._arm.put(np.zeros(6), brakes=True)
+        self._advance(tool=0.0, braked=True)
+
+    def _advance(self, *, tool: float, braked: bool) -> None:
+        self._threads.before(tool)
+        self._resting.before(self._threads.holes)
+        mujoco.mj_step(self._model, self._data, self._steps)
+        warnings = np.flatnonzero(self._data.warning.number)
+        if warnings.size:
+            kind = mujoco.mjtWarning(int(warnings[0])).name
+            raise SimulationError(f"the simulated cell broke down at {self._data.time:.2f} s ({kind})")
+        self._sensed = self._read(braked=braked)
+
+    def _read(self, *, braked: bool) -> Sensed:
+        return self._sensors.read(self._arm, self._hand, self._threads, braked=braked)

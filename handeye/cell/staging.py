@@ -1,0 +1,49 @@
+"""A still scene with parts put where one wants them, and the camera: for pictures without a run."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.camera import SimulatedCamera, true_camera
+from handeye.cell.imperfection import World
+from handeye.cell.rendering import make_renderer
+from handeye.cell.scene import ARM, build
+from handeye.pose import Pose, pose
+from handeye.units import DEGREE, INCH
+
+PARKED: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [1, 1, INCH / DEGREE, 1, 1, 1] * DEGREE
+"""Joint positions with the arm out of the camera's way; layout study, section 2. rad, joint 3 m."""
+
+
+class Stage:
+    """The cell of a world before it has moved, its arm parked."""
+
+    def __init__(self, world: World, *, renderer: str = "auto", posture: np.ndarray = PARKED) -> None:
+        """Raises InvalidInput if there is no such renderer, or it does not work here."""
+        self.world = world
+        self._model = build(world)
+        self._data = mujoco.MjData(self._model)
+        self.posture(posture)
+        self.camera = SimulatedCamera(
+            self._data, world.camera, world.generator(2), make_renderer(renderer, self._model)
+        )
+        self.true_camera = true_camera(world.camera)
+
+    def posture(self, q: np.ndarray) -> None:
+        """Stand the arm at joint positions `q`, shape (6,)."""
+        for number in range(6):
+            self._data.joint(f"{ARM}j{number + 1}").qpos = q[number]
+        mujoco.mj_forward(self._model, self._data)
+
+    def put(self, part: str, X_WP: Pose) -> None:
+        """Put a free body at a pose, whatever is there."""
+        quat = np.zeros(4)
+        mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
+        self._data.joint(part).qpos = [*X_WP[:3, 3], *quat]
+        mujoco.mj_forward(self._model, self._data)
+
+    def pose(self, part: str) -> Pose:
+        """`X_WP` of a body."""
+        body = self._data.body(part)
+        return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())

@@ -1,0 +1,80 @@
+"""What a vidicon and its digitiser make of a scene: blur, shading, gamma, gain, noise, sixteen levels."""
+
+import math
+from typing import Final
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.ports import Picture
+from handeye.vision.camera import COLUMNS, RASTER, ROWS
+
+Luminance = NDArray[np.float32]
+"""Light that falls on the target, shape (256, 333), 1 = a white surface in full light."""
+
+BLUR: Final = (0.65, 0.45)  # sigma, points along the line and across
+SHADING: Final = 0.10  # loss in the corners
+GAMMA: Final = 0.7
+NOISE: Final = 1.0  # sigma, levels
+PEAK: Final = 12.5  # level of the bright parts
+BRIGHT: Final = 97  # percentile that counts as the bright parts
+"""The chain of the vision study, 0.1; its numbers are placeholders that look right."""
+GAIN_WINDOW: Final = 0.6
+"""Share of width and height, about the middle, that the target voltage is adjusted to. Placeholder."""
+
+F_NUMBER: Final = 2.8
+PITCH: Final = RASTER[0] / COLUMNS  # m
+"""For focus; the aperture is a placeholder."""
+
+
+class Vidicon:
+    """The tube and the digitiser. It remembers its gain (the target voltage) from picture to picture."""
+
+    def __init__(self, rng: np.random.Generator) -> None:
+        self._rng = rng
+        self._gain: float | None = None
+
+    def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
+        """Digitise a scene.
+
+        Args:
+            disc: diameter of the blur of defocus, points.
+            hold_target: keep the gain of the picture before, if there was one.
+        """
+        image = _defocused(light, disc) if disc > 0.5 else light
+        image = cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1])
+        signal = np.clip(image * _shading(), 0, None) ** GAMMA
+        if self._gain is None or not hold_target:
+            self._gain = PEAK / max(float(np.percentile(_middle(signal), BRIGHT)), 1e-3)
+        noise = self._rng.normal(0.0, NOISE, signal.shape)
+        return np.clip(np.rint(signal * self._gain + noise), 0, 15).astype(np.uint8)
+
+
+def blur_disc(focal_length: float, focused: float, distance: float) -> float:
+    """Diameter, picture points, of the image of a point at `distance` when the lens is focused elsewhere.
+
+    All in m; `focused` may be infinite.
+    """
+    spread = 1 / distance if math.isinf(focused) else abs(focused - distance) / (distance * focused)
+    lens = 1 if math.isinf(focused) else focused / (focused - focal_length)
+    return focal_length**2 / F_NUMBER * spread * lens / PITCH
+
+
+def _shading() -> Luminance:
+    v, u = np.mgrid[-1 : 1 : ROWS * 1j, -1 : 1 : COLUMNS * 1j]
+    return (1 - SHADING * (u**2 + v**2) / 2).astype(np.float32)
+
+
+def _middle(signal: Luminance) -> Luminance:
+    rows, columns = (round(n * (1 - GAIN_WINDOW) / 2) for n in signal.shape)
+    return signal[rows:-rows, columns:-columns]
+
+
+def _defocused(image: Luminance, disc: float) -> Luminance:
+    """Averaged over a disc, its border drawn with eight steps a point."""
+    fine = 8
+    n = 2 * math.ceil(disc / 2) + 3
+    y, x = (np.mgrid[0 : n * fine, 0 : n * fine] + 0.5) / fine - n / 2
+    kernel = (np.hypot(x, y) <= disc / 2).reshape(n, fine, n, fine).mean(axis=(1, 3))
+    return cv2.filter2D(image, -1, kernel / kernel.sum(), borderType=cv2.BORDER_REPLICATE).astype(np.float32)

@@ -1,0 +1,30 @@
+"""How right a pump must be: every limit of the referee with its unit and its reason."""
+
+from typing import Final
+
+BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
+BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
+
+GASKET_HEIGHT: Final = 0.3  # mm off nominal: half of it would already be a lost chip under it; assembly study
+GASKET_TILT: Final = 0.5  # deg: .3 mm over 1.4 in; assembly study
+GASKET_PLACE: Final = 0.7  # mm at the worst screw hole: the .55 mm that a screw leaves and contact softness
+
+TOP_HEIGHT: Final = 0.3  # mm off nominal: assembly study; a top that hangs on a pin stands 22 mm high
+TOP_TILT: Final = 0.5  # deg: assembly study
+TOP_PLACE: Final = 0.5  # mm at the worst screw hole: the .35 mm that a screw leaves and contact softness
+
+SCREW_GAP: Final = (
+    0.2  # mm between head and flange: a crossed screw stands 4.4 to 5.7 mm high; assembly study
+)
+SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws were measured at 113-191 N
+SCREWS: Final = 6
+
+PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
+PIN_TILT: Final = 10.0  # deg: the pin stands, it does not lean out
+RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
+
+ROTOR_TORQUE: Final = 0.35  # N m: 40 oz at the crank's 1.25 in, the reference's check of the rotor
+ROTOR_TURN: Final = 5.0  # deg: so far it must go to count as turning
+
+FLOOR: Final = -5.0  # mm: nothing may be lower than this under the table top
+PENETRATION: Final = 0.35  # mm: contacts are soft; this is what six screws press together

@@ -1,0 +1,58 @@
+"""How each kind of motion is made. One implementation, two callers: the planner at planned values, and the
+executor when the world is not where the plan thought."""
+
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, forward
+from handeye.arm.model import ArmModel
+from handeye.arm.line import arc, straight
+from handeye.arm.samples import Samples
+from handeye.arm.trajectory import Trajectory, move
+from handeye.plan.program import Change, Move, Turn
+from handeye.pose import Array, Pose
+from handeye.units import DEGREE, INCH
+
+CLEARANCE: Final = 3.0 * INCH
+"""Departure and approach height; "a few inches" in 1972, three by recollection (reference D10)."""
+LEAST_CLEARANCE: Final = 0.5 * INCH
+"""Of motions to a place close by, which rise no higher than they go far."""
+GUARDED_SPEED: Final = 1.0 * INCH
+"""m/s of a straight motion that is to stop on a force. At 1 in/s a 50 oz stop overshoots by a few newtons."""
+FREE_SPEED: Final = 2.0 * INCH
+"""m/s of a straight motion that is not."""
+TURN_SPEED: Final = 30 * DEGREE
+"""rad/s of a motion on a circle."""
+
+
+def move_trajectory(arm: ArmModel, q: Array, X_WT: Pose, operation: Move, speed: float) -> Trajectory | IKResult:
+    """The trajectory of a Move from configuration `q` to `X_WT`, or why there is none."""
+    X_start = forward(arm, q)
+    away = float(np.hypot(*(X_WT[:2, 3] - X_start[:2, 3])))
+    height = 0.0 if operation.direct else float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
+    return move(arm, q, X_WT, departure=height, approach=height, speed=speed)
+
+
+def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
+    """Set-points of a Change from configuration `q`, or why there are none."""
+    guarded = operation.stop is not None or operation.press is not None
+    speed = operation.speed or (GUARDED_SPEED if guarded else FREE_SPEED)
+    return straight(arm, q, np.array(operation.displacement), speed)
+
+
+def turn_samples(arm: ArmModel, q: Array, centre: Pose, operation: Turn) -> Samples | IKResult:
+    """Set-points of a Turn about the vertical through `centre`, or why there are none."""
+    return arc(arm, q, centre[:2, 3], operation.angle, TURN_SPEED)
+
+
+def directions(samples: Samples, arm: ArmModel, q: Array) -> Array:
+    """Unit vectors of a motion at each of its set-points, shape (N, 3)."""
+    p = np.concatenate([forward(arm, q)[None, :3, 3], forward(arm, samples.q)[:, :3, 3]])
+    step = np.diff(p, axis=0)
+    size = np.linalg.norm(step, axis=1, keepdims=True)
+    moving = size[:, 0] > 1e-9
+    # a set-point at rest keeps the direction of the nearest one that moves
+    index = np.maximum.accumulate(np.where(moving, np.arange(len(step)), 0))
+    index[: int(np.argmax(moving))] = int(np.argmax(moving))
+    return np.asarray(step[index] / np.maximum(size[index], 1e-12))

@@ -1,0 +1,161 @@
+"""The planning phase: a program and an arm make a plan. No clock, no randomness, no simulator.
+
+The planner walks the program in the order of its text, each motion beginning where the one before was planned
+to end. What cannot be reached, or would go through the table, is found here and not at run time.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, forward, jacobian, solve
+from handeye.arm.model import ArmModel, digest
+from handeye.arm.samples import Samples
+from handeye.cell.ports import TICK
+from handeye.diagnostics import Diagnostic, Label
+from handeye.plan.motions import change_samples, move_trajectory, turn_samples
+from handeye.plan.plan import Joints, Motion, Plan
+from handeye.plan.program import Change, Move, Program, Step, Stop, Turn
+from handeye.plan.world import WorldModel
+from handeye.pose import Array
+from handeye.source import Source, Span
+from handeye.units import INCH, OUNCE_FORCE
+
+SPEED = 0.40
+"""Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
+invented acceleration limits it makes the whole job take about the four minutes of 1973 (layout study, section
+5); one datum, so no evidence of how slow the real arm was."""
+HOME = "PARK"
+"""The position a program starts from."""
+
+
+def make_plan(program: Program, arm: ArmModel, *, speed: float = SPEED) -> tuple[Plan | None, list[Diagnostic]]:
+    """The plan of a program for an arm, or what stands in its way."""
+    walk = _Walk(program=program, arm=arm, speed=speed, world=WorldModel.of(program))
+    walk.go()
+    if walk.problems:
+        return None, walk.problems
+    plan = Plan(
+        arm=arm.name, arm_digest=digest(arm), speed=speed, program=program, motions=walk.motions
+    )  # fmt: skip
+    return plan, []
+
+
+@dataclass(slots=True, kw_only=True)
+class _Walk:
+    program: Program
+    arm: ArmModel
+    speed: float
+    world: WorldModel
+    q: Array = field(init=False)
+    motions: dict[int, Motion] = field(default_factory=dict)
+    problems: list[Diagnostic] = field(default_factory=list)
+
+    def go(self) -> None:
+        if not self._start():
+            return
+        for number, step in enumerate(self.program.steps):
+            operation = step.operation
+            if isinstance(operation, Move):
+                self._move(number, step, operation)
+            elif isinstance(operation, Change):
+                self._sampled(number, step, change_samples(self.arm, self.q, operation), operation.stop)
+            elif isinstance(operation, Turn):
+                centre = self.world.planned_position(operation.centre)
+                self._sampled(number, step, turn_samples(self.arm, self.q, centre, operation), operation.stop)
+
+    def _start(self) -> bool:
+        """Begin at the rest position, or at the first goal of a program that has none."""
+        goals = [s.operation.goal for s in self.program.steps if isinstance(s.operation, Move)]
+        first = HOME if HOME in self.program.positions else (goals[0] if goals else None)
+        self.q = (self.arm.lower + self.arm.upper) / 2
+        if first is None:
+            return True
+        start = solve(self.arm, self.world.planned_position(first), self.q)
+        if start.q is not None:
+            self.q = start.q
+            return True
+        step = next((s for s in self.program.steps if getattr(s.operation, "goal", None) == first), None)
+        if step is None:
+            step = self.program.steps[0]
+        self._unreachable(step, first, start)
+        return False
+
+    def _move(self, number: int, step: Step, operation: Move) -> None:
+        X_WT = self.world.planned_position(operation.goal)
+        if X_WT[2, 3] < 0:
+            self._problem(
+                step, operation.goal, "hand-through-table",
+                f"the hand would be {-X_WT[2, 3] / INCH:.2f} in below the table at {operation.goal}",
+                help="the table top is z = 0; raise the position",
+            )  # fmt: skip
+            return
+        trajectory = move_trajectory(self.arm, self.q, X_WT, operation, self.speed)
+        if isinstance(trajectory, IKResult):
+            self._unreachable(step, operation.goal, trajectory)
+            return
+        knots = tuple(_joints(q) for q in trajectory.knots)
+        self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
+        self.q = np.array(knots[-1])
+        self._check_stop(step, operation.stop)
+
+    def _sampled(self, number: int, step: Step, samples: Samples | IKResult, stop: Stop | None) -> None:
+        if isinstance(samples, IKResult):
+            self._unreachable(step, step.text.split()[0], samples)
+            return
+        end = samples.q[-1] if len(samples.q) else self.q
+        height = float(forward(self.arm, end)[2, 3])
+        if height < 0 and stop is None:
+            self._problem(
+                step, step.text.split()[0], "hand-through-table",
+                f"the hand would end {-height / INCH:.2f} in below the table",
+                help="shorten the motion, or give it a STOP if it is to meet something",
+            )  # fmt: skip
+            return
+        self._check_stop(step, stop)
+        self.motions[number] = Motion(knots=(_joints(self.q), _joints(end)), times=(len(samples.q) * TICK,))
+        self.q = end
+
+    def _check_stop(self, step: Step, stop: Stop | None) -> None:
+        """A force the arm cannot exert can never stop it."""
+        if stop is None or stop.force is None:
+            return
+        torque = np.abs(jacobian(self.arm, self.q)[:3].T @ np.array(stop.force))
+        limit = np.array([joint.effort for joint in self.arm.joints])
+        if (torque > limit).any():
+            joint = int(np.argmax(torque / limit))
+            ounces = float(np.linalg.norm(stop.force)) / OUNCE_FORCE
+            self._problem(
+                step, step.text.split()[0], "stop-beyond-arm",
+                f"the arm cannot press with {ounces:.0f} oz here, so the stop would never fire",
+                help=f"{self.arm.joints[joint].name} gives out at {ounces * limit[joint] / torque[joint]:.0f} oz",
+            )  # fmt: skip
+
+    def _unreachable(self, step: Step, word: str, failure: IKResult) -> None:
+        self._problem(
+            step, word, "unreachable-position", f"{word} cannot be reached by the {self.arm.name} arm",
+            note=failure.message(self.arm),
+        )  # fmt: skip
+
+    def _problem(
+        self, step: Step, word: str, code: str, message: str, *, note: str | None = None, help: str | None = None
+    ) -> None:
+        self.problems.append(
+            Diagnostic(
+                code=code, message=message, help=help, notes=(note,) if note else (),
+                primary=Label(span=_span(self.program.source, step, word)),
+            )
+        )  # fmt: skip
+
+
+def _span(text: str, step: Step, word: str) -> Span:
+    """Where `word` stands on the source line of a step."""
+    source = Source(name="", text=text)
+    line = source.line_span(step.line)
+    start = text.find(word, line.start, line.end)
+    return line if start < 0 else Span(start=start, end=start + len(word))
+
+
+def _joints(q: Array) -> Joints:
+    a, b, c, d, e, f = (float(x) for x in q)
+    return a, b, c, d, e, f

@@ -1,0 +1,90 @@
+"""The result of a run as a page for the terminal."""
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from handeye.report.result import PERIOD, Result
+
+_MARK = {"done": ("✓", "green"), "stopped": ("✗", "red"), "not reached": ("·", "dim")}
+
+
+def page(result: Result) -> RenderableType:
+    """Stages, timing table, findings of the referee, and the verdict."""
+    parts: list[RenderableType] = [stages(result), Text(), timing(result)]
+    if result.referee:
+        parts += [Text(), referee(result)]
+    return Group(*parts, Text(), verdict(result))
+
+
+def stages(result: Result) -> Table:
+    """The stages with status and arm time."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("")
+    table.add_column("step")
+    table.add_column("status")
+    table.add_column("arm time", justify="right")
+    for stage in result.stages:
+        mark, style = _MARK[stage.status]
+        seconds = f"{stage.arm_s:.1f} s" if stage.status != "not reached" else ""
+        table.add_row(Text(mark, style), stage.name, Text(stage.status, style), seconds)
+    return table
+
+
+def timing(result: Result) -> Table:
+    """The timing table beside that of 1973."""
+    t = result.timing
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for name in ("", "here", "1973"):
+        table.add_column(name, justify="left" if not name else "right")
+    rows = (
+        ("planning phase (processor)", t.planning_wall_s, "planning"),
+        ("working phase", t.total_s, "total"),
+        ("  manipulation", t.manipulation_s, "manipulation"),
+        ("  lens change, aim and focus", t.lens_s, "lens"),
+        ("  vision (processor)", t.vision_wall_s, "vision"),
+    )
+    for name, seconds, period in rows:
+        table.add_row(name, clock(seconds), clock(PERIOD[period]))
+    table.add_row(
+        Text("simulated in", "dim"),
+        Text(f"{t.wall_s:.1f} s", "dim"),
+        Text(f"{t.real_time_factor:.1f}x real time", "dim"),
+    )
+    return table
+
+
+def clock(seconds: float) -> str:
+    """Minutes and seconds, or seconds with as many places as they deserve."""
+    if seconds >= 60:
+        whole = round(seconds)
+        return f"{whole // 60}:{whole % 60:02d} min"
+    return f"{seconds:.0f} s" if seconds >= 10 else f"{seconds:.2f} s"
+
+
+def referee(result: Result) -> Table:
+    """What the referee measured on the finished pump."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("")
+    table.add_column("referee")
+    table.add_column("value", justify="right")
+    table.add_column("limit", justify="right")
+    table.add_column("unit")
+    for check in result.referee.values():
+        mark = Text("✓", "green") if check.ok else Text("✗", "red")
+        table.add_row(mark, check.sentence, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit)
+    return table
+
+
+def verdict(result: Result) -> Text:
+    """The last word."""
+    if not result.completed:
+        where = f" in step “{result.stopped_at}”" if result.stopped_at else ""
+        number = f" (error {result.error})" if result.error is not None else ""
+        return Text(f"Stopped{where}{number}: {result.message}", "bold red")
+    if result.assembled is None:
+        return Text("The program came to its end.", "bold")
+    if result.assembled:
+        return Text("The pump is assembled.", "bold green")
+    wrong = [check.sentence for check in result.referee.values() if not check.ok]
+    return Text(f"The program said done, but the pump is not right: {'; '.join(wrong)}", "bold red")

@@ -1,0 +1,57 @@
+"""A progress bar with the current step, on standard error."""
+
+from types import TracebackType
+from typing import Self
+
+from rich.console import Console
+from rich.progress import BarColumn, SpinnerColumn, TextColumn
+from rich.progress import Progress as RichProgress
+
+from handeye.plan.plan import Plan
+from handeye.work.events import ErrorRaised, Event, RunStarted, StageStarted, StepStarted
+
+
+class Progress:
+    """Listens to events; shows the stage, the statement being executed and the cell's clock.
+
+    Without a terminal it prints one line a stage.
+    """
+
+    def __init__(self, plan: Plan, console: Console) -> None:
+        self._plan = plan
+        self._console = console
+        self._bar = RichProgress(
+            SpinnerColumn(),
+            TextColumn("{task.fields[clock]:>7}"),
+            BarColumn(bar_width=24),
+            TextColumn("[bold]{task.description}"),
+            TextColumn("[dim]{task.fields[text]}", markup=True),
+            console=console,
+            transient=True,
+            disable=not console.is_terminal,
+        )
+        self._task = self._bar.add_task(
+            "calibrating the camera", total=len(plan.program.stages), text="", clock=""
+        )  # fmt: skip
+
+    def __enter__(self) -> Self:
+        self._bar.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.__exit__(kind, value, trace)
+
+    def __call__(self, event: Event) -> None:
+        clock = f"{event.time:.1f} s"
+        if isinstance(event, StageStarted):
+            number = self._plan.program.stages.index(event.stage)
+            self._bar.update(self._task, description=event.stage, completed=number, clock=clock)
+            if not self._console.is_terminal:
+                self._console.print(f"{clock:>8}  {event.stage}", markup=False)
+        elif isinstance(event, StepStarted):
+            text = event.text.replace("[", r"\[")
+            self._bar.update(self._task, text=text, clock=clock)
+        elif isinstance(event, ErrorRaised | RunStarted):
+            self._bar.update(self._task, clock=clock)

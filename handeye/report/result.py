@@ -1,0 +1,82 @@
+"""The result of a run: one record, printed as a page or as one JSON object."""
+
+from typing import Final
+
+import msgspec
+
+PERIOD: Final = {"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0}
+"""The timing table of 1973, s: Bolles and Paul, STAN-CS-73-396. Total is that of the working phase."""
+
+
+class Record(msgspec.Struct, frozen=True, kw_only=True):
+    """Base of what a result is made of."""
+
+
+class Stage(Record):
+    """A stage of the program; `arm_s` is simulated seconds without those of the camera's mechanism."""
+
+    name: str
+    status: str
+    arm_s: float
+
+
+class Timing(Record):
+    """Where the time went. `_wall_s` is of this computer, the others are simulated."""
+
+    planning_wall_s: float
+    manipulation_s: float
+    lens_s: float
+    vision_wall_s: float
+    total_s: float
+    wall_s: float
+    real_time_factor: float
+
+
+class Check(Record):
+    """One finding of the referee."""
+
+    ok: bool
+    value: float
+    limit: float
+    unit: str
+    sentence: str
+
+
+class CameraReport(Record):
+    """How the pictures were made and how well the camera was calibrated."""
+
+    renderer: str
+    sightings_rms_px: dict[str, float]
+    """Residual for each lens."""
+    residual_in: float
+    """On the table, inches."""
+
+
+class Result(Record):
+    """What a run came to."""
+
+    assembled: bool | None
+    """The referee's word; None if nobody was asked."""
+    completed: bool
+    """The program's."""
+    stopped_at: str | None
+    error: int | None
+    message: str
+    stages: tuple[Stage, ...]
+    timing: Timing
+    referee: dict[str, Check]
+    seed: int
+    camera: CameraReport
+    versions: dict[str, str]
+
+    @property
+    def exit_code(self) -> int:
+        """0 assembled, 1 the operator was called, 3 the program said done and the referee disagrees."""
+        if not self.completed:
+            return 1
+        return 3 if self.assembled is False else 0
+
+
+def to_json(result: Result) -> bytes:
+    """The result as one JSON object with a final newline."""
+    return msgspec.json.format(msgspec.json.encode(result), indent=1) + b"\n"

@@ -1,0 +1,74 @@
+"""Guards: what ends a motion before its end."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from handeye.pose import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Reading:
+    """What a guard looks at in a servo period."""
+
+    force: Array
+    """Force the hand exerts on the world, shape (3,), N, world axes."""
+    direction: Array
+    """Unit vector of the motion, shape (3,), or zero."""
+    tool_torque: float = 0.0
+    """Torque of the screwdriver's motor, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trip:
+    """The guard that ended a motion, what it saw and what it allowed (N or N m)."""
+
+    guard: str
+    value: float
+    limit: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ForceGuard:
+    """Trips when the hand presses along a vector with more than the vector's length.
+
+    A force to the side, or the other way, does not count.
+    """
+
+    force: Array
+    """Shape (3,), N, world axes; not zero."""
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip, or None."""
+        limit = float(np.linalg.norm(self.force))
+        value = float(reading.force @ self.force) / limit
+        return Trip(guard="force", value=value, limit=limit) if value > limit else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AgainstGuard:
+    """Trips when the motion, whichever way it goes, is opposed with more than a force."""
+
+    limit: float
+    """N"""
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip, or None."""
+        value = float(reading.force @ reading.direction)
+        return Trip(guard="against", value=value, limit=self.limit) if value > self.limit else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TorqueGuard:
+    """Trips when the screwdriver's motor reaches a torque, in either sense of turning."""
+
+    limit: float
+    """N m"""
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip, or None."""
+        value = abs(reading.tool_torque)
+        return Trip(guard="torque", value=value, limit=self.limit) if value >= self.limit else None
+
+
+Guard = ForceGuard | AgainstGuard | TorqueGuard

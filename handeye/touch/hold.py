@@ -1,0 +1,21 @@
+"""Is something held? Simple models of the gap between the fingers after they have closed."""
+
+from typing import Final
+
+NEARLY_ZERO: Final = 0.0005
+"""Gap that counts as closed, m. Placeholder: a fifth of the thinnest thing handled."""
+
+
+def at_least(gap: float, thickness: float) -> bool:
+    """Something of at least this thickness is held (m)."""
+    return gap >= thickness
+
+
+def within(gap: float, least: float, most: float) -> bool:
+    """Something with a thickness in this range is held (m)."""
+    return least <= gap <= most
+
+
+def anything(gap: float) -> bool:
+    """Anything at all is held: the gap (m) is not nearly zero."""
+    return gap > NEARLY_ZERO

@@ -1,0 +1,31 @@
+"""The square spiral in which nearby places are searched."""
+
+import math
+from collections.abc import Iterator
+
+
+def spiral(k: int) -> tuple[int, int]:
+    """Grid place number `k`, from 0: (0,0) (1,0) (1,1) (0,1) (-1,1) (-1,0) (-1,-1) (0,-1) (1,-1) (2,-1) ...
+
+    The straight runs are 1, 1, 2, 2, 3, 3, ... long, turning left. On a grid of step s every point of the
+    plane is within s / sqrt(2) of a place.
+    """
+    if k == 0:
+        return 0, 0
+    ring = (math.isqrt(k) + 1) // 2  # ring n ends at the place (n, -n), number (2n + 1)^2 - 1
+    side, along = divmod(k - (2 * ring - 1) ** 2, 2 * ring)
+    match side:
+        case 0:
+            return ring, along - ring + 1
+        case 1:
+            return ring - 1 - along, ring
+        case 2:
+            return -ring, ring - 1 - along
+    return along - ring + 1, -ring
+
+
+def places(step: float, limit: int) -> Iterator[tuple[float, float]]:
+    """The first `limit` places of a search as horizontal offsets from its centre, in the unit of `step`."""
+    for k in range(limit):
+        i, j = spiral(k)
+        yield i * step, j * step

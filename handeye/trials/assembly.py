@@ -1,0 +1,135 @@
+"""One whole run: a drawn world, a calibrated camera, a plan carried out, a referee's verdict."""
+
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from importlib.metadata import version as installed
+from typing import Final
+
+from handeye import __version__
+from handeye.arm.stanford import STANFORD
+from handeye.cell.imperfection import World
+from handeye.cell.simulated import SimulatedCell
+from handeye.errors import InvalidInput
+from handeye.arm.model import digest
+from handeye.judge.referee import judge
+from handeye.plan.plan import Plan
+from handeye.report.result import CameraReport, Check, Result, Stage, Timing
+from handeye.units import INCH
+from handeye.vision.calibration import Calibration
+from handeye.vision.camera import DRAWING
+from handeye.work.calibration import calibrate_camera
+from handeye.work.events import Event, StageFinished, StageStarted
+from handeye.work.executor import Executor
+from handeye.work.run import Run
+
+ARMS: Final = {STANFORD.name: STANFORD}
+
+
+@dataclass(slots=True, kw_only=True)
+class _Stopwatch:
+    """Arm time of each stage, from the events and the camera's share of the clock."""
+
+    run: Run | None = None
+    started: tuple[float, float] = (0.0, 0.0)
+    seconds: dict[str, tuple[str, float]] = field(default_factory=dict)
+
+    def __call__(self, event: Event) -> None:
+        assert self.run is not None
+        if isinstance(event, StageStarted):
+            self.started = (event.time, self.run.clockwork.lens)
+        elif isinstance(event, StageFinished):
+            busy = self.run.clockwork.lens - self.started[1]
+            self.seconds[event.stage] = (event.status, event.time - self.started[0] - busy)
+
+
+def run_plan(
+    plan: Plan,
+    *,
+    seed: int,
+    camera: str = "auto",
+    planning_wall_s: float = 0.0,
+    referee: bool = True,
+    listeners: tuple[Callable[[Event], None], ...] = (),
+) -> tuple[Result, Run]:
+    """Carry out a plan in the world of a seed and have it judged.
+
+    Raises:
+        InvalidInput: the plan is for another arm, or the camera cannot work as asked.
+    """
+    arm = ARMS.get(plan.arm)
+    if arm is None or digest(arm) != plan.arm_digest:
+        raise InvalidInput(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
+    cell = SimulatedCell(World.sample(seed), camera=camera)
+    calibration = calibrate_camera(cell, arm, DRAWING)
+    stages = _Stopwatch()
+
+    def emit(event: Event) -> None:
+        stages(event)
+        for listener in listeners:
+            listener(event)
+
+    run = Run(
+        plan=plan, arm=arm, cell=cell, camera=calibration.model, emit=emit, stopwatch=time.process_time
+    )  # fmt: skip
+    stages.run = run
+    ready, simulated = time.perf_counter(), run.time
+    executor = Executor(state=run)
+    completed = executor.run()
+    findings = judge(cell.truth) if completed and referee else {}
+    checks = {
+        name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
+        for name, f in findings.items()
+    }
+    wall = time.perf_counter() - ready
+    stopped = executor.stopped
+    names = plan.program.stages
+    result = Result(
+        assembled=None if not referee else completed and all(check.ok for check in checks.values()),
+        completed=completed,
+        stopped_at=names[executor.stage] if stopped and executor.stage is not None else None,
+        error=stopped.error if stopped else None,
+        message=stopped.message if stopped else "the program came to its end",
+        stages=tuple(_stage(name, stages) for name in names),
+        timing=_timing(run, run.time - simulated, wall, planning_wall_s),
+        referee=checks,
+        seed=seed,
+        camera=_camera(cell, calibration),
+        versions=versions(),
+    )
+    return result, run
+
+
+def _stage(name: str, stages: _Stopwatch) -> Stage:
+    status, seconds = stages.seconds.get(name, ("not reached", 0.0))
+    return Stage(name=name, status=status, arm_s=round(seconds, 3))
+
+
+def _timing(run: Run, simulated: float, wall: float, planning: float) -> Timing:
+    lens, vision = run.clockwork.lens, run.clockwork.vision
+    return Timing(
+        planning_wall_s=planning,
+        manipulation_s=round(simulated - lens, 3),
+        lens_s=round(lens, 3),
+        vision_wall_s=vision,
+        total_s=round(simulated + vision, 3),
+        wall_s=wall,
+        real_time_factor=simulated / wall if wall > 0 else 0.0,
+    )
+
+
+def _camera(cell: SimulatedCell, calibration: Calibration) -> CameraReport:
+    residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}
+    return CameraReport(
+        renderer=cell.camera.renderer,
+        sightings_rms_px=residuals,
+        residual_in=calibration.residual_m / INCH,
+    )
+
+
+def versions() -> dict[str, str]:
+    """What a result depends on."""
+    packages = ("mujoco", "numpy", "scipy", "opencv-python-headless")
+    found = {name: installed(name) for name in packages}
+    return {"handeye": __version__, "python": platform.python_version(), **found}

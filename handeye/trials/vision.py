@@ -1,0 +1,231 @@
+"""How well the eye does: the base on the belt and the gasket, over many worlds, counted.
+
+python -m handeye.trials.vision base 100
+python -m handeye.trials.vision gasket 50
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.cell.imperfection import BELT_LINE, BELT_X, BELT_Y, World
+from handeye.cell.ports import Picture, TvCamera
+from handeye.cell.scene.dimensions import dimensions
+from handeye.cell.scene.drawing import base_top, pin_seat, screw_holes, standard
+from handeye.cell.staging import Stage
+from handeye.plan.program import Hole, Part
+from handeye.pose import Array, planar, translated, yaw
+from handeye.units import DEGREE, INCH
+from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
+from handeye.vision.calibration import Calibration, Sighting, calibrate
+from handeye.vision.camera import DRAWING, CameraModel, View
+from handeye.vision.gasket import inspect
+from handeye.vision.holes import hole_places
+
+WITHIN: Final = (INCH / 3, INCH / 4)
+"""Accuracy of the eye by the paper, in X and in Y."""
+WRONG: Final = 5.0
+"""A hole that is found more than this many picture points off is another thing, whatever the camera's error."""
+GASKETS: Final = ("right", "shifted .15", "shifted .3", "absent")
+"""Cases of a gasket: on properly within .02 in and .3 deg, off by inches in any direction, none."""
+SPOTS: Final = 20
+ARM_ERROR: Final = 0.1 * INCH
+SPOT_ERROR: Final = 0.5
+"""Calibration: spots for each lens, largest error of the arm on each axis, points of noise."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BaseCounts:
+    """Errors are those of found bases, m and rad, root mean square of x, y and yaw."""
+
+    tried: int
+    found: int
+    wrong: int
+    within: int
+    rms: tuple[float, float, float]
+    failures: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GasketCounts:
+    """How often each case was called right."""
+
+    tried: int
+    accepted: dict[str, int]
+
+
+def pump_base(at: tuple[float, float, float, float] | None = None) -> Part:
+    """What a program says of the pump base, by the dimensions of the scene; on the belt, unless said."""
+    d = dimensions()
+    first = Hole(x=0.0, y=0.0, diameter=d("base.large_hole_1.diameter"))
+    second = Hole(x=d("base.large_hole_2.x"), y=0.0, diameter=d("base.large_hole_2.diameter"))
+    middle, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
+    (x0, x1), (y0, y1) = BELT_X, BELT_Y
+    belt = ((x0 + x1) / 2 * INCH, (y0 + y1) / 2 * INCH, d("belt.height"), BELT_LINE[0] * DEGREE)
+    return Part(
+        at=at or belt,
+        face=base_top(),
+        holes=(first, second),
+        screw_holes=tuple(
+            Hole(x=x, y=y, diameter=2 * d("base.screw_holes.radius")) for x, y in screw_holes()
+        ),
+        region=((x1 - x0) / 2 * INCH, (y1 - y0) / 2 * INCH),
+        outline=(middle - length / 2, -width / 2, middle + length / 2, width / 2),
+    )
+
+
+def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
+    """Turn the lens, aim and focus as the executor does; what the program then believes to see."""
+    camera.lens(lens)
+    camera.aim(*known.aim(point, lens))
+    camera.focus(math.dist(point, known.mount))
+    return known.view(lens, *camera.pots())
+
+
+def locate(
+    camera: TvCamera, known: CameraModel, part: Part
+) -> tuple[SpecificLocation | Failure, list[tuple[Picture, View, GeneralLocation | None]]]:
+    """Both stages, with the pictures they used."""
+    x, y, z, _ = part.at
+    view = look(camera, known, 0.025, (x, y, z))
+    picture, _ = camera.digitise()
+    general = locate_general(picture, view, part)
+    if isinstance(general, Failure):
+        return general, [(picture, view, None)]
+    pictures: list[tuple[Picture, View, GeneralLocation | None]] = [(picture, view, general)]
+    middle = np.mean(general.corners, axis=0)
+    view = look(camera, known, 0.050, (float(middle[0]), float(middle[1]), float(middle[2])))
+    picture, _ = camera.digitise()
+    pictures.append((picture, view, None))
+    return locate_specific(picture, view, part, general), pictures
+
+
+def base_trials(n: int, seed: int, *, renderer: str = "auto", camera: str = "true") -> BaseCounts:
+    """Locate the base in `n` worlds from `seed` on.
+
+    Args:
+        camera: what the program knows of it: `true`, `drawn` or `calibrated`.
+    """
+    part = pump_base()
+    errors, failures, wrong = [], [], 0
+    for world in (World.sample(seed + k) for k in range(n)):
+        stage = Stage(world, renderer=renderer)
+        location, _ = locate(stage.camera, _known(camera, stage, part), part)
+        if isinstance(location, Failure):
+            failures.append(f"{world.seed}: {location.reason}")
+            continue
+        error = _error(location.pose, (world.base.x, world.base.y, world.base.yaw))
+        wrong += _is_wrong(location, stage, part)
+        errors.append(error)
+    table = np.abs(np.array(errors).reshape(-1, 3))
+    return BaseCounts(
+        tried=n,
+        found=len(errors),
+        wrong=wrong,
+        within=int(np.sum(np.all(table[:, :2] <= WITHIN, axis=1))),
+        rms=(_rms(table[:, 0]), _rms(table[:, 1]), _rms(table[:, 2])),
+        failures=tuple(failures),
+    )
+
+
+def _known(camera: str, stage: Stage, part: Part) -> CameraModel:
+    if camera == "true":
+        return stage.true_camera
+    return DRAWING if camera == "drawn" else simulated_calibration(stage, part).model
+
+
+def gasket_trials(n: int, seed: int, *, renderer: str = "auto") -> GasketCounts:
+    """Inspect the gasket in `n` worlds from `seed` on, in every one of GASKETS; with a calibrated camera."""
+    part = pump_base(_standard())
+    accepted = dict.fromkeys(GASKETS, 0)
+    for world in (World.sample(seed + k) for k in range(n)):
+        stage = Stage(world, renderer=renderer)
+        rng = world.generator(74)
+        base = _jittered(part.at, rng, 0.03)
+        put_base(stage, base, pins=True)
+        x, y, z, _ = part.at
+        view = look(stage.camera, simulated_calibration(stage, part).model, 0.050, (x, y, z + part.face))
+        before, _ = stage.camera.digitise()
+        for name in GASKETS:
+            after = _with_gasket(stage, base, name, rng)
+            accepted[name] += inspect(before, after, view, part, part.at[:2] + part.at[3:]).ok
+    return GasketCounts(tried=n, accepted=accepted)
+
+
+def put_base(stage: Stage, place: tuple[float, float, float, float], *, pins: bool) -> None:
+    """Put the base at x, y, z (m), yaw (rad), with the aligning pins in it or where they are."""
+    X_WP = planar(*place)
+    stage.put("base", X_WP)
+    d = dimensions()
+    seat = base_top() + pin_seat(d("base.screw_holes.chamfer"), d("base.screw_holes.radius"))
+    for number, hole in enumerate(d.all("base.screw_holes.pinned") if pins else ()):
+        x, y = screw_holes()[int(hole)]
+        stage.put(f"pin{number}", X_WP @ planar(x, y, seat, 0.0))
+
+
+def _with_gasket(
+    stage: Stage, base: tuple[float, float, float, float], case: str, rng: np.random.Generator
+) -> Picture:
+    """The picture after, with the target voltage of the one before; the gasket is put back on its stand."""
+    on_base = planar(0.0, 0.0, base_top(), 0.0)
+    X_WP = planar(*base) @ on_base
+    stand = stage.pose("gasket")
+    if case == "right":
+        stage.put("gasket", planar(*_jittered((*X_WP[:3, 3], base[3]), rng, 0.02)))
+    elif case != "absent":
+        direction = rng.uniform(0, 2 * math.pi)
+        off = float(case.split()[1]) * INCH
+        stage.put("gasket", translated(X_WP, (off * math.cos(direction), off * math.sin(direction), 0.0)))
+    after, _ = stage.camera.digitise(hold_target=True)
+    stage.put("gasket", stand)
+    return after
+
+
+def _standard() -> tuple[float, float, float, float]:
+    X_WP = standard()
+    return float(X_WP[0, 3]), float(X_WP[1, 3]), float(X_WP[2, 3]), yaw(X_WP)
+
+
+def _jittered(
+    place: tuple[float, ...], rng: np.random.Generator, amount: float
+) -> tuple[float, float, float, float]:
+    """Off by at most `amount` inches in x and y, and .3 degrees."""
+    x, y, z, turn = place
+    dx, dy = rng.uniform(-amount, amount, 2) * INCH
+    return x + float(dx), y + float(dy), z, turn + float(rng.uniform(-0.3, 0.3)) * DEGREE
+
+
+def simulated_calibration(stage: Stage, part: Part) -> Calibration:
+    """Calibrate as by a lamp that the arm carries to random places over the belt, without rendering any."""
+    rng = stage.world.generator(73)
+    x, y, z, _ = part.at
+    sightings = []
+    for lens in (0.025, 0.050):
+        for _ in range(SPOTS):
+            lamp = np.array([x, y, z]) + rng.uniform((-0.12, -0.12, 0.01), (0.12, 0.12, 0.24))
+            pan, tilt = DRAWING.aim(lamp, lens)
+            wobble = rng.normal(0, stage.world.camera.pot_noise, 2)
+            uv = stage.true_camera.view(lens, pan + wobble[0], tilt + wobble[1]).project(lamp)[0]
+            u, v = uv + rng.normal(0, SPOT_ERROR, 2)
+            told = lamp + rng.uniform(-ARM_ERROR, ARM_ERROR, 3)
+            point = (float(told[0]), float(told[1]), float(told[2]))
+            sightings.append(Sighting(lens=lens, pan=pan, tilt=tilt, u=float(u), v=float(v), point_W=point))
+    return calibrate(sightings, DRAWING)
+
+
+def _rms(values: Array) -> float:
+    return math.sqrt(float(np.mean(values**2))) if len(values) else 0.0
+
+
+def _is_wrong(location: SpecificLocation, stage: Stage, part: Part) -> bool:
+    base = stage.world.base
+    true = stage.camera.true_view().project(hole_places(part, (base.x, base.y, base.yaw)))
+    found = [(hole.u, hole.v) for hole in location.holes]
+    return bool(np.hypot(*(true - found).T).max() > WRONG)
+
+
+def _error(pose: tuple[float, float, float], truth: tuple[float, float, float]) -> tuple[float, float, float]:
+    dx, dy, turn = (a - b for a, b in zip(pose, truth, strict=True))
+    return dx, dy, math.remainder(turn, 2 * math.pi)

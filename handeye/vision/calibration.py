@@ -1,0 +1,128 @@
+"""Camera-arm calibration: where the camera really stands, from spots the arm has carried through its view.
+
+The arm holds a lamp at known places and the camera sees it with both lenses. The model of the camera is
+fitted to what was seen, held near its drawing by what a careful mechanic can be off by. The arm's own error,
+about a tenth of an inch, is the floor: the residual shows it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from handeye.errors import InvalidInput
+from handeye.pose import Array
+from handeye.units import DEGREE, INCH
+from handeye.vision.camera import CameraModel, View
+
+PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
+TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll
+SCALE_PRIOR: Final = 0.01  # sigma, of the focal lengths
+SIGHT_ERROR: Final = 0.13 * INCH  # sigma: .1 in of the arm and .07 deg of the pots at 65 in
+"""Weak priors of the vision study, section 3."""
+FEWEST: Final = 6
+"""Sightings for a lens. Below, priors decide more than sight does; 12 to 20 are good."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sighting:
+    """A lamp at a known place, seen in a picture."""
+
+    lens: float
+    """Focal length, m."""
+    pan: float
+    """Pot reading, rad."""
+    tilt: float
+    u: float
+    v: float
+    point_W: tuple[float, float, float]  # noqa: N815
+    """Where the arm says the lamp is, m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Calibration:
+    """A fitted camera and how well it agrees with the sightings."""
+
+    model: CameraModel
+    residual_px: dict[float, float]
+    """Root mean square distance in the picture for each lens (by focal length, m)."""
+    residual_m: float
+    """Root mean square horizontal distance, at the height of each lamp."""
+
+
+def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibration:
+    """Fit the camera to the sightings, starting from its drawing. Lenses never seen with keep their drawing.
+
+    Raises:
+        InvalidInput: fewer than six sightings with a lens, or a lens that the drawing does not have.
+    """
+    from scipy.optimize import least_squares
+
+    used = sorted({drawing.lens(s.lens).focal_length for s in sightings})
+    for focal_length in used:
+        count = sum(drawing.lens(s.lens).focal_length == focal_length for s in sightings)
+        if count < FEWEST:
+            raise InvalidInput(
+                f"{count} sightings with the {focal_length * 1000:.0f} mm lens; at least {FEWEST} are needed"
+            )
+    if not used:
+        raise InvalidInput("no sightings to calibrate the camera with")
+    start = np.zeros(6 + 3 * len(drawing.lenses))
+
+    def residuals(x: Array) -> Array:
+        model = _moved(drawing, x)
+        return np.concatenate([_miss(model, s) / SIGHT_ERROR for s in sightings] + [x])
+
+    fit = least_squares(residuals, start, method="trf", xtol=1e-10, ftol=1e-12)
+    model = _moved(drawing, fit.x)
+    return Calibration(
+        model=model,
+        residual_px={f: _rms([_miss_px(model, s) for s in sightings if np.isclose(s.lens, f)]) for f in used},
+        residual_m=_rms([_miss_on_table(model, s) for s in sightings]),
+    )
+
+
+def _moved(drawing: CameraModel, x: Array) -> CameraModel:
+    """The drawing changed by parameters in units of their priors."""
+    mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
+    lenses = tuple(
+        replace(
+            lens,
+            scale=lens.scale + float(a) * SCALE_PRIOR,
+            forward=lens.forward + float(b) * PLACE_PRIOR,
+            up=lens.up + float(c) * PLACE_PRIOR,
+        )
+        for lens, (a, b, c) in zip(drawing.lenses, x[6:].reshape(-1, 3), strict=True)
+    )
+    return CameraModel(
+        mount=(float(mount[0]), float(mount[1]), float(mount[2])),
+        pan0=drawing.pan0 + float(x[3]) * TURN_PRIOR,
+        tilt0=drawing.tilt0 + float(x[4]) * TURN_PRIOR,
+        roll=drawing.roll + float(x[5]) * TURN_PRIOR,
+        lenses=lenses,
+    )
+
+
+def _view(model: CameraModel, s: Sighting) -> View:
+    return model.view(s.lens, s.pan, s.tilt)
+
+
+def _miss_px(model: CameraModel, s: Sighting) -> Array:
+    return np.asarray(_view(model, s).project(np.array(s.point_W))[0] - (s.u, s.v))
+
+
+def _miss(model: CameraModel, s: Sighting) -> Array:
+    """Distance between the lamp and the line of sight, across it, in columns and rows direction, m."""
+    view = _view(model, s)
+    distance = float(np.linalg.norm(np.array(s.point_W) - view.X_WC[:3, 3]))
+    return np.asarray(_miss_px(model, s) / view.focal * distance)
+
+
+def _miss_on_table(model: CameraModel, s: Sighting) -> Array:
+    seen = _view(model, s).back_project(np.array([s.u, s.v]), s.point_W[2])[0]
+    return np.asarray((seen - s.point_W)[:2])
+
+
+def _rms(misses: list[Array]) -> float:
+    return float(np.sqrt(np.mean(np.sum(np.square(misses), axis=1))))

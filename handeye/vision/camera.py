@@ -1,0 +1,155 @@
+"""The television camera as the program models it: a pan/tilt mount, a two-lens turret, a raster of points.
+
+Camera frame C: x along the lines (column u grows), y down the lines (row v grows), z forward. A picture point
+(u, v) counts from the centre of the first point of the first line. The camera looks along table -y at pan 0
+and tilt 0; pan turns it counter-clockwise seen from above, tilt turns it downwards.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.errors import InvalidInput
+from handeye.pose import Array, Pose, pose
+from handeye.units import INCH
+
+COLUMNS: Final = 333
+ROWS: Final = 256
+RASTER: Final = (0.0128, 0.0096)
+"""Width and height of the raster on a one-inch vidicon, m. Inferred; the points are not square."""
+CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lens:
+    """One lens of the turret."""
+
+    focal_length: float
+    """m, as engraved; the name of the lens."""
+    scale: float = 1.0
+    """True focal length over the engraved one."""
+    forward: float
+    """m, from the crossing of the pan and tilt axes to the centre of projection, along the line of sight."""
+    up: float
+    """m, the same, upwards in the picture."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraModel:
+    """Where the camera stands and how it is built. What its pictures show follows from this and two pots.
+
+    The form (mount, two zero errors, roll, focal scale and offset per lens) is that of research on this cell:
+    it carries over between aims and lenses, which a 3x4 collineation does not.
+    """
+
+    mount: tuple[float, float, float]
+    """Crossing of the pan and tilt axes, W, m."""
+    pan0: float = 0.0
+    """True pan minus pot reading, rad."""
+    tilt0: float = 0.0
+    roll: float = 0.0
+    """Turn of the raster about the line of sight, rad, clockwise seen from behind the camera."""
+    lenses: tuple[Lens, ...]
+
+    def lens(self, focal_length: float) -> Lens:
+        """The lens of that engraved focal length.
+
+        Raises:
+            InvalidInput: no such lens.
+        """
+        for lens in self.lenses:
+            if math.isclose(lens.focal_length, focal_length, rel_tol=1e-6):
+                return lens
+        known = " and ".join(f"{lens.focal_length * 1000:.0f} mm" for lens in self.lenses)
+        raise InvalidInput(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
+
+    def view(self, focal_length: float, pan: float, tilt: float) -> "View":
+        """What it sees with that lens at these pot readings (rad).
+
+        Raises:
+            InvalidInput: no such lens.
+        """
+        return View(model=self, lens=self.lens(focal_length), pan=pan, tilt=tilt)
+
+    def aim(self, point_W: Array | tuple[float, float, float], focal_length: float) -> tuple[float, float]:
+        """Pot readings (pan, tilt), rad, that bring a point, shape (3,), m, to the middle of the picture.
+
+        Raises:
+            InvalidInput: no such lens.
+        """
+        pan, tilt = 0.0, 0.0
+        for _ in range(6):  # the offset of the lens from the axes makes the solution slightly implicit
+            X_WC = self.view(focal_length, pan, tilt).X_WC
+            right, back, drop = np.asarray(point_W) - X_WC[:3, 3]
+            pan = math.atan2(right, -back) - self.pan0
+            tilt = math.atan2(-drop, math.hypot(right, back)) - self.tilt0
+        return pan, tilt
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """A camera at one setting: where points of the world fall in the picture, and back."""
+
+    model: CameraModel
+    lens: Lens
+    pan: float
+    """Pot reading, rad."""
+    tilt: float
+
+    @property
+    def focal(self) -> tuple[float, float]:
+        """Focal length in columns and in rows."""
+        f = self.lens.focal_length * self.lens.scale
+        return f * COLUMNS / RASTER[0], f * ROWS / RASTER[1]
+
+    @property
+    def X_WC(self) -> Pose:
+        """Pose of the camera frame; its origin is the centre of projection."""
+        pan, tilt, roll = self.pan + self.model.pan0, self.tilt + self.model.tilt0, self.model.roll
+        forward = np.array([math.sin(pan) * math.cos(tilt), -math.cos(pan) * math.cos(tilt), -math.sin(tilt)])
+        level = np.array([-math.cos(pan), -math.sin(pan), 0.0])
+        down = np.cross(forward, level)
+        c, s = math.cos(roll), math.sin(roll)
+        right, down = c * level + s * down, c * down - s * level
+        centre = np.asarray(self.model.mount) + self.lens.forward * forward - self.lens.up * down
+        return pose(np.column_stack([right, down, forward]), centre)
+
+    def project(self, points_W: Array) -> Array:
+        """Picture points (u, v), shape (n, 2), of points, shape (n, 3), m, before the camera."""
+        X_WC, focal = self.X_WC, self.focal
+        p = (np.atleast_2d(points_W) - X_WC[:3, 3]) @ X_WC[:3, :3]
+        return np.asarray(p[:, :2] / p[:, 2:] * focal + CENTRE)
+
+    def back_project(self, uv: Array, z: float) -> Array:
+        """Points, shape (n, 3), m, at height `z` that are seen at `uv`, shape (n, 2)."""
+        X_WC = self.X_WC
+        rays = self.rays(uv, X_WC)
+        return np.asarray(X_WC[:3, 3] + rays * ((z - X_WC[2, 3]) / rays[:, 2:]))
+
+    def rays(self, uv: Array, X_WC: Pose | None = None) -> Array:
+        """Directions in W, shape (n, 3), of points (u, v), shape (n, 2); length 1 along the line of sight."""
+        X = self.X_WC if X_WC is None else X_WC
+        slopes = (np.atleast_2d(uv) - CENTRE) / self.focal
+        return np.asarray(np.column_stack([slopes, np.ones(len(slopes))]) @ X[:3, :3].T)
+
+    def resolution(self, point_W: Array) -> tuple[float, float]:
+        """Picture points per metre, along the lines and across them, of the horizontal plane there."""
+        uv = self.project(point_W) + np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+        around = self.back_project(uv, float(np.ravel(point_W)[2]))
+        across, down = np.linalg.norm(around[1:] - around[0], axis=1)
+        return 1 / float(across), 1 / float(down)
+
+
+DRAWING: Final = CameraModel(
+    mount=(34 * INCH, 68 * INCH, 54 * INCH),
+    lenses=(
+        Lens(focal_length=0.025, forward=2 * INCH, up=1 * INCH),
+        Lens(focal_length=0.050, forward=2 * INCH, up=1 * INCH),
+    ),
+)
+"""The camera as drawn: on a tripod 14 in beyond the far edge of the table, opposite the arm.
+
+Chosen so that no part of the arm hides the base; the offset of the lenses is a placeholder.
+"""

@@ -1,0 +1,29 @@
+"""Finding the lamp on the hand: the bright spot that is in one picture and not in the other."""
+
+from typing import Final
+
+import cv2
+import numpy as np
+
+from handeye.cell.ports import Picture
+
+LEVEL: Final = 2.5
+"""Least mean difference over 3 x 3 points; the noise of such a mean is half a level. Placeholder."""
+RADIUS: Final = 10
+"""Points about the peak that count to its centre: the lamp seen near, with the 50 mm lens."""
+
+
+def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
+    """Centre (u, v) of the spot that only the lit picture has, or None if there is none, or more than one."""
+    difference = lit_picture.astype(np.float32) - dark_picture.astype(np.float32)
+    smooth = cv2.blur(difference, (3, 3))
+    v, u = np.unravel_index(int(np.argmax(smooth)), smooth.shape)
+    if smooth[v, u] < LEVEL:
+        return None
+    rows, columns = np.mgrid[0 : smooth.shape[0], 0 : smooth.shape[1]]
+    near = np.hypot(rows - v, columns - u) <= RADIUS
+    if (smooth[~near] > max(LEVEL, 0.7 * float(smooth[v, u]))).any():
+        return None
+    weight = np.where(near, np.clip(smooth - 0.3 * smooth[v, u], 0, None), 0)
+    total = float(weight.sum())
+    return float((weight * columns).sum()) / total, float((weight * rows).sum()) / total

@@ -1,0 +1,115 @@
+"""Camera-arm calibration by observation: the arm carries its lamp through the camera's view.
+
+Done once when the camera is set up, before pumps are made: its time is not in the table of 1973. What the
+arm believes of its own place enters here, and the same arm grasps later, so what is common to both cancels.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, forward
+from handeye.arm.model import ArmModel
+from handeye.arm.trajectory import move
+from handeye.cell.ports import TICK, Workcell
+from handeye.errors import HandeyeError
+from handeye.pose import hand
+from handeye.units import DEGREE, INCH
+from handeye.vision.calibration import Calibration, Sighting, calibrate
+from handeye.vision.camera import CameraModel
+from handeye.vision.spot import find_spot
+from handeye.work.drive import ArmDrive
+
+LAMP: Final = np.array([-0.045, 0.062, -0.088])
+"""Where the lamp is on the hand, in T, m; from the drawing of the hand."""
+HAND_ANGLE: Final = 135 * DEGREE
+"""O of the hand while it shows its lamp to the camera."""
+FEWEST: Final = 8
+"""Sightings with each lens below which the set-up is called a failure."""
+
+
+class CalibrationFailed(HandeyeError):
+    """The lamp was not seen often enough."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Look:
+    """A camera setting and the places (x, y, z in W, inches) the lamp is shown at."""
+
+    lens: float
+    at: tuple[float, float, float]
+    places: tuple[tuple[float, float, float], ...]
+
+
+def _grid(x: float, y: float, dx: float, dy: float) -> tuple[tuple[float, float, float], ...]:
+    """Twelve places around (x, y) at mixed heights: places of one height would not tell height from depth.
+
+    The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
+    """
+    heights = (7.5, 11.5, 9.5, 13.0, 8.5, 12.0, 10.0, 8.0, 11.5, 9.0, 12.5, 10.5)
+    columns, rows = (-1.0, -0.33, 0.33, 1.0), (-1.0, 0.0, 1.0)
+    return tuple(
+        (x + dx * columns[k % 4], y + dy * rows[k // 4], heights[k]) for k in range(12)
+    )  # fmt: skip
+
+
+LOOKS: Final = (
+    _Look(lens=0.025, at=(43.0, 29.0, 8.0), places=_grid(42.0, 30.0, 5.0, 5.0)),
+    _Look(lens=0.050, at=(43.0, 29.0, 8.0), places=_grid(42.5, 30.0, 3.5, 3.0)),
+    _Look(lens=0.050, at=(25.0, 38.0, 8.0), places=_grid(24.5, 38.5, 3.5, 3.0)),
+)
+"""Both lenses over the belt, and the close-up lens over the standard position too."""
+
+
+def calibrate_camera(cell: Workcell, arm: ArmModel, drawing: CameraModel) -> Calibration:
+    """Show the lamp to the camera, and fit the camera to where the arm says the lamp was.
+
+    Raises:
+        CalibrationFailed: the lamp was seen too few times.
+    """
+    drive = ArmDrive(cell=cell, arm=arm)
+    home = drive.q.copy()
+    sightings = [sighting for look in LOOKS for sighting in _sightings(drive, drawing, look)]
+    for lens in {look.lens for look in LOOKS}:
+        seen = sum(s.lens == lens for s in sightings)
+        if seen < FEWEST:
+            raise CalibrationFailed(f"the lamp was seen {seen} times with the {lens * 1000:.0f} mm lens; "
+                                    f"{FEWEST} are needed to calibrate the camera")  # fmt: skip
+    back = move(arm, drive.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
+    if not isinstance(back, IKResult):
+        drive.follow(back.sample(TICK))
+    return calibrate(sightings, drawing)
+
+
+def _sightings(drive: ArmDrive, drawing: CameraModel, look: _Look) -> Iterator[Sighting]:
+    camera = drive.cell.camera
+    target = np.array(look.at) * INCH
+    drive.brake(camera.lens(look.lens))
+    drive.brake(camera.aim(*drawing.aim(target, look.lens)))
+    drive.brake(camera.focus(float(np.linalg.norm(target - np.array(drawing.mount)))))
+    R = hand(0, 0, 0, HAND_ANGLE, 90 * DEGREE, 0)[:3, :3]
+    for place in look.places:
+        p_T = np.array(place) * INCH - R @ LAMP
+        X_WT = hand(float(p_T[0]), float(p_T[1]), float(p_T[2]), HAND_ANGLE, 90 * DEGREE, 0)
+        trajectory = move(drive.arm, drive.q, X_WT, departure=0.0, approach=0.0, speed=1.0)
+        if isinstance(trajectory, IKResult):
+            continue
+        drive.follow(trajectory.sample(TICK))
+        dark, seconds = camera.digitise()
+        drive.lamp = True
+        drive.brake(seconds)
+        lit, seconds = camera.digitise(hold_target=True)
+        drive.lamp = False
+        drive.brake(seconds)
+        spot = find_spot(dark, lit)
+        if spot is None:
+            continue
+        X = drive.hand()
+        lamp = X[:3, 3] + X[:3, :3] @ LAMP
+        pan, tilt = camera.pots()
+        yield Sighting(
+            lens=look.lens, pan=pan, tilt=tilt, u=spot[0], v=spot[1],
+            point_W=(float(lamp[0]), float(lamp[1]), float(lamp[2])),
+        )  # fmt: skip

@@ -1,0 +1,218 @@
+"""Drives the arm along set-points, a servo period at a time, while guards watch.
+
+Everything here goes through the ports: positions are the potentiometers', forces are what the joint torques
+leave unexplained.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from handeye import errors
+from handeye.arm.dynamics import gravity, mass_matrix
+from handeye.arm.kinematics import forward, jacobian, solve
+from handeye.arm.model import ArmModel
+from handeye.arm.servo import prepare, torque
+from handeye.arm.samples import Samples
+from handeye.cell.ports import TICK, Drive, Sensed, Workcell
+from handeye.pose import Array, Pose, translated
+from handeye.touch.guards import Guard, Reading, Trip
+
+SETTLE_TICKS = 8
+"""Periods held at the end of a motion, and averaged for the tare of the force estimate."""
+LAG = np.array([0.05, 0.05, 0.03, 0.15, 0.15, 0.15])
+"""Following error (rad, m) that means collision. Placeholder: twenty times what free motions show."""
+PRESS_GAIN = 0.0015
+"""Speed of a pressing motion per missing force, m/s/N: slow enough for the arm's 20 kg of felt inertia."""
+PRESS_SPEED = 0.0127
+"""Greatest speed of a pressing motion, m/s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """How a motion ended."""
+
+    trip: Trip | None = None
+    """The guard that ended it."""
+    error: int | None = None
+    """An error of the motion itself (servo lag)."""
+    detail: str = ""
+
+
+REACHED = Outcome()
+
+
+@dataclass(slots=True, kw_only=True)
+class _Dynamics:
+    """Inertia, gravity and Jacobian at a set-point, reused while the hand hardly moves."""
+
+    M: Array
+    bias: Array
+    J: Array
+
+
+@dataclass(slots=True, kw_only=True)
+class ArmDrive:
+    """The servo loop: the only place of the working phase that lets time pass with the arm powered."""
+
+    cell: Workcell
+    arm: ArmModel
+    watch: Callable[[Sensed], None] = lambda _: None
+    """Called after every servo period."""
+    q: Array = field(init=False)
+    """Set-point the arm holds."""
+    gap: float = field(init=False)
+    sensed: Sensed = field(init=False)
+    grip: float = 80.0
+    load: float = 0.0
+    tool: float = 0.0
+    lamp: bool = False
+    tare: Array = field(default_factory=lambda: np.zeros(6))
+    wrench: Array = field(default_factory=lambda: np.zeros(6))
+    """External force and moment on the hand in W, less the tare."""
+
+    def __post_init__(self) -> None:
+        self.sensed = self.cell.sense()
+        self.q = self.sensed.q.copy()
+        self.gap = self.sensed.gap
+
+    # -- time passes --------------------------------------------------------------------------------
+
+    def brake(self, seconds: float) -> None:
+        """Set the brakes and let time pass; the set-point becomes where the arm then is."""
+        for _ in range(round(seconds / TICK)):
+            self._tick(np.zeros(6), brakes=True)
+        self.q = self.sensed.q.copy()
+
+    def follow(self, samples: Samples, guard: Guard | None = None, direction: Array | None = None) -> Outcome:
+        """Follow set-points; end early when `guard` trips.
+
+        Args:
+            direction: unit vectors of the motion for the guard, shape (3,) or (N, 3), in W.
+        """
+        if len(samples) == 0:
+            return REACHED
+        if guard is not None:
+            self.zero()
+        motion = prepare(self.arm, self.q, samples)
+        J = jacobian(self.arm, motion.q) if guard is not None or self.load else _no_jacobian(len(motion))
+        for i in range(len(motion)):
+            here = _Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i])
+            self._servo(here, motion.q[i], motion.qd[i], motion.qdd[i], estimate=guard is not None)
+            self.q = samples.q[i]
+            lag = np.abs(self.sensed.q - self.q) > LAG
+            if lag.any():
+                self.q = self.sensed.q.copy()
+                joint = self.arm.joints[int(np.argmax(lag))].name
+                return Outcome(error=errors.SERVO_LAG, detail=f"{joint} stayed behind its set-point")
+            along = _row(direction, i)
+            trip = guard.check(self._reading(along)) if guard is not None else None
+            if trip is not None:
+                self._freeze(along)
+                return Outcome(trip=trip)
+        self.hold(SETTLE_TICKS)
+        return REACHED
+
+    def press(self, direction: Array, distance: float, force: float, guard: Guard | None) -> Outcome:
+        """Press with `force` (N) along a unit `direction` and follow what gives way, at most `distance` (m)."""
+        self.zero()
+        here = self.dynamics()
+        X_start = forward(self.arm, self.q)
+        gone = 0.0
+        while gone < distance:
+            felt = float(-self.wrench[:3] @ direction)
+            speed = float(np.clip((force - felt) * PRESS_GAIN, -PRESS_SPEED, PRESS_SPEED))
+            gone += speed * TICK
+            step = solve(self.arm, translated(X_start, gone * direction), self.q)
+            if step.q is None:
+                return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
+            self._approach(here, step.q, estimate=True)
+            trip = guard.check(self._reading(direction)) if guard is not None else None
+            if trip is not None:
+                self._freeze(direction)
+                return Outcome(trip=trip)
+        return REACHED
+
+    def shift(self, here: _Dynamics, X_WT: Pose) -> Outcome:
+        """One period towards a pose close by."""
+        step = solve(self.arm, X_WT, self.q)
+        if step.q is None:
+            return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
+        self._approach(here, step.q, estimate=False)
+        return REACHED
+
+    def hold(self, ticks: int) -> None:
+        """Hold the set-point."""
+        here = self.dynamics()
+        for _ in range(ticks):
+            self._approach(here, self.q, estimate=False)
+
+    def zero(self) -> None:
+        """Hold still and take what is felt now as zero force."""
+        here = self.dynamics()
+        felt = []
+        self.tare = np.zeros(6)
+        for _ in range(SETTLE_TICKS):
+            self._approach(here, self.q, estimate=True)
+            felt.append(self.wrench)
+        self.tare = np.mean(felt, axis=0)
+        self.wrench = np.zeros(6)
+
+    def _approach(self, here: _Dynamics, q: Array, *, estimate: bool) -> None:
+        """One servo period towards a set-point close by."""
+        self._servo(here, self.q, (q - self.q) / TICK, np.zeros(6), estimate=estimate)
+        self.q = q
+
+    def _servo(self, here: _Dynamics, q: Array, qd: Array, qdd: Array, *, estimate: bool) -> None:
+        """One servo period in which the arm should begin at `q` with rates `qd`."""
+        before = self.sensed
+        load = here.J[2] * self.load
+        tau = torque(here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
+        self._tick(tau)
+        if estimate:
+            acceleration = (self.sensed.qd - before.qd) / TICK
+            unexplained = here.M @ acceleration + here.bias - tau
+            self.wrench = np.linalg.solve(here.J.T, unexplained) - self.tare
+
+    def _tick(self, tau: Array, brakes: bool = False) -> None:
+        self.cell.tick(
+            Drive(torque=tau, brakes=brakes, gap=self.gap, grip=self.grip, tool=self.tool, lamp=self.lamp)
+        )
+        self.sensed = self.cell.sense()
+        self.watch(self.sensed)
+
+    # -- stopping -----------------------------------------------------------------------------------
+
+    def _freeze(self, direction: Array) -> None:
+        """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
+        X_set, X_is = forward(self.arm, self.q), forward(self.arm, self.sensed.q)
+        along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
+        held = solve(self.arm, translated(X_set, along * direction), self.q)
+        self.q = self.sensed.q.copy() if held.q is None else held.q
+
+    # -- knowing ------------------------------------------------------------------------------------
+
+    def hand(self) -> Pose:
+        """`X_WT` by the arm's own sensors."""
+        return forward(self.arm, self.sensed.q)
+
+    def dynamics(self) -> _Dynamics:
+        """Inertia, bias torques and Jacobian at rest at the present set-point."""
+        return _Dynamics(
+            M=mass_matrix(self.arm, self.q), bias=gravity(self.arm, self.q), J=jacobian(self.arm, self.q)
+        )
+
+    def _reading(self, direction: Array) -> Reading:
+        """What guards look at."""
+        return Reading(force=-self.wrench[:3], direction=direction, tool_torque=self.sensed.tool_torque)
+
+
+def _no_jacobian(count: int) -> Array:
+    return np.zeros((count, 6, 6))
+
+
+def _row(direction: Array | None, i: int) -> Array:
+    if direction is None:
+        return np.zeros(3)
+    return direction if direction.ndim == 1 else direction[i]

@@ -1,0 +1,330 @@
+; The water pump of 1973, assembled in eleven steps.
+;
+; Times, forces and lengths are those of the reference; words in capitals stand in the listing of 1973.
+; Inches, ounces, degrees. Positions are taught, in the file beside this one.
+
+        STAGE   "find the base"
+        PARK
+        LENS    25
+        AIM     BASE
+        LOOK    WIDE
+        GENERAL BASE WIDE
+        LENS    50
+        AIM     BASE
+        LOOK    CLOSE_UP
+        SPECIFIC BASE CLOSE_UP
+
+        STAGE   "feel for the grasp"
+        OPEN    1.775
+        MOVE    A
+        CENTER  .5
+        SAVE    DA              ;how far it is off across this wall
+        OPEN    1.42
+        MOVE    B
+        RESTORE DA
+        CENTER  .3
+        SAVE    DB              ;and along the line of centres
+        OPEN    1.85
+        MOVE    WEB
+        RESTORE DA
+        RESTORE DB
+        CLOSE   .9 1.4
+
+        STAGE   "put the base in its standard position"
+        LOAD    84.6
+        CHANGE  [0 0 1] 1
+        MOVE    S0
+        STOP    [0 0 -29]
+        CHANGE  [0 0 -1] 1.2 .5 ;set it down
+        LOAD    0
+        STOP    [0 144 0]
+        CHANGE  [0 1 0] 1.2 .5  ;against the far block
+        STOP    [-144 0 0]
+        CHANGE  [-1 0 0] 1.2 .5 ;against the left block
+        OPEN    1.85
+
+        STAGE   "insert the aligning pins"
+        OPEN    1
+        MOVE    P1
+        CENTER  .1
+        CLOSE   0.1             ;grasp it
+        CHANGE  [0 0 1] 1.5     ;draw it out of its holder
+        MOVE    T1              ;GO TO THE HOLE
+        SEARCH  .07
+L1:     MOVE    T1              ;GO TO THE HOLE
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
+        SKIPE   23              ;no resistance: the pin is in a hole
+        AOJ     L1
+        STOP    [0 0 -60]
+        CHANGE  [0 0 -1] 0.6    ;IT SHOULD MEET SOME RESISTANCE
+        SKIPN   23
+        AOJ     L1              ;none: that was no hole
+        SAVE    E1
+        OPEN    .5
+        CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
+        OPEN    1
+        OPEN    1
+        MOVE    P2
+        CENTER  .1
+        CLOSE   0.1             ;grasp it
+        CHANGE  [0 0 1] 1.5     ;draw it out of its holder
+        MOVE    T2              ;GO TO THE HOLE
+        SEARCH  .07
+L2:     MOVE    T2              ;GO TO THE HOLE
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
+        SKIPE   23              ;no resistance: the pin is in a hole
+        AOJ     L2
+        STOP    [0 0 -60]
+        CHANGE  [0 0 -1] 0.6    ;IT SHOULD MEET SOME RESISTANCE
+        SKIPN   23
+        AOJ     L2              ;none: that was no hole
+        SAVE    E2
+        OPEN    .5
+        CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
+        OPEN    1
+
+        STAGE   "put on the gasket"
+        PARK
+        AIM     PUMP
+        LOOK    BEFORE
+        OPEN    1.9
+        MOVE    G
+        CLOSE   .7
+        CHANGE  [0 0 1] 1
+        MOVE    GON
+        RESTORE E2 LEVEL
+        STOP    [0 0 -12]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
+        OPEN    1.9
+
+        STAGE   "check the gasket"
+        PARK
+        LOOK    AFTER HOLD
+        INSPECT PUMP BEFORE AFTER
+
+        STAGE   "put on the top"
+        OPEN    2.8
+        MOVE    TOP
+        CENTER  2
+        CLOSE   2 2.4
+        LOAD    36
+        CHANGE  [0 0 1] 1
+        MOVE    TOPON
+        RESTORE E1 LEVEL
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.7 2.1         ;a top that stands on the pins stops high
+        LOAD    0
+        OPEN    2.8
+
+        STAGE   "drive the first two screws"
+        OPEN    1.6
+        MOVE    D
+        CENTER  .5
+        SAVE    DRV             ;where the driver really is across the fingers
+        CLOSE   .9 1.1
+        CHANGE  [0 0 1] 2
+        LOAD    15
+        MOVE    S1
+        RESTORE DRV LEVEL
+        STOP    [0 0 -14]
+        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 1] 1.5
+        SEARCH  .07
+K1:     MOVE    H0
+        RESTORE E1 LEVEL
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K1
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6     ;down to the thread
+        SKIPN   23
+        AOJ     K1
+        SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        TOOL    0
+        TRAVEL  .15 .35         ;a crossed thread stops high
+        CHANGE  [0 0 1] 1
+        MOVE    S2
+        RESTORE DRV LEVEL
+        STOP    [0 0 -14]
+        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 1] 1.5
+        SEARCH  .07
+K2:     MOVE    H2
+        RESTORE HS LEVEL        ;one hole found helps to find the others
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K2
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6     ;down to the thread
+        SKIPN   23
+        AOJ     K2
+        SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        TOOL    0
+        TRAVEL  .15 .35         ;a crossed thread stops high
+        CHANGE  [0 0 1] 1
+        MOVE    DUP
+        RESTORE DRV
+        STOP    [0 0 -20]
+        CHANGE  [0 0 -1] .8     ;into the rack until it stands
+        LOAD    0
+        OPEN    1.6
+        CHANGE  [0 0 1] 2
+
+        STAGE   "take out the aligning pins"
+        OPEN    .6
+        MOVE    Q1
+        RESTORE E1 LEVEL
+        CLOSE   .1
+        CHANGE  [0 0 1] 2
+        MOVE    P1UP
+        STOP    [0 0 -20]
+        CHANGE  [0 0 -1] 1
+        OPEN    1
+        OPEN    .6
+        MOVE    Q2
+        RESTORE E2 LEVEL
+        CLOSE   .1
+        CHANGE  [0 0 1] 2
+        MOVE    P2UP
+        STOP    [0 0 -20]
+        CHANGE  [0 0 -1] 1
+        OPEN    1
+
+        STAGE   "drive the last four screws"
+        OPEN    1.6
+        MOVE    D
+        CENTER  .5
+        SAVE    DRV             ;where the driver really is across the fingers
+        CLOSE   .9 1.1
+        CHANGE  [0 0 1] 2
+        LOAD    15
+        MOVE    S3
+        RESTORE DRV LEVEL
+        STOP    [0 0 -14]
+        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 1] 1.5
+        SEARCH  .07
+K3:     MOVE    H3
+        RESTORE HS LEVEL        ;one hole found helps to find the others
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K3
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6     ;down to the thread
+        SKIPN   23
+        AOJ     K3
+        SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        TOOL    0
+        TRAVEL  .15 .35         ;a crossed thread stops high
+        CHANGE  [0 0 1] 1
+        MOVE    S4
+        RESTORE DRV LEVEL
+        STOP    [0 0 -14]
+        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 1] 1.5
+        SEARCH  .07
+K4:     MOVE    H4
+        RESTORE HS LEVEL        ;one hole found helps to find the others
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K4
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6     ;down to the thread
+        SKIPN   23
+        AOJ     K4
+        SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        TOOL    0
+        TRAVEL  .15 .35         ;a crossed thread stops high
+        CHANGE  [0 0 1] 1
+        MOVE    S5
+        RESTORE DRV LEVEL
+        STOP    [0 0 -14]
+        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 1] 1.5
+        SEARCH  .07
+K5:     MOVE    H1
+        RESTORE HS LEVEL        ;one hole found helps to find the others
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K5
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6     ;down to the thread
+        SKIPN   23
+        AOJ     K5
+        SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        TOOL    0
+        TRAVEL  .15 .35         ;a crossed thread stops high
+        CHANGE  [0 0 1] 1
+        MOVE    S6
+        RESTORE DRV LEVEL
+        STOP    [0 0 -14]
+        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 1] 1.5
+        SEARCH  .07
+K6:     MOVE    H5
+        RESTORE HS LEVEL        ;one hole found helps to find the others
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K6
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] .6     ;down to the thread
+        SKIPN   23
+        AOJ     K6
+        SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        TOOL    0
+        TRAVEL  .15 .35         ;a crossed thread stops high
+        CHANGE  [0 0 1] 1
+        MOVE    DUP
+        RESTORE DRV
+        STOP    [0 0 -20]
+        CHANGE  [0 0 -1] .8     ;into the rack until it stands
+        LOAD    0
+        OPEN    1.6
+        CHANGE  [0 0 1] 2
+
+        STAGE   "turn the rotor"
+        OPEN    .9
+        MOVE    CRANK
+        RESTORE E1 LEVEL
+        CENTER  .3
+        OPEN    .44             ;an open fork: it pushes and does not pinch
+        STOP    40
+        TURN    ROTOR 60
+        SKIPE   23              ;it should meet no such resistance
+        WAIT    "THE ROTOR IS HARD TO TURN"
+        OPEN    .9
+        PARK

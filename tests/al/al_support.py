@@ -1,0 +1,78 @@
+"""What the language tests share: a few taught names, and ways to compile and to walk a program."""
+
+from collections.abc import Mapping, Sequence
+
+from handeye import al
+from handeye.diagnostics import Diagnostic
+from handeye.plan.program import ACTIONS, Move, Part, Position, Program, Test
+from handeye.plan.taught import Taught
+from handeye.source import Source
+
+ORIGIN = Position(at=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+TAUGHT = Taught(
+    positions=dict.fromkeys(("P", "T", "PARK"), ORIGIN),
+    parts={"BASE": Part(at=(0.0, 0.0, 0.0, 0.0)), "GASKET": Part(at=(0.0, 0.0, 0.0, 0.0))},
+)
+
+LISTING = """\
+        MOVE  P              ;GO TO THE PIN
+        CLOSE 0.1            ;grasp it
+        MOVE  T              ;GO TO THE HOLE
+        SEARCH .07           ;
+L1:     MOVE  T              ;GO TO THE HOLE
+        STOP  [0 0 -50]      ;
+        CHANGE [0 0 -1] 0.6  ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
+        SKIPE 23             ;
+        AOJ   L1             ;
+        STOP  [0 0 -60]      ;
+        CHANGE [0 0 -1] 0.6  ;IT SHOULD MEET SOME RESISTANCE
+        SKIPN 23             ;
+        AOJ   L1             ;
+        SAVE  H              ;
+        OPEN  .5             ;
+        CLOSE 0.1            ;AND CHECK THAT IT IS STILL THERE
+        OPEN  1              ;or WAIT 1
+"""
+"""The pin insertion of 1973, as restored."""
+
+
+def diagnose(text: str) -> list[Diagnostic]:
+    return al.compile_text(Source(name="test.al", text=text), TAUGHT)[1]
+
+
+def codes(text: str) -> list[str]:
+    return [diagnostic.code for diagnostic in diagnose(text)]
+
+
+def compiled(text: str) -> Program:
+    program, diagnostics = al.compile_text(Source(name="plans/test.al", text=text), TAUGHT)
+    assert program is not None, diagnostics
+    return program
+
+
+def only(text: str, kind: type) -> object:
+    """The one operation of a kind."""
+    (found,) = [s.operation for s in compiled(text).steps if isinstance(s.operation, kind)]
+    return found
+
+
+def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[str]:
+    """Statements in the order they are carried out when each statement raises, in turn, the errors given."""
+    errors = {text: list(numbers) for text, numbers in raised.items()}
+    trace: list[str] = []
+    error: int | None = None
+    at: int | None = 0 if program.steps else None
+    while at is not None and len(trace) < 1000:
+        step = program.steps[at]
+        trace.append(step.text)
+        at = step.next
+        if isinstance(step.operation, ACTIONS):
+            queue = errors.get(step.text)
+            error = queue.pop(0) if queue else None
+        elif isinstance(step.operation, Test) and error == step.operation.number:
+            error, at = None, step.operation.raised
+    return trace
+
+
+def moves(program: Program) -> list[Move]:
+    return [step.operation for step in program.steps if isinstance(step.operation, Move)]

@@ -1,0 +1,110 @@
+"""Where a program goes: error tests, jumps, searches and macros, without an arm."""
+
+from al_support import LISTING, codes, compiled, diagnose, walk
+
+DOWN = "CHANGE [0 0 -1] 0.6"
+SKIPS = f"{DOWN}\n{{}}\nOPEN 1\nOPEN 2"
+
+
+def opened(skip: str, error: int | None) -> list[str]:
+    trace = walk(compiled(SKIPS.format(skip)), {DOWN: [error]})
+    return [text for text in trace if text.startswith("OPEN")]
+
+
+def test_skipe_skips_when_the_error_occurred() -> None:
+    assert opened("SKIPE 23", 23) == ["OPEN 2"]
+
+
+def test_skipe_does_not_skip_without_error() -> None:
+    assert opened("SKIPE 23", None) == ["OPEN 1", "OPEN 2"]
+
+
+def test_skipn_skips_without_error() -> None:
+    assert opened("SKIPN 23", None) == ["OPEN 2"]
+
+
+def test_skipn_does_not_skip_when_the_error_occurred() -> None:
+    assert opened("SKIPN 23", 23) == ["OPEN 1", "OPEN 2"]
+
+
+def test_skipe_does_not_skip_on_another_error() -> None:
+    assert opened("SKIPE 23", 2) == ["OPEN 1", "OPEN 2"]
+
+
+def test_skip_of_the_last_instruction_ends_the_program() -> None:
+    assert walk(compiled("PARK\nSKIPN 23\nOPEN 1"), {}) == ["PARK", "SKIPN 23"]
+    assert walk(compiled("PARK\nSKIPE 23\nOPEN 1"), {"PARK": [23]}) == ["PARK", "SKIPE 23"]
+
+
+def test_skip_counts_a_move_and_its_restores_as_one() -> None:
+    text = "SAVE H\nPARK\nSKIPN 1\nMOVE T\nRESTORE H\nOPEN 1"
+    assert walk(compiled(text), {})[-2:] == ["SKIPN 1", "OPEN 1"]
+
+
+def test_pin_goes_in_at_the_first_place_when_the_hole_is_there() -> None:
+    trace = walk(compiled(LISTING), {DOWN: [23, None]})
+    assert [t for t in trace if t[:3] == "AOJ"] == []
+    assert trace[-4:] == ["SAVE  H", "OPEN  .5", "CLOSE 0.1", "OPEN  1"]
+
+
+def test_search_goes_on_when_the_pin_strikes_the_base() -> None:
+    trace = walk(compiled(LISTING), {DOWN: [None, 23, None]})
+    assert [t for t in trace if t[:3] == "AOJ"] == ["AOJ   L1"]
+    assert "SAVE  H" in trace
+
+
+def test_search_goes_on_when_the_pin_misses_everything() -> None:
+    trace = walk(compiled(LISTING), {DOWN: [23, 23, 23, None]})
+    assert trace.count("MOVE  T") == 3
+    assert trace.count("SAVE  H") == 1
+
+
+def test_jump_to_a_label_behind_everything_ends_the_program() -> None:
+    assert walk(compiled("JUMP END\nPARK\nEND:"), {}) == ["JUMP END"]
+
+
+def test_label_on_a_line_of_its_own_belongs_to_the_next_instruction() -> None:
+    assert walk(compiled("JUMP A\nPARK\nA:\n; here\nOPEN 1"), {}) == ["JUMP A", "OPEN 1"]
+
+
+def test_label_before_a_modifier_leads_to_its_motion() -> None:
+    assert walk(compiled("JUMP A\nPARK\nA: STOP 5\nMOVE T"), {}) == ["JUMP A", "MOVE T"]
+
+
+def test_macro_is_replaced_by_its_instructions() -> None:
+    program = compiled("DEFINE GRASP\nMOVE P\nCLOSE .1\n\nGRASP\nPARK\ngrasp")
+    assert walk(program, {}) == ["MOVE P", "CLOSE .1", "PARK", "MOVE P", "CLOSE .1"]
+
+
+def test_macro_without_a_blank_line_is_reported() -> None:
+    assert codes("PARK\nDEFINE GRASP\nMOVE P\nCLOSE .1\n") == ["unterminated-macro"]
+    assert codes("PARK\nDEFINE GRASP\nMOVE P\nCLOSE .1\n\n") == []
+
+
+def test_macro_inside_a_macro_is_reported_as_a_missing_blank_line() -> None:
+    (diagnostic,) = diagnose("DEFINE A\nPARK\nDEFINE B\nPARK\n\nA\nB")
+    assert (diagnostic.code, diagnostic.primary.text) == (
+        "unterminated-macro",
+        "line `DEFINE B` comes before its end",
+    )
+
+
+def test_labels_of_a_macro_are_its_own_in_each_call() -> None:
+    text = "DEFINE TWICE\nL: OPEN 1\nSKIPN 2\nJUMP L\n\nTWICE\nTWICE"
+    trace = walk(compiled(text), {"OPEN 1": [2, None, 2, None]})
+    assert [t for t in trace if t == "OPEN 1"] == ["OPEN 1"] * 4
+
+
+def test_skip_counts_a_macro_as_one_instruction() -> None:
+    text = "DEFINE A\nOPEN 1\nOPEN 2\n\nPARK\nSKIPN 2\nA\nOPEN 3"
+    assert walk(compiled(text), {}) == ["PARK", "SKIPN 2", "OPEN 3"]
+
+
+def test_skip_at_the_end_of_a_macro_skips_what_follows_the_call() -> None:
+    text = "DEFINE A\nPARK\nSKIPN 2\n\nA\nOPEN 1\nOPEN 2"
+    assert walk(compiled(text), {}) == ["PARK", "SKIPN 2", "OPEN 2"]
+
+
+def test_macros_that_multiply_are_stopped() -> None:
+    text = "".join(f"DEFINE M{i}\n" + f"M{i + 1}\n" * 10 + "\n" for i in range(9)) + "DEFINE M9\nPARK\n\nM0"
+    assert codes(text) == ["program-too-long"]

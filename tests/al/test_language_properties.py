@@ -1,0 +1,106 @@
+"""What holds for every text whatsoever."""
+
+import string
+
+from al_support import LISTING, TAUGHT, diagnose
+from hypothesis import given
+from hypothesis import strategies as st
+
+from handeye import al
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.parser import parse
+from handeye.al.scanner import scan
+from handeye.diagnostics import render
+from handeye.source import Source
+
+WORDS = [
+    *INSTRUCTIONS,
+    "DEFINE M",
+    "M",
+    "T",
+    "L:",
+    "L",
+    "BASE",
+    "LEVEL",
+    "OF",
+    "[0 0 -1]",
+    "[0 0 0 0 0 0]",
+    "1",
+    "-.5",
+]
+ODD = [
+    "[",
+    "]",
+    '"',
+    '"a b"',
+    ";",
+    ";note",
+    ":",
+    "1e999",
+    "nan",
+    "1.2.3",
+    ",",
+    "\t",
+    "\r",
+    "\x0c",
+    "é",
+    "\x00",
+    "open",
+]
+lines = st.lists(st.sampled_from([*WORDS, *ODD]), max_size=6).map(" ".join)
+programs = st.lists(lines, max_size=12).map("\n".join)
+texts = st.one_of(st.text(max_size=200), programs)
+
+
+@given(texts)
+def test_no_text_makes_the_compiler_fail(text: str) -> None:
+    source = Source(name="any.al", text=text)
+    program, diagnostics = al.compile_text(source, TAUGHT)
+    assert (program is None) == any(d.severity == "error" for d in diagnostics)
+    assert all(render(d, source) for d in diagnostics)
+
+
+@given(texts)
+def test_formatting_keeps_the_meaning(text: str) -> None:
+    tree, mistakes = parse(text)
+    again, still = parse(al.format_text(text))
+    assert again == tree
+    assert [d.code for d in still] == [d.code for d in mistakes]
+
+
+@given(texts)
+def test_formatting_twice_changes_nothing_more(text: str) -> None:
+    once = al.format_text(text)
+    assert al.format_text(once) == once
+
+
+@given(texts)
+def test_formatting_keeps_every_line_and_comment(text: str) -> None:
+    before, after = scan(text), scan(al.format_text(text))
+    assert [line.comment for line in after] == [line.comment for line in before]
+    assert [line.is_blank for line in after] == [line.is_blank for line in before]
+
+
+@given(st.text(alphabet=string.printable, max_size=60))
+def test_scanning_loses_no_visible_character(text: str) -> None:
+    seen = "".join("".join(t.text for t in line.tokens) + (line.comment or "") for line in scan(text))
+    assert "".join(seen.split()) == "".join(text.split())
+
+
+def test_steps_lead_only_to_steps() -> None:
+    program, _ = al.compile_text(Source(name="x.al", text=LISTING), TAUGHT)
+    assert program is not None
+    targets = [step.next for step in program.steps]
+    assert all(t is None or 0 <= t < len(program.steps) for t in targets)
+
+
+def test_listing_is_laid_out_in_columns() -> None:
+    assert al.format_text("l1: move   T ;go\n stop [ 0 0  -50 ]\n;note\n\n  ;note") == (
+        "l1:     MOVE    T                       ;go\n        STOP    [0 0 -50]\n;note\n\n        ;note\n"
+    )
+
+
+def test_long_program_is_compiled_in_full() -> None:
+    text = "".join(LISTING.replace("L1", f"L{i}") for i in range(140))
+    assert diagnose(text) == []
+    assert len(al.compile_text(Source(name="x.al", text=text), TAUGHT)[0].steps) == 2100

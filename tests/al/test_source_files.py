@@ -1,0 +1,50 @@
+"""A file becomes a text, or one clear sentence says why not."""
+
+from pathlib import Path
+
+import pytest
+
+from handeye.errors import InvalidInput
+from handeye.source import Source, Span, read_source
+
+
+def test_text_is_read_without_its_byte_order_mark(tmp_path: Path) -> None:
+    path = tmp_path / "a.al"
+    path.write_bytes(b"\xef\xbb\xbfPARK\r\n")
+    assert read_source(path) == Source(name=str(path), text="PARK\r\n")
+
+
+@pytest.mark.parametrize("mark", [b"", b"\xef\xbb\xbf"])
+def test_byte_that_is_not_utf8_is_named_with_its_offset(tmp_path: Path, mark: bytes) -> None:
+    path = tmp_path / "a.al"
+    path.write_bytes(mark + b"PARK\n\xff\n")
+    with pytest.raises(InvalidInput, match=rf"a\.al is not UTF-8 text: byte {5 + len(mark)} is 0xff$"):
+        read_source(path)
+
+
+def test_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match=r"none\.al: there is no such file$"):
+        read_source(tmp_path / "none.al")
+
+
+def test_directory_is_no_text(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match=r" is a directory, not a file$"):
+        read_source(tmp_path)
+
+
+def test_device_is_no_text() -> None:
+    with pytest.raises(InvalidInput, match=r"^/dev/null is a device or a pipe, not a file$"):
+        read_source("/dev/null")
+
+
+def test_impossible_names_are_refused_in_words() -> None:
+    with pytest.raises(InvalidInput, match=r"cannot be read: |no such file$"):
+        read_source("a\0b")
+    with pytest.raises(InvalidInput, match=r"cannot be read: .*too long"):
+        read_source("x" * 5000)
+
+
+def test_span_of_a_line_leaves_out_the_blanks_around_it() -> None:
+    source = Source(name="x", text="A\n  B C \nD")
+    assert source.line_span(2) == Span(start=4, end=7)
+    assert source.line_span(3) == Span(start=9, end=10)

@@ -1,0 +1,72 @@
+"""Taught positions and parts come from a TOML file, in inches and degrees; what is unclear is refused."""
+
+from pathlib import Path
+
+import pytest
+
+from handeye.errors import InvalidInput
+from handeye.plan.program import Hole
+from handeye.plan.taught import load_taught
+from handeye.units import DEGREE, INCH
+
+GOOD = """
+[positions.PIN]
+at = [1, 2.5, 3, 0, 90, 0]
+of = "HOLDER"
+[parts.HOLDER]
+at = [18, 44, 0, 180]
+face = 1.75
+holes = [[0, 0, 2.25], [3, 0, 1.25]]
+region = [4, 5]
+outline = [-2, -2, 5, 2]
+"""
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "taught.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_positions_and_parts_arrive_in_si(tmp_path: Path) -> None:
+    taught = load_taught(write(tmp_path, GOOD))
+    pin, holder = taught.positions["PIN"], taught.parts["HOLDER"]
+    assert pin.at == pytest.approx((INCH, 2.5 * INCH, 3 * INCH, 0, 90 * DEGREE, 0))
+    assert pin.of == "HOLDER"
+    assert holder.at == pytest.approx((18 * INCH, 44 * INCH, 0, 180 * DEGREE))
+    assert holder.holes[1] == Hole(x=3 * INCH, y=0.0, diameter=1.25 * INCH)
+    assert holder.region == pytest.approx((4 * INCH, 5 * INCH))
+    assert holder.outline == pytest.approx((-2 * INCH, -2 * INCH, 5 * INCH, 2 * INCH))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[positions.A]\nat = [1, 2]", r"positions\.A: expected `array` of length 6, got 2 - at `\$\.at`"),
+        (
+            "[positions.A]\nat = [1, 2, 3, 0, 0, 0]\nto = 1",
+            r"positions\.A: object contains unknown field `to`",
+        ),
+        ("[positions.A]", r"positions\.A: object missing required field `at`"),
+        (
+            "[positions.A]\nat = [1, 2, 3, 0, 0, nan]",
+            r"positions\.A: at has a number that is not below a million",
+        ),
+        ("[positions.A]\nat = [0,0,0,0,0,0]\nof = 'B'", r"positions\.A: of = 'B', but there is no such part"),
+        ("[positions.'A B']\nat = [0,0,0,0,0,0]", r"positions\.A B: a name consists of letters, .*"),
+        ("[parts.B]\nat = [0,0,0,0]\nholes = [[0,0,0]]", r"parts\.B: the hole at \(0, 0\) has diameter 0"),
+        ("[parts.B]\nat = 'here'", r"parts\.B: expected `array`, got `str` - at `\$\.at`"),
+        ("[place.A]", r"object contains unknown field `place`"),
+        ("positions = 3", r"expected `object`, got `int` - at `\$\.positions`"),
+    ],
+)
+def test_mistake_in_a_taught_file_is_named_with_its_key(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InvalidInput, match=rf"taught\.toml: {message}$"):
+        load_taught(write(tmp_path, text))
+
+
+def test_what_is_no_toml_is_called_so(tmp_path: Path) -> None:
+    with pytest.raises(
+        InvalidInput, match=r"taught\.toml is not TOML: expected .*\(at line 1, column \d+\)$"
+    ):
+        load_taught(write(tmp_path, "positions PIN"))

@@ -1,0 +1,75 @@
+"""The planning phase finds what cannot be done before anything moves."""
+
+import numpy as np
+import pytest
+
+from handeye.al import compile_text
+from handeye.arm.kinematics import forward
+from handeye.arm.stanford import STANFORD
+from handeye.diagnostics import Diagnostic
+from handeye.plan.plan import Plan
+from handeye.plan.planner import make_plan
+from handeye.plan.program import Change
+from handeye.plan.taught import Taught
+from handeye.source import Source
+from handeye.units import INCH
+
+
+def plan_of(text: str) -> tuple[Plan | None, list[Diagnostic]]:
+    program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
+    assert program is not None, diagnostics
+    return make_plan(program, STANFORD)
+
+
+def only(text: str) -> Diagnostic:
+    plan, problems = plan_of(text)
+    assert plan is None
+    (problem,) = problems
+    return problem
+
+
+def test_row_2_change_displaces_from_the_present_place() -> None:
+    plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 0 -1] 0.6")
+    assert plan is not None
+    start, end = (forward(STANFORD, np.array(q))[:3, 3] for q in plan.motions[1].knots)
+    assert end - start == pytest.approx([0, 0, -0.6 * INCH], abs=1e-9)
+
+
+def test_row_3_the_length_of_the_direction_does_not_matter() -> None:
+    plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 0 -2] 0.6")
+    assert plan is not None
+    operation = plan.program.steps[1].operation
+    assert isinstance(operation, Change)
+    assert operation.displacement == pytest.approx((0, 0, -0.6 * INCH))
+
+
+def test_row_39_a_wrist_inside_the_cylinder_is_found_in_planning() -> None:
+    problem = only("TRANS T [20 15 5 90 90 0]\nMOVE T")
+    assert problem.code == "unreachable-position"
+    assert "it cannot come nearer than 6.1 in" in problem.notes[0]
+
+
+def test_row_40_a_hand_through_the_table_is_found_in_planning() -> None:
+    problem = only("TRANS T [25 38 4 90 90 0]\nTRANS LOW [25 38 -1 90 90 0]\nMOVE T\nMOVE LOW")
+    assert problem.code == "hand-through-table"
+    assert problem.message == "the hand would be 1.00 in below the table at LOW"
+
+
+def test_a_straight_motion_through_the_table_is_found_in_planning() -> None:
+    assert only("TRANS T [25 38 1 90 90 0]\nMOVE T\nCHANGE [0 0 -1] 2").code == "hand-through-table"
+
+
+def test_a_goal_out_of_reach_names_the_joint_and_the_amount() -> None:
+    problem = only("TRANS T [25 38 4 90 90 0]\nTRANS FAR [53 53 4 90 90 0]\nMOVE T\nMOVE FAR")
+    assert problem.notes[0] == "joint 3 (boom) would have to be 54.5 in; it ends at 50.0 in"
+
+
+def test_a_stop_beyond_the_arm_is_found_in_planning() -> None:
+    problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP [0 0 -3000]\nCHANGE [0 0 -1] 1")
+    assert problem.code == "stop-beyond-arm"
+
+
+def test_each_motion_is_planned_from_where_the_one_before_ends() -> None:
+    plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 1 0] 1\nMOVE T")
+    assert plan is not None
+    assert plan.motions[1].knots[-1] == plan.motions[2].knots[0]

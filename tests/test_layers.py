@@ -1,0 +1,80 @@
+"""The import rules of docs/design.md, read off the source."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parent.parent / "handeye"
+
+LAYERS = [
+    {"__init__", "units", "pose", "source", "diagnostics", "errors", "files", "resources"},
+    {"plan.__init__", "plan.program", "plan.plan", "plan.world", "plan.taught", "cell.__init__", "cell.ports"},
+    {"arm", "vision", "touch", "al"},
+    {"plan.planner", "work"},
+    {"cell", "judge"},
+    {"report", "trials", "cli", "__main__"},
+]
+"""Downwards only: a module may import from its own layer and those above it in this list."""
+
+MODULES = sorted(p.relative_to(PACKAGE).with_suffix("").as_posix().replace("/", ".") for p in PACKAGE.rglob("*.py"))
+
+
+def layer(module: str) -> int:
+    """The layer of a module: that of its longest listed prefix."""
+    parts = module.split(".")
+    for end in range(len(parts), 0, -1):
+        for number, names in enumerate(LAYERS):
+            if ".".join(parts[:end]) in names:
+                return number
+    raise AssertionError(f"{module} stands in no layer")
+
+
+def imports(module: str) -> set[str]:
+    """Full names of everything a module imports."""
+    path = PACKAGE / (module.replace(".", "/") + ".py")
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            found.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            found.update(f"{node.module}.{alias.name}" for alias in node.names)
+    return found
+
+
+def own(module: str) -> set[str]:
+    """Modules of ours that a module imports."""
+    result = set()
+    for name in imports(module):
+        if name.startswith("handeye."):
+            parts = name.split(".")[1:]
+            while parts and ".".join(parts) not in MODULES and ".".join([*parts, "__init__"]) not in MODULES:
+                parts.pop()
+            result.add(".".join(parts) if ".".join(parts) in MODULES else ".".join([*parts, "__init__"]))
+    return result - {"__init__"}
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_go_downwards_only(module: str) -> None:
+    assert {other: layer(other) for other in own(module) if layer(other) > layer(module)} == {}
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in {"arm", "vision", "touch", "al"}])
+def test_skills_and_language_do_not_know_each_other(module: str) -> None:
+    mine = module.split(".")[0]
+    assert {o for o in own(module) if o.split(".")[0] in {"arm", "vision", "touch", "al"} - {mine}} == set()
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"cell", "judge"}])
+def test_only_the_cell_and_the_referee_know_mujoco(module: str) -> None:
+    assert {name for name in imports(module) if name.split(".")[0] == "mujoco"} == set()
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in {"work", "arm", "vision", "touch", "al"}])
+def test_the_working_phase_sees_the_cell_through_its_ports_only(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] in {"cell", "judge"}} <= {"cell.ports", "cell.__init__"}
+
+
+def test_the_referee_speaks_only_to_reports() -> None:
+    listeners = {m for m in MODULES if any(o.startswith("judge") for o in own(m))}
+    assert {m for m in listeners if m.split(".")[0] not in {"judge", "report", "trials", "cli"}} == set()

@@ -1,0 +1,49 @@
+import numpy as np
+import pytest
+
+from handeye.touch.guards import AgainstGuard, ForceGuard, Reading, TorqueGuard
+from handeye.units import OUNCE_FORCE
+
+DOWN = np.array([0.0, 0.0, -1.0])
+
+
+def pressing(ounces: tuple[float, float, float], direction: np.ndarray = DOWN) -> Reading:
+    return Reading(force=np.array(ounces) * OUNCE_FORCE, direction=direction)
+
+
+def test_a_force_guard_trips_beyond_the_length_of_its_vector() -> None:
+    guard = ForceGuard(force=np.array([0, 0, -50 * OUNCE_FORCE]))
+    assert guard.check(pressing((0, 0, -49.9))) is None
+    trip = guard.check(pressing((0, 0, -51)))
+    assert trip is not None
+    assert trip.guard == "force"
+    assert trip.value == pytest.approx(51 * OUNCE_FORCE)
+    assert trip.limit == pytest.approx(50 * OUNCE_FORCE)
+
+
+def test_a_force_guard_does_not_mind_the_side_or_the_other_way() -> None:
+    guard = ForceGuard(force=np.array([0, 0, -50 * OUNCE_FORCE]))
+    assert guard.check(pressing((80, 0, 0))) is None
+    assert guard.check(pressing((0, 0, 80))) is None
+
+
+@pytest.mark.parametrize("direction", np.eye(3))
+def test_an_against_guard_looks_where_the_motion_goes(direction: np.ndarray) -> None:
+    guard = AgainstGuard(limit=10.0)
+    assert guard.check(Reading(force=11 * direction, direction=direction)) is not None
+    assert guard.check(Reading(force=-11 * direction, direction=direction)) is None
+    assert guard.check(Reading(force=9 * direction, direction=direction)) is None
+
+
+def test_a_torque_guard_trips_when_the_motor_reaches_its_torque() -> None:
+    guard = TorqueGuard(limit=0.3)
+    assert guard.check(Reading(force=np.zeros(3), direction=DOWN, tool_torque=0.29)) is None
+    trip = guard.check(Reading(force=np.zeros(3), direction=DOWN, tool_torque=0.3))
+    assert trip is not None
+    assert (trip.guard, trip.value, trip.limit) == ("torque", 0.3, 0.3)
+
+
+def test_a_torque_guard_minds_neither_force_nor_the_sense_of_turning() -> None:
+    guard = TorqueGuard(limit=0.3)
+    assert guard.check(Reading(force=100 * DOWN, direction=DOWN)) is None
+    assert guard.check(Reading(force=np.zeros(3), direction=DOWN, tool_torque=-0.4)) is not None

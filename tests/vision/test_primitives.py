@@ -1,0 +1,118 @@
+"""Beam, blob localiser and convex blob characteriser (reference 8, rows 47 to 49)."""
+
+import math
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from handeye.vision.beam import BRIGHTER, DARKER, Scan, beam
+from handeye.vision.blob import localise
+from handeye.vision.camera import COLUMNS, ROWS
+from handeye.vision.characteriser import characterise
+
+
+def step_picture() -> np.ndarray:
+    """Level 3 left of the middle of column 120, level 11 right of it."""
+    picture = np.full((ROWS, COLUMNS), 3, np.uint8)
+    picture[:, 120:] = 11
+    return picture
+
+
+def ellipse(width: float, height: float, inside: int = 3, outside: int = 11) -> np.ndarray:
+    """An ellipse about (160, 120), its axes along the picture's."""
+    v, u = np.mgrid[0:ROWS, 0:COLUMNS]
+    within = ((u - 160) / (width / 2)) ** 2 + ((v - 120) / (height / 2)) ** 2 <= 1
+    return np.where(within, inside, outside).astype(np.uint8)
+
+
+def test_a_beam_meets_a_step_where_it_is():
+    edge = beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 4, 200)
+    assert edge is not None
+    assert edge.u == pytest.approx(119.5, abs=0.5)
+    assert (edge.before, edge.after) == (3, 11)
+
+
+def test_a_beam_finds_nothing_below_its_threshold():
+    assert beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 8.5, 200) is None
+
+
+def test_a_beam_finds_only_the_polarity_it_is_asked_for():
+    assert beam(Scan(step_picture()), (20, 100), (1, 0), DARKER, 4, 200) is None
+    assert beam(Scan(step_picture()), (220, 100), (-1, 0), DARKER, 4, 200) is not None
+
+
+def test_a_beam_goes_no_farther_than_its_reach():
+    assert beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 4, 90) is None
+
+
+def test_a_beam_that_starts_outside_the_picture_finds_nothing():
+    assert beam(Scan(step_picture()), (-30, 100), (1, 0), BRIGHTER, 4, 200) is None
+
+
+def test_a_slanted_beam_meets_the_step_at_its_true_length():
+    edge = beam(Scan(step_picture()), (60, 60), (math.sqrt(0.5), math.sqrt(0.5)), BRIGHTER, 4, 150)
+    assert edge is not None
+    assert edge.length == pytest.approx(59.5 * math.sqrt(2), abs=1)
+
+
+def test_a_beam_keeps_account_of_the_points_it_reads():
+    scan = Scan(step_picture())
+    beam(scan, (20, 100), (1, 0), BRIGHTER, 4, 150)
+    assert scan.beams == 1
+    assert scan.read[100, 20:170].all()
+    assert not scan.read[:100].any()
+
+
+@settings(max_examples=60, deadline=None)
+@given(angle=st.floats(0, 2 * math.pi), share=st.floats(0, 0.75))
+def test_bouncing_finds_an_ellipse_from_any_seed_inside(angle: float, share: float):
+    seed = 160 + 30 * share * math.cos(angle), 120 + 20 * share * math.sin(angle)
+    blob = characterise(Scan(ellipse(60, 40)), seed, 4, 80)
+    assert blob is not None
+    assert (blob.u, blob.v) == pytest.approx((160, 120), abs=1)
+    assert (blob.width, blob.height) == pytest.approx((60, 40), abs=1)
+    assert blob.bounces <= 10
+
+
+def test_bouncing_fails_where_there_is_no_border():
+    assert characterise(Scan(np.full((ROWS, COLUMNS), 7, np.uint8)), (160, 120), 4, 80) is None
+
+
+def test_the_characteriser_works_on_bright_blobs_too():
+    blob = characterise(Scan(ellipse(60, 40, 12, 3)), (150, 125), 4, 80, polarity=DARKER)
+    assert blob is not None
+    assert (blob.u, blob.v) == pytest.approx((160, 120), abs=1)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_localiser_puts_a_tight_box_around_a_blob(seed: int):
+    rng = np.random.default_rng(seed)
+    picture = np.full((ROWS, COLUMNS), 3, np.uint8)
+    u, v = int(rng.integers(80, 250)), int(rng.integers(80, 170))
+    cv2.ellipse(picture, (u, v), (40, 25), float(rng.uniform(0, 180)), 0, 360, 11, -1)
+    rows, columns = np.nonzero(picture == 11)
+    window = np.array([[10, 10], [320, 10], [320, 245], [10, 245]], float)
+    box = localise(Scan(picture), window, 3)
+    true = (columns.min(), rows.min(), columns.max(), rows.max())
+    assert box is not None
+    assert np.abs(np.subtract(box, true)).max() <= 2
+
+
+def test_the_localiser_passes_over_blobs_that_do_not_fit():
+    picture = np.full((ROWS, COLUMNS), 3, np.uint8)
+    picture[40:50, 40:60] = 11
+    picture[120:180, 150:230] = 11
+    window = np.array([[10, 10], [320, 10], [320, 245], [10, 245]], float)
+    box = localise(Scan(picture), window, 3, lambda box: box.width > 50)
+    assert box is not None
+    assert box.contains(190, 150)
+
+
+def test_the_localiser_sees_nothing_outside_its_window():
+    picture = np.full((ROWS, COLUMNS), 3, np.uint8)
+    picture[120:180, 250:300] = 11
+    window = np.array([[10, 10], [200, 10], [200, 245], [10, 245]], float)
+    assert localise(Scan(picture), window, 3) is None
