@@ -37,11 +37,12 @@
         STOP    [0 0 -29]
         CHANGE  [0 0 -1] 1.2 .5 ;set it down
         LOAD    0
-        STOP    [0 144 0]
+        STOP    [0 72 0]
         CHANGE  [0 1 0] 1.2 .5  ;against the far block
-        STOP    [-144 0 0]
+        STOP    [-72 0 0]
         CHANGE  [-1 0 0] 1.2 .5 ;against the left block
         OPEN    1.85
+        CHANGE  [0 0 1] 2
 
         STAGE   "insert the aligning pins"
         OPEN    1
@@ -119,6 +120,7 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         TRAVEL  1.7 2.1         ;a top that stands on the pins stops high
         LOAD    0
         OPEN    2.8
+        CHANGE  [0 0 1] 3
 
         STAGE   "drive the first two screws"
         OPEN    1.6

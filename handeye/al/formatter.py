@@ -1,5 +1,6 @@
 """One look for all programs: columns as in a listing of the period, every comment kept."""
 
+from collections.abc import Sequence
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
@@ -8,7 +9,7 @@ from handeye.al.scanner import Kind, Line, Token, scan
 
 OPERATION: Final = 8
 OPERANDS: Final = 16
-COMMENT: Final = 40
+COMMENT: Final = 32
 
 
 def format_text(text: str) -> str:
@@ -17,14 +18,10 @@ def format_text(text: str) -> str:
 
 
 def _format(line: Line) -> str:
-    tokens = list(line.tokens)
-    if not tokens:
+    if not line.tokens:
         return (" " * OPERATION if line.indented and line.comment else "") + (line.comment or "")
-    labels = ""
-    while len(tokens) > 1 and tokens[0].kind is Kind.NAME and tokens[1].text == ":":
-        labels += f"{tokens[0].text}: "
-        tokens = tokens[2:]
-    text = labels.rstrip()
+    labels, tokens = line.split()
+    text = " ".join(f"{label.text}:" for label in labels)
     if tokens and tokens[0].text.upper() == "DEFINE":
         text = _column(text, 0) + f"DEFINE {_operands(tokens[1:])}".rstrip()
     elif tokens:
@@ -35,7 +32,7 @@ def _format(line: Line) -> str:
     return text if line.comment is None else _column(text, COMMENT) + line.comment
 
 
-def _is_free(word: str, tokens: list[Token]) -> bool:
+def _is_free(word: str, tokens: Sequence[Token]) -> bool:
     definition = INSTRUCTIONS.get(word)
     return definition is not None and any(o.free for o in definition.operands) and len(tokens) > 1
 
@@ -45,7 +42,7 @@ def _column(text: str, column: int) -> str:
     return text.ljust(column) if len(text) < column else text + " " if text else text
 
 
-def _operands(tokens: list[Token]) -> str:
+def _operands(tokens: Sequence[Token]) -> str:
     text = ""
     for token in tokens:
         tight = not text or text[-1] == "[" or token.text in ("]", ":")

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import accumulate
 
 import msgspec
 
@@ -24,6 +25,7 @@ def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[st
     lowering.end()
     drafts = lowering.drafts
     targets = [lowering.link(index) for index in range(len(drafts))]
+    lowering.mark_searching()
     steps = tuple(
         Step(
             operation=draft.operation,
@@ -66,6 +68,8 @@ class _Lowering:
     """Modifiers that wait for their motion."""
     shiftable: bool = False
     """The statement before is a MOVE, or one of its RESTOREs."""
+    loops: list[tuple[int, int]] = field(default_factory=list)
+    """Of searches: first step, and the AOJ that goes back to it."""
     lost: int = 0
     """Jumps to nowhere so far."""
 
@@ -198,7 +202,7 @@ class _Lowering:
             if (scope, label.text) in self.labels:
                 target = self.labels[scope, label.text][0]
                 if draft.word == "AOJ":
-                    self.search_between(target, index)
+                    self.loops.append((target, index))
                 return self.at(target)
         known = [name for scope, name in self.labels if scope in scopes]
         message = f"no statement has the label {quoted(label.text)}"
@@ -208,9 +212,15 @@ class _Lowering:
         self.problem("unknown-label", message, label, help=help)
         return None
 
-    def search_between(self, first: int, last: int) -> None:
-        for draft in self.drafts[first:last]:
-            if isinstance(draft.operation, Move) and draft.word == "MOVE":
+    def mark_searching(self) -> None:
+        """Every MOVE between a label and an AOJ that goes back to it belongs to a search."""
+        change = [0] * (len(self.drafts) + 1)
+        for first, last in self.loops:
+            if first < last:
+                change[first] += 1
+                change[last] -= 1
+        for draft, loops in zip(self.drafts, accumulate(change), strict=False):
+            if loops and isinstance(draft.operation, Move) and draft.word == "MOVE":
                 draft.operation = msgspec.structs.replace(draft.operation, searching=True)
 
     def skip(self, index: int) -> int | None:

@@ -24,13 +24,12 @@ def parse(text: str) -> tuple[Script, list[Diagnostic]]:
 
 def _macro_names(lines: list[Line]) -> set[str]:
     """Names of macros, known before they are defined, so that a call may stand first."""
-    return {
-        line.tokens[1].text.upper()
-        for line in lines
-        if len(line.tokens) > 1
-        and line.tokens[0].text.upper() == "DEFINE"
-        and line.tokens[1].kind is Kind.NAME
-    }
+    found = set()
+    for line in lines:
+        tokens = line.split()[1]
+        if len(tokens) > 1 and tokens[0].text.upper() == "DEFINE" and tokens[1].kind is Kind.NAME:
+            found.add(tokens[1].text.upper())
+    return found
 
 
 @dataclass(slots=True)
@@ -46,10 +45,17 @@ class _Parser:
     def line(self, line: Line) -> None:
         if line.is_blank and self.opened is not None:
             self.close()
-        elif line.tokens and line.tokens[0].text.upper() == "DEFINE":
-            self.define(line.tokens)
+        heads, tokens = line.split()
+        labels = [Name(token.text, token.span) for token in heads]
+        if tokens and tokens[0].text.upper() == "DEFINE":
+            self.define(tokens)
+            if labels:
+                # They belong to what follows the macro.
+                self.statements.append(self.statement(line, labels, ()))
         elif line.tokens:
-            (self.statements if self.opened is None else self.body).append(self.statement(line))
+            (self.statements if self.opened is None else self.body).append(
+                self.statement(line, labels, tokens)
+            )
 
     def end(self) -> None:
         if self.opened is not None and len(self.diagnostics) < LIMIT:
@@ -57,8 +63,9 @@ class _Parser:
         self.close()
 
     def close(self) -> None:
-        if self.opened is not None and self.opened.text not in {*self.macros, *INSTRUCTIONS}:
-            self.macros[self.opened.text] = Macro(name=self.opened, body=tuple(self.body))
+        name = self.opened
+        if name is not None and name.text not in self.macros and name.text not in INSTRUCTIONS:
+            self.macros[name.text] = Macro(name=name, body=tuple(self.body))
         self.opened, self.body = None, []
 
     def define(self, tokens: tuple[Token, ...]) -> None:
@@ -100,12 +107,7 @@ class _Parser:
             help="end a macro with a blank line",
         )
 
-    def statement(self, line: Line) -> Statement:
-        tokens = line.tokens
-        labels = []
-        while len(tokens) > 1 and tokens[0].kind is Kind.NAME and tokens[1].text == ":":
-            labels.append(Name(tokens[0].text, tokens[0].span))
-            tokens = tokens[2:]
+    def statement(self, line: Line, labels: list[Name], tokens: tuple[Token, ...]) -> Statement:
         if not tokens:
             span = Span(start=line.tokens[0].start, end=line.end)
             return _statement(labels, None, line, span)

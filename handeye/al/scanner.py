@@ -42,6 +42,17 @@ class Line(NamedTuple):
     indented: bool
     """Starts with a blank."""
 
+    def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
+        """The names of the labels, and what follows them."""
+        at = 0
+        while (
+            at + 1 < len(self.tokens)
+            and self.tokens[at].kind is Kind.NAME
+            and self.tokens[at + 1].text == ":"
+        ):
+            at += 2
+        return self.tokens[:at:2], self.tokens[at:]
+
     @property
     def is_blank(self) -> bool:
         """Nothing on it at all: ends a macro."""

@@ -18,14 +18,15 @@ from handeye.arm.samples import Samples
 from handeye.pose import Array
 from handeye.units import JIFFY
 
-OMEGA: Final = 25.0
-"""Natural frequency of the position error, rad/s, critically damped. Torque held over 1/60 s becomes unstable
-between 50 and 60 rad/s (measured); at 20 to 30 the arm follows to a fraction of a millimetre."""
+OMEGA: Final = np.array([25.0, 25.0, 25.0, 40.0, 40.0, 40.0])
+"""Natural frequency of each joint's position error, rad/s, critically damped. Torque held over 1/60 s becomes
+unstable between 50 and 60 rad/s (measured); at 20 to 30 the arm follows to a fraction of a millimetre. The wrist
+has little inertia and would bend under a push of a few pounds, hence more there."""
 
 
 def torque(
     M: Array, bias: Array, q_des: Array, qd_des: Array, qdd_des: Array, q: Array, qd: Array,
-    friction: Array | float = 0.0, *, omega: float = OMEGA,
+    friction: Array | float = 0.0, *, omega: Array | float = OMEGA,
     free: NDArray[np.bool_] | None = None, exerted: Array | None = None,
 ) -> Array:  # fmt: skip
     """Drive torques for one period, shape (6,), N m and (joint 3) N.

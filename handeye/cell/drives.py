@@ -15,9 +15,7 @@ _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))  # cr
 GAP_SPEED: Final = 0.08  # m/s, of the opening. Data sheet of 1974: 8 cm/s free.
 GAP_MAX: Final = 0.105  # m. Data sheet of 1974: 10.5 cm.
 GRIP_MAX: Final = 80.0  # N per finger: the strongest grip the assembly study measured.
-_GIVE: Final = (
-    0.004  # m by which the fingers must be held up until they press with all the force allowed. Chosen.
-)
+_GIVE: Final = 0.004  # m by which the fingers must be held up to press with all the force allowed. Chosen.
 _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N s/m over 2000 N/m.
 
 
@@ -70,14 +68,17 @@ class HandDrive:
         goal = min(max(gap, 0.0), GAP_MAX)
         here, step = self.gap, GAP_SPEED * TICK
         start = min(max(self._set_point, here - _GIVE), here + _GIVE)
-        if (goal - here) * (start - here) < 0:
+        if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
         moved = min(max(goal - start, -step), step)
         self._set_point = start + moved
-        self._press(min(max(grip, 0.0), GRIP_MAX), ahead=moved / TICK * _LAG)
+        self._press(min(max(grip, 0.0), GRIP_MAX), ahead=moved * (_LAG / TICK - 0.5))
 
     def _press(self, grip: float, ahead: float) -> None:
-        """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one."""
+        """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.
+
+        `ahead` (m) makes up for the servo's lag and for the set-point's steps.
+        """
         model, motor = self._model, self._motor
         model.actuator_gainprm[motor, 0] = grip / _GIVE
         model.actuator_biasprm[motor, 1:3] = (-grip / _GIVE, -grip / _GIVE * _LAG)

@@ -21,8 +21,8 @@ FINE: Final = 2
 """Samples for a picture point, along the line and across it."""
 LUMA: Final = np.array([0.299, 0.587, 0.114])
 """Weights of red, green and blue in luminance, ITU-R BT.601."""
-SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
-"""Geom groups a camera sees; higher groups are collision shapes."""
+SHOWN: Final = np.array([1, 0, 1, 0, 0, 0], dtype=np.uint8)
+"""Geom groups the camera sees: the ground and the parts. Group 1 is scenery for people, above 2 stand collision shapes."""
 SKY: Final = 0.1
 """Luminance where there is nothing. Placeholder."""
 

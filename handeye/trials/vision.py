@@ -18,7 +18,13 @@ from handeye.cell.staging import Stage
 from handeye.plan.program import Hole, Part
 from handeye.pose import Array, planar, translated, yaw
 from handeye.units import DEGREE, INCH
-from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
+from handeye.vision.base import (
+    Failure,
+    GeneralLocation,
+    SpecificLocation,
+    locate_general,
+    locate_specific,
+)
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera import DRAWING, CameraModel, View
 from handeye.vision.gasket import inspect
@@ -27,9 +33,9 @@ from handeye.vision.holes import hole_places
 WITHIN: Final = (INCH / 3, INCH / 4)
 """Accuracy of the eye by the paper, in X and in Y."""
 WRONG: Final = 5.0
-"""A hole that is found more than this many picture points off is another thing, whatever the camera's error."""
+"""A hole found more than this many picture points off is another thing, whatever the camera's error."""
 GASKETS: Final = ("right", "shifted .15", "shifted .3", "absent")
-"""Cases of a gasket: on properly within .02 in and .3 deg, off by inches in any direction, none."""
+"""Cases: on properly within .02 in and .3 deg; off by inches in any direction; no gasket."""
 SPOTS: Final = 20
 ARM_ERROR: Final = 0.1 * INCH
 SPOT_ERROR: Final = 0.5
@@ -50,7 +56,7 @@ class BaseCounts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GasketCounts:
-    """How often each case was called right."""
+    """How often each of GASKETS was called right."""
 
     tried: int
     accepted: dict[str, int]

@@ -7,9 +7,8 @@ centre and of rim.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from handeye.pose import Array
 from handeye.units import INCH
 from handeye.vision.beam import Scan
 from handeye.vision.camera import View
-from handeye.vision.characteriser import Blob, characterise, fit_circle, rim
+from handeye.vision.characteriser import fit_circle, rim
 from handeye.vision.holes import hole_places
 
 ABSENT: Final = 2.2
@@ -50,7 +49,7 @@ class Inspection:
     expected: tuple[tuple[float, float], ...]
     """Where the centres of the large holes should be, by the pose of the base."""
     found: tuple[tuple[float, float] | None, ...]
-    """Where the characteriser finds them in the difference."""
+    """Where they are found in the difference."""
     shift: float | None
     """The most that the border of a hole is displaced, m; None if no border is found."""
 
@@ -76,8 +75,8 @@ def inspect(
     new, old = Scan(difference(before, after)), Scan(before)
     places = hole_places(part, pose)[:2]
     expected = tuple((float(u), float(v)) for u, v in view.project(places))
-    level = _level(new, view, part, places)
-    if level < ABSENT:
+    pairs = list(zip(places, part.holes, strict=False))
+    if np.median([_around(new, view, place, hole) for place, hole in pairs]) < ABSENT:
         return Inspection(
             ok=False,
             sentence="no gasket: the picture after shows nothing new where it should be",
@@ -85,15 +84,7 @@ def inspect(
             found=(None, None),
             shift=None,
         )
-    face, dark = np.percentile(_about(old, expected), [92, 12])
-    steps = _Steps(
-        after=max(STEP[0], STEP[1] * level),
-        before=max(2.0, BEFORE_STEP * float(face - dark)),
-        face=BRIGHT * float(face),
-    )
-    checks = [
-        _check(new, old, view, place, hole, steps) for place, hole in zip(places, part.holes, strict=False)
-    ]
+    checks = [_check(new, old, view, place, hole) for place, hole in pairs]
     faults = [f"{name} {check.fault}" for name, check in zip(_NAMES, checks, strict=True) if check.fault]
     return Inspection(
         ok=not faults,
@@ -107,8 +98,7 @@ def inspect(
 _NAMES: Final = ("the largest hole", "the second hole")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Steps:
+class _Steps(NamedTuple):
     """Levels: least step across a border in the difference, in the picture before, and what is face there."""
 
     after: float
@@ -125,36 +115,45 @@ class _Check:
     shift: float | None = None
 
 
-def _check(new: Scan, old: Scan, view: View, place: Array, hole: Hole, steps: _Steps) -> _Check:
-    base = place
-    for _ in range(2):  # the second time from the middle of the hole, where a beam meets its border squarely
-        fitted = _centre(old, view, base, hole, steps.before, steps.face)
-        if fitted is None:
-            return _Check(fault="of the base is not found in the picture before")
-        base = np.array([*fitted, place[2]])
-    blob = _hole(new, view, base, hole, steps.after)
-    if blob is None:
-        return _Check(fault="of the gasket is not found")
+def _check(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Check:
+    steps = _levels(new, old, view, place, hole)
+    rough = _centre(old, view, place, hole, steps.before, steps.face)
+    # the second time from the middle of the hole, where beams meet its border squarely
+    fitted = rough and _centre(old, view, np.array([*rough, place[2]]), hole, steps.before, steps.face)
+    if fitted is None:
+        return _Check(fault="of the base is not found in the picture before")
+    base = np.array([*fitted, place[2]])
     moved = _centre(new, view, base, hole, steps.after)
     bulge = _bulge(new, old, view, base, hole, steps)
     if moved is None or bulge is None:
-        return _Check(fault="of the gasket has no round border", found=(blob.u, blob.v))
+        return _Check(fault="of the gasket is not found")
     off = math.dist(moved, fitted)
     fault = ""
     if off > CENTRE_SHIFT or bulge > RIM_SHIFT:
         fault = f"of the gasket is off by about {max(bulge, off) / INCH:.2f} in"
-    return _Check(fault=fault, found=(blob.u, blob.v), shift=max(bulge, off))
+    u, v = view.project(np.array([*moved, place[2]]))[0]
+    return _Check(fault=fault, found=(float(u), float(v)), shift=max(bulge, off))
 
 
-def _hole(scan: Scan, view: View, place: Array, hole: Hole, step: float) -> Blob | None:
-    """The dark blob at a place, shape (3,), m, if it is about as large as the hole."""
+def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Steps:
+    """Steps for one hole. The darkest quarter of its surroundings counts: a shadow may lie across."""
+    gasket = float(np.percentile(_around(new, view, place, hole), 25))
+    face = float(np.percentile(_around(old, view, place, hole), 25))
     u, v = view.project(place)[0]
-    across, down = view.resolution(place)
-    blob = characterise(scan, (float(u), float(v)), step, 1.1 * hole.diameter * across, wide=True)
-    if blob is None:
-        return None
-    size = np.sqrt(max(blob.width * blob.height, 0.0) / (across * down))
-    return blob if 0.6 < size / hole.diameter < 1.6 else None
+    inside = float(np.median(old.patch(float(u), float(v), 3)))
+    return _Steps(
+        after=max(STEP[0], STEP[1] * gasket),
+        before=max(STEP[0], BEFORE_STEP * (face - inside)),
+        face=BRIGHT * face,
+    )
+
+
+def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
+    """Intensities on a ring around a hole, where there is face or gasket and little else, shape (24,)."""
+    angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
+    points = view.project(place + ring * (hole.diameter / 2 + BESIDE))
+    return np.array([scan.patch(float(u), float(v), 1).mean() for u, v in points])
 
 
 def _centre(
@@ -187,19 +186,3 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
     smooth = np.median(neighbours, axis=0)[clear]
     smooth = smooth[~np.isnan(smooth)]
     return float(smooth.max() - np.median(smooth)) if len(smooth) >= RAYS // 3 else None
-
-
-def _level(scan: Scan, view: View, part: Part, places: Array) -> float:
-    """Median difference around the holes, where there is gasket and nothing else."""
-    angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-    ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
-    around = [
-        place + ring * (hole.diameter / 2 + BESIDE) for place, hole in zip(places, part.holes, strict=False)
-    ]
-    return float(np.median([scan.patch(u, v, 1).mean() for u, v in view.project(np.vstack(around))]))
-
-
-def _about(scan: Scan, expected: Sequence[tuple[float, float]]) -> Array:
-    """Intensities about the two holes."""
-    u, v = np.mean(expected, axis=0)
-    return scan.patch(float(u), float(v), round(math.dist(*expected)))[::4, ::4]

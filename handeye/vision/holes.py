@@ -15,8 +15,6 @@ from handeye.vision.blob import Box
 from handeye.vision.camera import View
 from handeye.vision.characteriser import Blob, characterise, fit_circle, rim
 
-FACE: Final = 0.72
-"""A hole's surroundings must be at least this much of the level of the machined face."""
 ELONGATION: Final = (0.6, 1.65)
 SIZES: Final = (0.55, 1.3)
 """Accepted sizes, over the diameters of the smallest and the largest hole."""
@@ -33,11 +31,16 @@ SEED: Final = 4
 
 
 class Search(NamedTuple):
-    """How hard to look: spacing of the beams (points), averaging, and step as a fraction of the contrast."""
+    """How hard to look."""
 
     spacing: int
+    """Points between beams."""
     wide: bool
+    """Average over three points across a beam."""
     contrast: float
+    """Step that is an edge, as a share of the contrast in the box."""
+    face: float = 0.72
+    """What is around a hole must be at least this share of the level of the machined face."""
 
 
 SEARCHES: Final = (
@@ -45,8 +48,10 @@ SEARCHES: Final = (
     Search(7, True, 0.38),
     Search(5, True, 0.28),
     Search(5, True, 0.20),
+    Search(5, True, 0.20, face=0.4),
 )
-"""Tried in this order: starting with a small step finds more that is not a hole."""
+"""Tried in this order: starting with a small step finds more that is not a hole. The last is for the shadow
+of the arm across the face, which the vision study did not have."""
 
 
 class Levels(NamedTuple):
@@ -91,7 +96,7 @@ def candidates(
     """Send beams through the box; at every step from the bright face to dark try the characteriser."""
     z = part.at[2] + part.face
     across, down = view.resolution(view.back_project(box.corners().mean(axis=0), z)[0])
-    step, bright = levels.step(search), FACE * levels.face
+    step, bright = levels.step(search), search.face * levels.face
     reach = 1.35 * part.holes[0].diameter * across
     found: list[Candidate] = []
     for edge, (du, dv) in _dark_edges(scan, box, step, search):
@@ -168,7 +173,7 @@ def classify(found: list[Candidate], part: Part) -> Pair | None:
 def refine(scan: Scan, view: View, pair: Pair, part: Part, levels: Levels, search: Search) -> Array | None:
     """Centres of the two holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
     z = part.at[2] + part.face
-    step, bright = levels.step(search), 0.9 * FACE * levels.face
+    step, bright = levels.step(search), 0.9 * search.face * levels.face
     centres = []
     for candidate, hole in zip(pair, part.holes, strict=False):
         blob = candidate.blob
@@ -205,14 +210,12 @@ def dark_screw_holes(
     scan: Scan, view: View, part: Part, pose: tuple[float, float, float], face: float
 ) -> int:
     """How many of the screw holes are dark spots in the bright face, as they should be."""
-    if not part.screw_holes:
-        return 0
     dark = 0
     for u, v in view.project(hole_places(part, pose, screws=True)):
-        spot = scan.patch(u, v, 2)
-        if spot.shape == (5, 5):
+        spot, around = scan.patch(u, v, 2), float(np.median(scan.patch(u, v, 6)))
+        if spot.shape == (5, 5) and around > 0.4 * face:
             means = (spot[:-1, :-1] + spot[:-1, 1:] + spot[1:, :-1] + spot[1:, 1:]) / 4
-            dark += bool(means.min() < 0.85 * face - 0.3)
+            dark += bool(means.min() < 0.8 * around - 0.3)
     return dark
 
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from handeye.cell.ports import Picture
 
-LEVEL: Final = 2.5
-"""Least mean difference over 3 x 3 points; the noise of such a mean is half a level. Placeholder."""
+LEVEL: Final = 3.0
+"""Least mean difference over 3 x 3 points: six times the noise of such a mean."""
 RADIUS: Final = 10
 """Points about the peak that count to its centre: the lamp seen near, with the 50 mm lens."""
 

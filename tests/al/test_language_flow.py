@@ -67,6 +67,10 @@ def test_label_on_a_line_of_its_own_belongs_to_the_next_instruction() -> None:
     assert walk(compiled("JUMP A\nPARK\nA:\n; here\nOPEN 1"), {}) == ["JUMP A", "OPEN 1"]
 
 
+def test_label_on_a_definition_belongs_to_what_follows_the_macro() -> None:
+    assert walk(compiled("JUMP L\nL: DEFINE A\nPARK\n\nOPEN 1\nA"), {}) == ["JUMP L", "OPEN 1", "PARK"]
+
+
 def test_label_before_a_modifier_leads_to_its_motion() -> None:
     assert walk(compiled("JUMP A\nPARK\nA: STOP 5\nMOVE T"), {}) == ["JUMP A", "MOVE T"]
 

@@ -96,7 +96,7 @@ def test_steps_lead_only_to_steps() -> None:
 
 def test_listing_is_laid_out_in_columns() -> None:
     assert al.format_text("l1: move   T ;go\n stop [ 0 0  -50 ]\n;note\n\n  ;note") == (
-        "l1:     MOVE    T                       ;go\n        STOP    [0 0 -50]\n;note\n\n        ;note\n"
+        "l1:     MOVE    T               ;go\n        STOP    [0 0 -50]\n;note\n\n        ;note\n"
     )
 
 

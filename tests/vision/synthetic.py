@@ -20,7 +20,9 @@ FINE = 4
 def part(yaw: float = 90 * DEGREE) -> Part:
     """The pump base on the belt."""
     angles = [a * DEGREE for a in (50, 130, 230, 310)]
-    screws = [Hole(x=1.6 * INCH * math.cos(a), y=1.6 * INCH * math.sin(a), diameter=0.25 * INCH) for a in angles]
+    screws = [
+        Hole(x=1.6 * INCH * math.cos(a), y=1.6 * INCH * math.sin(a), diameter=0.25 * INCH) for a in angles
+    ]
     return Part(
         at=(44.5 * INCH, 28 * INCH, 1 * INCH, yaw),
         face=1.75 * INCH,
@@ -54,7 +56,9 @@ class Canvas:
         ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(90)]) * diameter / 2
         self.polygon(where.project(centre + ring), level)
 
-    def picture(self, rng: np.random.Generator | None = None, noise: float = 0.5, blur: float = 0.0) -> Picture:
+    def picture(
+        self, rng: np.random.Generator | None = None, noise: float = 0.5, blur: float = 0.0
+    ) -> Picture:
         """Digitised, with noise if there is a generator."""
         image = self.fine.reshape(ROWS, FINE, COLUMNS, FINE).mean(axis=(1, 3))
         image = cv2.GaussianBlur(image, (0, 0), blur) if blur else image
@@ -63,7 +67,9 @@ class Canvas:
         return np.clip(np.rint(image), 0, 15).astype(np.uint8)
 
 
-def draw_base(canvas: Canvas, where: View, base: Part, pose: tuple[float, float, float], *, holes: int = 2) -> None:
+def draw_base(
+    canvas: Canvas, where: View, base: Part, pose: tuple[float, float, float], *, holes: int = 2
+) -> None:
     """The pump base: plate on the belt, face, `holes` of the large holes, screw holes."""
     x, y, yaw = pose
     z, top = base.at[2], base.at[2] + base.face

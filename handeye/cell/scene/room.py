@@ -56,7 +56,7 @@ def _add_belt(shaper: Shaper, world: World) -> None:
     for y in (radius, depth - radius):
         shaper.cylinder(body, "look", radius, (x0, y, radius), (x1, y, radius), "belt")
     for x in (x0 - 0.008, x1):
-        shaper.box(body, "look", (x, 0.004, 0.0), (x + 0.008, depth - 0.004, top - 0.002), "steel")
+        shaper.box(body, "look", (x, 0.004, 0.0), (x + 0.008, depth - 0.004, top - 0.002), "rail")
         for y in np.linspace(0.1, depth - 0.1, 6):
             shaper.cylinder(body, "look", 0.004, (x - 0.0015, y, radius), (x + 0.0095, y, radius), "black")
 
@@ -66,10 +66,10 @@ def _add_building(shaper: Shaper) -> None:
     body, floor = shaper.spec.worldbody, -d("table.height")
     left, back, right, front = -2.4, -2.0, 6.0, 6.0
     shaper.box(body, "look", (left, back, floor - 0.02), (right, front, floor), "floor")
-    shaper.box(body, "look", (left, back - 0.05, floor), (right, back, 3.0), "plaster")
-    shaper.box(body, "look", (left - 0.05, back, floor), (left, front, 3.0), "plaster")
-    shaper.box(body, "look", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron")
-    shaper.box(body, "look", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron")
+    shaper.box(body, "scenery", (left, back - 0.05, floor), (right, back, 3.0), "plaster")
+    shaper.box(body, "scenery", (left - 0.05, back, floor), (left, front, 3.0), "plaster")
+    shaper.box(body, "scenery", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron")
+    shaper.box(body, "scenery", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron")
     shaper.box(body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.3, 0.3, TRAY), name="tray")
     for k in range(6):
         body.add_site(name=f"park{k}", pos=[0.05 * k, 0.0, TRAY], group=5)
@@ -81,20 +81,24 @@ def _add_computer(shaper: Shaper) -> None:
     back, front, top = -1.95, -1.35, floor + 1.75
     for k in range(3):
         left, right = -0.85 + 0.57 * k, -0.30 + 0.57 * k
-        shaper.box(body, "look", (left, back, floor + 0.06), (right, front, top), "cabinet")
+        shaper.box(body, "scenery", (left, back, floor + 0.06), (right, front, top), "cabinet")
         shaper.box(
-            body, "look", (left + 0.03, front, top - 0.10), (right - 0.03, front + 0.004, top - 0.03), "red"
+            body,
+            "scenery",
+            (left + 0.03, front, top - 0.10),
+            (right - 0.03, front + 0.004, top - 0.03),
+            "red",
         )
         for z in (0.35, 0.62, 0.89):
             panel = (left + 0.03, front, floor + z), (right - 0.03, front + 0.006, floor + z + 0.22)
-            shaper.box(body, "look", *panel, "black")
+            shaper.box(body, "scenery", *panel, "black")
         for row in range(3):
             for column in range(18):
                 x, z = left + 0.06 + 0.025 * column, top - 0.20 - 0.05 * row
                 lit = (7 * column + 5 * row + 3 * k) % 5 < 2
                 shaper.box(
                     body,
-                    "look",
+                    "scenery",
                     (x, front, z),
                     (x + 0.009, front + 0.006, z + 0.009),
                     "lit" if lit else "black",
@@ -109,14 +113,14 @@ def _add_tripod(shaper: Shaper) -> None:
     head = body.add_body(
         name="television_camera", pos=[x, y, z], quat=_towards(np.array([-0.2, -0.75, -1.35]))
     )
-    shaper.box(head, "look", (-0.055, -0.065, 0.07), (0.055, 0.065, 0.36), "enamel")
-    shaper.cylinder(head, "look", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
+    shaper.box(head, "scenery", (-0.055, -0.065, 0.07), (0.055, 0.065, 0.36), "enamel")
+    shaper.cylinder(head, "scenery", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
     for side in (-1, 1):
-        shaper.cylinder(head, "look", 0.016, (side * 0.022, 0, 0.04), (side * 0.022, 0, 0.055), "steel")
-    shaper.cylinder(body, "look", 0.02, (x, y + 0.16, 0.35), (x, y + 0.16, z + 0.20), "steel")
+        shaper.cylinder(head, "scenery", 0.016, (side * 0.022, 0, 0.04), (side * 0.022, 0, 0.055), "steel")
+    shaper.cylinder(body, "scenery", 0.02, (x, y + 0.16, 0.35), (x, y + 0.16, z + 0.20), "steel")
     for angle in (0.5, 2.6, 4.7):
         foot = (x + 0.42 * math.cos(angle), y + 0.30 + 0.30 * math.sin(angle), floor)
-        shaper.cylinder(body, "look", 0.014, foot, (x, y + 0.16, 0.55), "black")
+        shaper.cylinder(body, "scenery", 0.014, foot, (x, y + 0.16, 0.55), "black")
 
 
 def _towards(view: Array) -> list[float]:
@@ -152,7 +156,7 @@ def _add_cameras(spec: mujoco.MjSpec) -> None:
     tv.sensor_size[:] = d.all("camera.raster")
     tv.focal_length[:] = [focal, focal]
     for name, eye, at, fovy in (
-        ("studio", (2.70, 2.25, 1.30), (0.66, 0.66, 0.22), 38.0),
+        ("studio", (2.75, 1.95, 1.35), (0.62, 0.66, 0.20), 37.0),
         ("pump", (1.02, 1.42, 0.42), (0.61, 0.965, 0.035), 25.0),
         ("belt", (1.62, 1.35, 0.75), (1.13, 0.75, 0.03), 32.0),
     ):

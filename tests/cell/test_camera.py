@@ -1,0 +1,186 @@
+"""The simulated television camera: its mechanics, its tube, and its two ways of rendering."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+
+from handeye.cell.camera import SimulatedCamera, true_camera
+from handeye.cell.imperfection import World
+from handeye.cell.rendering import SceneRenderer, make_renderer
+from handeye.cell.vidicon import Vidicon, blur_disc
+from handeye.errors import InvalidInput
+from handeye.vision.beam import Scan
+from handeye.vision.camera import COLUMNS, DRAWING, ROWS, View
+from handeye.vision.characteriser import characterise
+
+BLOCK = (0.65, 0.95, 0.0)
+"""Where a black disc lies on a white block."""
+
+SCENE = """<mujoco><worldbody>
+  <light name="key" pos=".5 .9 2.3" dir=".05 0 -1" cutoff="60" exponent="0" diffuse=".6 .6 .6"/>
+  <geom type="box" size="1 1 .05" pos=".7 .7 -.05" rgba=".4 .4 .4 1"/>
+  <geom type="box" size=".1 .1 .01" pos=".65 .95 0" rgba=".8 .8 .8 1"/>
+  <geom type="cylinder" size=".03 .001" pos=".65 .95 .01" rgba=".1 .1 .1 1"/>
+  <geom type="sphere" size=".2" pos=".65 .95 .3" rgba="1 1 1 1" group="3"/>
+</worldbody></mujoco>"""
+
+
+def scene() -> mujoco.MjData:
+    model = mujoco.MjModel.from_xml_string(SCENE)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return data
+
+
+class Plain(SceneRenderer):
+    """Light that gets brighter from left to right."""
+
+    name = "plain"
+
+    def render(self, data: mujoco.MjData, view: View) -> np.ndarray:
+        return np.tile(np.linspace(0.1, 0.9, COLUMNS, dtype=np.float32), (ROWS, 1))
+
+
+def camera(world: World | None = None, renderer: SceneRenderer | None = None) -> SimulatedCamera:
+    world = world or World.nominal()
+    return SimulatedCamera(scene(), world.camera, world.generator(2), renderer or Plain())
+
+
+def test_a_picture_has_256_lines_of_333_integers_from_0_to_15():
+    picture, _ = camera().digitise()
+    assert picture.shape == (256, 333)
+    assert picture.dtype == np.uint8
+    assert picture.max() <= 15
+
+
+def test_the_mechanics_take_their_time_only_when_something_moves():
+    tv = camera()
+    assert (tv.lens(0.025), tv.lens(0.025)) == (20.0, 0.0)
+    assert (tv.aim(0.1, 0.7), tv.aim(0.1, 0.7)) == (4.0, 0.0)
+    assert (tv.focus(1.6), tv.focus(1.6)) == (12.0, 0.0)
+    assert tv.digitise()[1] == 0.5
+
+
+def test_all_looks_of_a_pump_take_ninety_seconds():
+    tv = camera()
+    belt = tv.lens(0.025) + tv.aim(0.1, 0.7) + tv.focus(1.7) + tv.digitise()[1]
+    closer = tv.lens(0.050) + tv.aim(0.12, 0.7) + tv.focus(1.7) + tv.digitise()[1]
+    standard = tv.aim(-0.3, 0.9) + tv.focus(1.5) + tv.digitise()[1] + tv.digitise(hold_target=True)[1]
+    assert belt + closer + standard == 90.0
+
+
+def test_a_new_lens_must_be_focused_again():
+    tv = camera()
+    tv.focus(1.6)
+    tv.lens(0.025)
+    assert tv.focus(1.6) == 12.0
+
+
+def test_a_lens_that_is_not_there_is_refused():
+    with pytest.raises(InvalidInput, match=r"^no lens of 75 mm"):
+        camera().lens(0.075)
+
+
+def test_the_pots_tell_the_aim_but_for_the_error_of_the_world():
+    world = World.sample(5)
+    tv = camera(world)
+    tv.aim(0.1, 0.8)
+    assert tv.pots() == (0.1, 0.8)
+    assert 0 < math.hypot(tv.true_view().pan - 0.1, tv.true_view().tilt - 0.8) < 5 * world.camera.pot_noise
+
+
+def test_a_perfect_world_has_the_camera_of_the_drawing():
+    assert true_camera(World.nominal().camera) == DRAWING
+
+
+def test_the_bright_parts_are_brought_to_the_same_level_in_any_light():
+    light = Plain().render(scene(), DRAWING.view(0.025, 0, 0))
+    levels = [np.percentile(Vidicon(np.random.default_rng(1)).expose(light * k), 90) for k in (0.1, 0.5, 1.0)]
+    assert np.ptp(levels) <= 1
+
+
+def test_a_held_target_shows_the_change_of_light():
+    tube = Vidicon(np.random.default_rng(1))
+    light = Plain().render(scene(), DRAWING.view(0.025, 0, 0))
+    before = tube.expose(light).mean()
+    assert tube.expose(light / 2, hold_target=True).mean() < 0.75 * before
+    assert tube.expose(light / 2).mean() == pytest.approx(before, abs=0.1)
+
+
+def test_noise_is_about_one_level():
+    tube = Vidicon(np.random.default_rng(1))
+    light = np.full((ROWS, COLUMNS), 0.5, np.float32)
+    first, second = tube.expose(light).astype(float), tube.expose(light, hold_target=True).astype(float)
+    assert (first - second).std() == pytest.approx(math.sqrt(2), rel=0.15)
+
+
+def test_equal_seeds_give_equal_pictures():
+    first, second = (camera(World.sample(3)).digitise()[0] for _ in range(2))
+    assert (first == second).all()
+
+
+def test_the_blur_of_a_forgotten_focus_is_fifteen_points_and_of_a_right_one_none():
+    assert blur_disc(0.050, math.inf, 1.6) == pytest.approx(14.5, abs=0.5)
+    assert blur_disc(0.025, math.inf, 1.6) == pytest.approx(3.6, abs=0.2)
+    assert blur_disc(0.050, 1.6, 1.6) == 0
+
+
+def test_defocus_takes_the_edges_out_of_a_picture():
+    light = np.where(np.arange(COLUMNS) < 160, 0.1, 0.8).astype(np.float32) * np.ones((ROWS, 1), np.float32)
+    sharp, soft = (
+        Vidicon(np.random.default_rng(1)).expose(light, disc=disc).mean(axis=0) for disc in (0, 15)
+    )
+    assert np.abs(np.diff(sharp)).max() > 3 * np.abs(np.diff(soft)).max()
+
+
+def test_an_unknown_renderer_is_refused():
+    with pytest.raises(InvalidInput, match=r"^no renderer `film`; choose `auto`, `gl` or `ray`$"):
+        make_renderer("film", scene().model)
+
+
+@pytest.mark.render
+@pytest.mark.parametrize("kind", ["auto", "ray"])
+def test_a_renderer_gives_the_same_light_every_time(kind: str):
+    data = scene()
+    renderer = make_renderer(kind, data.model)
+    view = DRAWING.view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    assert (renderer.render(data, view) == renderer.render(data, view)).all()
+
+
+@pytest.mark.render
+@pytest.mark.parametrize("kind", ["auto", "ray"])
+def test_what_is_projected_is_where_it_is_rendered(kind: str):
+    data = scene()
+    view = true_camera(World.sample(4).camera).view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    light = make_renderer(kind, data.model).render(data, view)
+    expected = view.project(np.array([*BLOCK[:2], 0.011]))[0]
+    blob = characterise(Scan(light * 15), (float(expected[0]), float(expected[1])), 2, 60)
+    assert blob is not None
+    assert (blob.u, blob.v) == pytest.approx(expected, abs=0.25)
+
+
+@pytest.mark.render
+def test_both_renderers_give_nearly_the_same_light():
+    data = scene()
+    view = DRAWING.view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    first, second = (make_renderer(kind, data.model).render(data, view) for kind in ("auto", "ray"))
+    assert np.abs(first - second).mean() < 0.01
+
+
+@pytest.mark.render
+def test_collision_shapes_are_not_in_the_picture():
+    data = scene()
+    view = DRAWING.view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    light = make_renderer("ray", data.model).render(data, view)
+    assert light[128, 166] < 0.3
+
+
+@pytest.mark.render
+def test_a_renderer_leaves_the_state_alone():
+    data = scene()
+    before = data.cam_xpos.copy(), data.geom_xpos.copy(), data.time
+    make_renderer("auto", data.model).render(data, DRAWING.view(0.025, 0, 0.7))
+    assert (data.geom_xpos == before[1]).all()
+    assert data.time == before[2]

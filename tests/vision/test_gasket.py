@@ -1,0 +1,90 @@
+"""Inspecting the gasket by the difference of two pictures (reference 8, rows 51 to 53)."""
+
+import math
+
+import numpy as np
+import pytest
+from synthetic import FACE, GASKET, Canvas, draw_base, part, view
+
+from handeye.units import DEGREE, INCH
+from handeye.vision.drawing import RED, annotate
+from handeye.vision.gasket import Inspection, difference, inspect
+from handeye.vision.holes import hole_places
+
+PART = part(180 * DEGREE)
+POSE = (PART.at[0], PART.at[1], PART.at[3])
+WHERE = view(0.050, (POSE[0] - 1.4 * INCH, POSE[1], 2.75 * INCH))
+
+
+def pictures(
+    shift: tuple[float, float] | None, seed: int = 0, noise: float = 1.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Before, and after a gasket was put on, off by `shift` (in); None: no gasket."""
+    rng = np.random.default_rng(seed)
+    before, after = Canvas(), Canvas()
+    draw_base(before, WHERE, PART, POSE)
+    draw_base(after, WHERE, PART, POSE)
+    if shift is not None:
+        move = np.array([*shift, 0]) * INCH
+        keep = after.fine.copy()
+        for place, diameter in zip(hole_places(PART, POSE), (3.9, 2.3), strict=True):
+            after.disc(WHERE, place + move, diameter * INCH, GASKET)
+        gasket = after.fine.copy()
+        for place, hole in zip(hole_places(PART, POSE), PART.holes, strict=True):
+            after.disc(WHERE, place + move, hole.diameter + 0.05 * INCH, -1)
+        after.fine = np.where(after.fine < 0, keep, gasket)
+    return before.picture(rng, noise), after.picture(rng, noise)
+
+
+def inspected(shift: tuple[float, float] | None, **how: float) -> Inspection:
+    return inspect(*pictures(shift, **how), WHERE, PART, POSE)
+
+
+def test_the_difference_of_a_picture_with_itself_is_nothing():
+    before, _ = pictures(None)
+    assert not difference(before, before).any()
+
+
+def test_the_difference_is_the_same_both_ways():
+    before, after = pictures((0, 0))
+    assert (difference(before, after) == difference(after, before)).all()
+
+
+@pytest.mark.parametrize("noise", [1.0, 1.5, 2.0])
+def test_a_gasket_in_its_place_is_accepted_in_noise(noise: float):
+    seen = inspected((0.01, -0.01), noise=noise)
+    assert seen.ok, seen.sentence
+    assert seen.sentence == "the gasket is on properly"
+
+
+@pytest.mark.parametrize("direction", range(0, 360, 45))
+def test_a_gasket_off_by_three_tenths_of_an_inch_is_rejected(direction: int):
+    angle = direction * DEGREE
+    seen = inspected((0.3 * math.cos(angle), 0.3 * math.sin(angle)))
+    assert not seen.ok
+    assert "is off by about" in seen.sentence or "is not found" in seen.sentence
+
+
+def test_the_shift_of_a_gasket_is_measured_on_its_rim():
+    seen = inspected((0.2, 0.0))
+    assert seen.shift == pytest.approx(0.2 * INCH, abs=0.06 * INCH)
+
+
+def test_an_absent_gasket_is_rejected():
+    seen = inspected(None)
+    assert not seen.ok
+    assert seen.sentence.startswith("no gasket")
+    assert seen.found == (None, None)
+
+
+def test_expected_crosses_and_found_dots_are_drawn():
+    before, after = pictures((0.3, 0.0))
+    seen = inspect(before, after, WHERE, PART, POSE)
+    image = annotate(difference(before, after), inspection=seen, scale=3)
+    u, v = seen.expected[0]
+    assert image.shape == (768, 999, 3)
+    assert tuple(image[round((v + 0.5) * 3), round((u + 0.5) * 3) + 10]) == RED
+
+
+def test_a_gasket_needs_a_face_brighter_than_itself():
+    assert FACE > GASKET
