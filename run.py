@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Set handeye up and run it, with nothing but Python 3.11 or newer.
 
-    python3 run.py assemble         make .venv, install the locked dependencies, assemble the pump
-    python3 run.py test             the same, with the test tools, then the test suite
-    python3 run.py WORD ...         the same as `handeye WORD ...`
+python3 run.py assemble         make .venv, install the locked dependencies, assemble the pump
+python3 run.py test             the same, with the test tools, then the test suite
+python3 run.py WORD ...         the same as `handeye WORD ...`
 """
 
 import hashlib
@@ -42,12 +42,16 @@ def set_up(lock: Path) -> None:
     stamp = VENV / f"{lock.stem}.stamp"
     if PYTHON.exists() and stamp.exists() and stamp.read_text() == digest:
         return
-    print(f"Setting up {VENV.name} from {lock.name}; this happens once and takes half a minute.", file=sys.stderr)
+    print(
+        f"Setting up {VENV.name} from {lock.name}; this happens once and takes half a minute.",
+        file=sys.stderr,
+    )
     if not PYTHON.exists():
         make_environment()
     pip = [str(PYTHON), "-m", "pip"] if has_pip() else [sys.executable, "-m", "pip", "--python", str(PYTHON)]
     subprocess.run(
-        [*pip, "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r", str(lock)], check=True
+        [*pip, "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r", str(lock)],
+        check=True,
     )
     site = subprocess.run(
         [str(PYTHON), "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"],
@@ -70,9 +74,9 @@ def has_pip() -> bool:
 
 def run(command: list[str]) -> int:
     """Become the program: its exit code and its answer to Ctrl-C are those of this one."""
-    if os.name == "nt":
-        return subprocess.run([str(PYTHON), *command]).returncode
-    os.execv(PYTHON, [str(PYTHON), *command])
+    if os.name != "nt":
+        os.execv(PYTHON, [str(PYTHON), *command])
+    return subprocess.run([str(PYTHON), *command]).returncode
 
 
 if __name__ == "__main__":

@@ -17,13 +17,15 @@ from handeye.errors import HandeyeError, InvalidInput
 from handeye.files import write_whole
 from handeye.plan.plan import Plan, read_plan, write_plan
 from handeye.plan.taught import Taught, load_taught
-from handeye.resources import plans
 from handeye.report.result import Result
+from handeye.resources import plans
 from handeye.source import Source, read_source
 
 CameraKind = Literal["auto", "gl", "ray"]
 Seed = Annotated[int, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
-Camera = Annotated[CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")]
+Camera = Annotated[
+    CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")
+]
 
 app = App(
     name="handeye",
@@ -59,7 +61,9 @@ def main() -> NoReturn:
 def assemble(
     *,
     seed: Seed = 0,
-    json: Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")] = False,
+    json: Annotated[
+        bool, Parameter(help="One JSON object on standard output, all else on standard error.")
+    ] = False,
     out: Annotated[Path | None, Parameter(help="Folder for plan, events, pictures and result.")] = None,
     camera: Camera = "auto",
 ) -> int:
@@ -110,7 +114,9 @@ def run(
     *,
     seed: Seed = 0,
     judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = False,
-    json: Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")] = False,
+    json: Annotated[
+        bool, Parameter(help="One JSON object on standard output, all else on standard error.")
+    ] = False,
     out: Annotated[Path | None, Parameter(help="Folder for plan, events, pictures and result.")] = None,
     camera: Camera = "auto",
 ) -> int:
@@ -150,6 +156,52 @@ def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     result = _watched(plan, seed=seed, camera=camera, planning=planning, referee=False, out=None)
     _out.print(table(result))
     return 0 if result.completed else 1
+
+
+@app.command
+def trials(
+    *,
+    seeds: Annotated[str, Parameter(help="Worlds to try: a range such as 0-19, or one number.")] = "0-19",
+    jobs: Annotated[int, Parameter(help="Processes at a time.")] = 2,
+    camera: Camera = "auto",
+    out: Annotated[Path | None, Parameter(help="File for the results, one JSON object a line.")] = None,
+) -> int:
+    """Assemble the pump in many worlds and count.
+
+    Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed.
+    """
+    import msgspec
+
+    from handeye.trials.seeds import assemble_many
+
+    chosen = _range(seeds)
+    if jobs < 1:
+        raise InvalidInput(f"at least one process is needed; {jobs} is too few")
+    results = []
+    for result in assemble_many(_compile(plans() / "water_pump.al"), chosen, camera=camera, jobs=jobs):
+        results.append(result)
+        word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
+        detail = "" if result.exit_code == 0 else f"{result.stopped_at or ''}: {result.message}"
+        if result.exit_code == 3:
+            detail = "; ".join(f"{c.sentence}: {c.value:.3g}" for c in result.referee.values() if not c.ok)
+        speed = f"{result.timing.real_time_factor:4.1f}x"
+        _out.print(f"seed {result.seed:4}  {word:10}  {speed}  {detail}", markup=False, soft_wrap=True)
+    done = sum(result.exit_code == 0 for result in results)
+    silent = sum(result.exit_code == 3 for result in results)
+    _out.print(f"{done} of {len(results)} assembled, {silent} silent failures")
+    if out is not None:
+        write_whole(
+            out, b"".join(msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
+        )
+    return 3 if silent else 0
+
+
+def _range(text: str) -> list[int]:
+    """The seeds that `3` or `0-19` names."""
+    first, _, last = text.partition("-")
+    if not first.isdecimal() or (last and not last.isdecimal()) or int(last or first) < int(first):
+        raise InvalidInput(f"seeds are given as a number or a range such as 0-19; {text!r} is neither")
+    return list(range(int(first), int(last or first) + 1))
 
 
 def _compile(file: Path) -> Plan:

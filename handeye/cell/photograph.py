@@ -26,7 +26,9 @@ def photograph(
     if camera not in names:
         raise InvalidInput(f"no camera {camera}; there are {', '.join(names)}")
     if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
-        raise InvalidInput(f"a picture of {width} x {height} cannot be made; a side has 16 to {LARGEST} points")
+        raise InvalidInput(
+            f"a picture of {width} x {height} cannot be made; a side has 16 to {LARGEST} points"
+        )
     _, gl = context()
     gl.make_current()
     drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)

@@ -22,7 +22,7 @@ FINE: Final = 2
 LUMA: Final = np.array([0.299, 0.587, 0.114])
 """Weights of red, green and blue in luminance, ITU-R BT.601."""
 SHOWN: Final = np.array([1, 0, 1, 0, 0, 0], dtype=np.uint8)
-"""Geom groups the camera sees: the ground and the parts. Group 1 is scenery for people, above 2 stand collision shapes."""
+"""Geom groups the camera sees: the ground and the parts. Group 1 is scenery for people, those above 2 are not seen."""
 SKY: Final = 0.1
 """Luminance where there is nothing. Placeholder."""
 

@@ -31,7 +31,7 @@ CROSSED_TORQUE: Final = 5.0  # N m: more than any driver has. Assembly study.
 THREAD_FRICTION: Final = 0.15  # steel on steel, dry. Assembly study.
 THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the flank. Assembly study.
 STIFF: Final = (0.999, 0.9999, 0.0001)
-"""Impedance of a thread. With MuJoCo's own the screw turns twice more under load without going deeper; measured."""
+"""Impedance of a thread. Measured: with MuJoCo's own a screw turns twice more under load, no deeper."""
 
 MOTOR_TORQUE: Final = 0.32  # N m (45 oz in), stall of the motor: much more turns the free base. Placeholder.
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.

@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.kinematics import IKResult, forward
-from handeye.arm.model import ArmModel
 from handeye.arm.line import arc, straight
+from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.arm.trajectory import Trajectory, move
 from handeye.plan.program import Change, Move, Turn
@@ -26,7 +26,9 @@ TURN_SPEED: Final = 30 * DEGREE
 """rad/s of a motion on a circle."""
 
 
-def move_trajectory(arm: ArmModel, q: Array, X_WT: Pose, operation: Move, speed: float) -> Trajectory | IKResult:
+def move_trajectory(
+    arm: ArmModel, q: Array, X_WT: Pose, operation: Move, speed: float
+) -> Trajectory | IKResult:
     """The trajectory of a Move from configuration `q` to `X_WT`, or why there is none."""
     X_start = forward(arm, q)
     away = float(np.hypot(*(X_WT[:2, 3] - X_start[:2, 3])))

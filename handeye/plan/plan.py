@@ -20,7 +20,7 @@ VERSION: Final = 1
 Joints = tuple[float, float, float, float, float, float]
 
 
-class Motion(Record):
+class Motion(Record, frozen=True, kw_only=True):
     """A planned motion: joint positions it passes (rad, joint 3 in m) and the seconds between them."""
 
     knots: tuple[Joints, ...]
@@ -29,7 +29,7 @@ class Motion(Record):
     """Duration of each segment between knots, s."""
 
 
-class Plan(Record, kw_only=True):
+class Plan(Record, frozen=True, kw_only=True):
     """A program and the motions that one arm makes of it."""
 
     format: str = "handeye plan"
@@ -63,7 +63,11 @@ def encode(plan: Plan) -> str:
         else:
             lines.append(f'  "{key}": {_line(value)}{comma}')
     lines += [" },", ' "motions": {']
-    lines += [*_separated([f'  "{number}": {_line(motion)}' for number, motion in motions.items()]), " }", "}"]
+    lines += [
+        *_separated([f'  "{number}": {_line(motion)}' for number, motion in motions.items()]),
+        " }",
+        "}",
+    ]
     return "\n".join(lines) + "\n"
 
 
@@ -86,12 +90,14 @@ def decode(text: str | bytes, name: str) -> Plan:
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
         raise InvalidInput(f"{name} is not a plan, or is cut short: {error}") from None
     if not isinstance(head, dict) or head.get("format") != "handeye plan":
-        raise InvalidInput(f"{name} is not a plan: it does not say \"format\": \"handeye plan\"")
+        raise InvalidInput(f'{name} is not a plan: it does not say "format": "handeye plan"')
     version = head.get("version")
     if not isinstance(version, int) or version < 1:
         raise InvalidInput(f"{name} does not say which version of the plan format it has")
     if version > VERSION:
-        raise InvalidInput(f"{name} has plan format version {version}; this handeye reads up to version {VERSION}")
+        raise InvalidInput(
+            f"{name} has plan format version {version}; this handeye reads up to version {VERSION}"
+        )
     try:
         plan = msgspec.json.decode(text, type=Plan)
     except msgspec.DecodeError as error:
@@ -111,7 +117,9 @@ def _check(plan: Plan, name: str) -> None:
             if target is not None and not 0 <= target < count:
                 raise InvalidInput(f"{where} leads to step {target}; the plan has steps 0 to {count - 1}")
         if not 0 <= step.stage < len(program.stages):
-            raise InvalidInput(f"{where} belongs to stage {step.stage}; the plan has {len(program.stages)} stages")
+            raise InvalidInput(
+                f"{where} belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
+            )
         goal = getattr(step.operation, "goal", None) or getattr(step.operation, "centre", None)
         if goal is not None and goal not in program.positions:
             raise InvalidInput(f"{where} uses position {goal}, which the plan does not have")
@@ -122,7 +130,9 @@ def _check(plan: Plan, name: str) -> None:
             raise InvalidInput(f"{where} has no planned motion")
     for key, position in program.positions.items():
         if position.of is not None and position.of not in program.parts:
-            raise InvalidInput(f"{name}: position {key} is relative to part {position.of}, which the plan does not have")
+            raise InvalidInput(
+                f"{name}: position {key} is relative to part {position.of}, which the plan does not have"
+            )
 
 
 def read_plan(path: Path) -> Plan:

@@ -29,7 +29,9 @@ HOME = "PARK"
 """The position a program starts from."""
 
 
-def make_plan(program: Program, arm: ArmModel, *, speed: float = SPEED) -> tuple[Plan | None, list[Diagnostic]]:
+def make_plan(
+    program: Program, arm: ArmModel, *, speed: float = SPEED
+) -> tuple[Plan | None, list[Diagnostic]]:
     """The plan of a program for an arm, or what stands in its way."""
     walk = _Walk(program=program, arm=arm, speed=speed, world=WorldModel.of(program))
     walk.go()
@@ -138,7 +140,14 @@ class _Walk:
         )  # fmt: skip
 
     def _problem(
-        self, step: Step, word: str, code: str, message: str, *, note: str | None = None, help: str | None = None
+        self,
+        step: Step,
+        word: str,
+        code: str,
+        message: str,
+        *,
+        note: str | None = None,
+        help: str | None = None,
     ) -> None:
         self.problems.append(
             Diagnostic(

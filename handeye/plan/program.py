@@ -15,11 +15,11 @@ class Record(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     """Base of everything that goes to disk."""
 
 
-class Operation(Record, tag_field="op", tag=lambda name: name.lower()):
+class Operation(Record, frozen=True, kw_only=True, tag_field="op", tag=lambda name: name.lower()):
     """Base of the operations; the class name in lower case is the tag on disk."""
 
 
-class Stop(Record):
+class Stop(Record, frozen=True, kw_only=True):
     """End the motion when a force or torque is met; if it ends without, an error is raised.
 
     Exactly one of `force`, `against` and `torque` is set.
@@ -35,7 +35,7 @@ class Stop(Record):
     """The motion ends when the screwdriver's motor exerts this torque (N m). Else error 24."""
 
 
-class Restore(Record):
+class Restore(Record, frozen=True, kw_only=True):
     """Shift a goal by a saved difference."""
 
     name: str
@@ -43,7 +43,7 @@ class Restore(Record):
     """Use only the horizontal components."""
 
 
-class Move(Operation):
+class Move(Operation, frozen=True, kw_only=True):
     """Planned motion to a position, with departure upwards and approach from above."""
 
     goal: str
@@ -55,7 +55,7 @@ class Move(Operation):
     stop: Stop | None = None
 
 
-class Change(Operation):
+class Change(Operation, frozen=True, kw_only=True):
     """Straight motion from the present place, orientation kept."""
 
     displacement: Vector
@@ -67,7 +67,7 @@ class Change(Operation):
     """Force to exert while moving (N, table coordinates): the hand follows what it presses on."""
 
 
-class Turn(Operation):
+class Turn(Operation, frozen=True, kw_only=True):
     """Motion of the hand on a circle about the vertical through a position, the hand turning with it."""
 
     centre: str
@@ -76,37 +76,37 @@ class Turn(Operation):
     stop: Stop | None = None
 
 
-class Open(Operation):
+class Open(Operation, frozen=True, kw_only=True):
     """Drive the fingers to a gap."""
 
     gap: float
 
 
-class Close(Operation):
+class Close(Operation, frozen=True, kw_only=True):
     """Close until both switches fire; error 2 below `minimum`, error 7 above `maximum` (m)."""
 
     minimum: float = 0.0
     maximum: float | None = None
 
 
-class Center(Operation):
+class Center(Operation, frozen=True, kw_only=True):
     """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m)."""
 
     minimum: float = 0.0
 
 
-class Search(Operation):
+class Search(Operation, frozen=True, kw_only=True):
     """Set up a spiral search with this step (m) and at most `limit` places; the present place is the first."""
 
     step: float
     limit: int = 49
 
 
-class Advance(Operation):
+class Advance(Operation, frozen=True, kw_only=True):
     """Go to the next place of the search (AOJ); error 6 when there is none."""
 
 
-class Test(Operation):
+class Test(Operation, frozen=True, kw_only=True):
     """Ask whether the last action raised an error, and clear it.
 
     `raised`: next step when error `number` was raised (None ends the program); otherwise the step's `next`.
@@ -118,54 +118,54 @@ class Test(Operation):
     raised: int | None
 
 
-class Jump(Operation):
+class Jump(Operation, frozen=True, kw_only=True):
     """Go on elsewhere (the step's `next`)."""
 
 
-class Save(Operation):
-    """Keep the difference actual minus planned goal of the last Move; after Center only its component along the finger line."""
+class Save(Operation, frozen=True, kw_only=True):
+    """Keep the difference actual minus goal of the last Move; after Center only its part along the finger line."""
 
     name: str
 
 
-class Wait(Operation):
+class Wait(Operation, frozen=True, kw_only=True):
     """Stop, set the brakes, tell the operator."""
 
     message: str
 
 
-class Load(Operation):
+class Load(Operation, frozen=True, kw_only=True):
     """Declare the weight (N) of what the hand carries, so that the servo compensates it."""
 
     weight: float
 
 
-class Tool(Operation):
+class Tool(Operation, frozen=True, kw_only=True):
     """Set the screwdriver's spindle speed, rad/s; 0 is off."""
 
     speed: float
 
 
-class Travel(Operation):
+class Travel(Operation, frozen=True, kw_only=True):
     """Check how far the last motion went (m): error 8 outside the range."""
 
     minimum: float
     maximum: float
 
 
-class Lens(Operation):
+class Lens(Operation, frozen=True, kw_only=True):
     """Turn the lens turret; focal length in m."""
 
     focal_length: float
 
 
-class Aim(Operation):
+class Aim(Operation, frozen=True, kw_only=True):
     """Point the camera at a position or part and focus there."""
 
     target: str
 
 
-class Look(Operation):
+class Look(Operation, frozen=True, kw_only=True):
     """Take a picture under a name."""
 
     picture: str
@@ -173,21 +173,21 @@ class Look(Operation):
     """Keep the target voltage of the picture before, as differencing needs."""
 
 
-class General(Operation):
+class General(Operation, frozen=True, kw_only=True):
     """General location: find the part's outline in the picture; measures where it is, roughly. Else error 30."""
 
     part: str
     picture: str
 
 
-class Specific(Operation):
+class Specific(Operation, frozen=True, kw_only=True):
     """Specific location: find the part's holes in the picture; measures its pose. Else error 31."""
 
     part: str
     picture: str
 
 
-class Inspect(Operation):
+class Inspect(Operation, frozen=True, kw_only=True):
     """Difference pictures of a part before and after its gasket was put on; error 32 if that lies wrong."""
 
     part: str
@@ -206,7 +206,7 @@ ACTIONS = (
 """Operations that can raise an error, or clear the one before."""
 
 
-class Step(Record):
+class Step(Record, frozen=True, kw_only=True):
     """One step of the graph. Steps are numbered by their place in the list."""
 
     operation: AnyOperation
@@ -220,7 +220,7 @@ class Step(Record):
     """Step that follows; None ends the program."""
 
 
-class Position(Record):
+class Position(Record, frozen=True, kw_only=True):
     """A taught or written hand position."""
 
     at: tuple[float, float, float, float, float, float]
@@ -228,7 +228,7 @@ class Position(Record):
     of: str | None = None
 
 
-class Hole(Record):
+class Hole(Record, frozen=True, kw_only=True):
     """A round hole in a part's upper face, in part coordinates."""
 
     x: float
@@ -236,7 +236,7 @@ class Hole(Record):
     diameter: float
 
 
-class Part(Record):
+class Part(Record, frozen=True, kw_only=True):
     """What the program knows of a part: where it is planned to be, and what it looks like from above."""
 
     at: tuple[float, float, float, float]
@@ -253,7 +253,7 @@ class Part(Record):
     """Box around it in part coordinates: x from, y from, x to, y to (m)."""
 
 
-class Program(Record):
+class Program(Record, frozen=True, kw_only=True):
     """A checked program."""
 
     name: str

@@ -12,7 +12,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     """Base of what a result is made of."""
 
 
-class Stage(Record):
+class Stage(Record, frozen=True, kw_only=True):
     """A stage of the program; `arm_s` is simulated seconds without those of the camera's mechanism."""
 
     name: str
@@ -20,7 +20,7 @@ class Stage(Record):
     arm_s: float
 
 
-class Timing(Record):
+class Timing(Record, frozen=True, kw_only=True):
     """Where the time went. `_wall_s` is of this computer, the others are simulated."""
 
     planning_wall_s: float
@@ -32,7 +32,7 @@ class Timing(Record):
     real_time_factor: float
 
 
-class Check(Record):
+class Check(Record, frozen=True, kw_only=True):
     """One finding of the referee."""
 
     ok: bool
@@ -42,7 +42,7 @@ class Check(Record):
     sentence: str
 
 
-class CameraReport(Record):
+class CameraReport(Record, frozen=True, kw_only=True):
     """How the pictures were made and how well the camera was calibrated."""
 
     renderer: str
@@ -52,7 +52,7 @@ class CameraReport(Record):
     """On the table, inches."""
 
 
-class Result(Record):
+class Result(Record, frozen=True, kw_only=True):
     """What a run came to."""
 
     assembled: bool | None

@@ -8,11 +8,11 @@ from importlib.metadata import version as installed
 from typing import Final
 
 from handeye import __version__
+from handeye.arm.model import digest
 from handeye.arm.stanford import STANFORD
 from handeye.cell.imperfection import World
 from handeye.cell.simulated import SimulatedCell
 from handeye.errors import InvalidInput
-from handeye.arm.model import digest
 from handeye.judge.referee import judge
 from handeye.plan.plan import Plan
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
@@ -60,7 +60,9 @@ def run_plan(
     """
     arm = ARMS.get(plan.arm)
     if arm is None or digest(arm) != plan.arm_digest:
-        raise InvalidInput(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
+        raise InvalidInput(
+            f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
+        )
     cell = SimulatedCell(World.sample(seed), camera=camera)
     calibration = calibrate_camera(cell, arm, DRAWING)
     stages = _Stopwatch()

@@ -1,8 +1,6 @@
 """Pictures of the cell as PNG."""
 
 import cv2
-import mujoco
-import numpy as np
 
 from handeye.cell.imperfection import World
 from handeye.cell.photograph import photograph
@@ -21,10 +19,8 @@ def picture(*, camera: str, width: int, height: int, seed: int) -> bytes:
 
 def photograph_png(truth: Truth, camera: str, width: int, height: int) -> bytes:
     """The cell as it is now, drawn at twice the size and averaged."""
-    model, data = truth.model, truth.data
-    mujoco.mj_forward(model, data)
-    fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
+    fine = photograph(truth.model, truth.data, camera=camera, width=2 * width, height=2 * height)
     smooth = cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA)
-    done, png = cv2.imencode(".png", np.asarray(smooth)[:, :, ::-1])
+    done, png = cv2.imencode(".png", smooth[:, :, ::-1])
     assert done
     return png.tobytes()

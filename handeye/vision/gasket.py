@@ -35,6 +35,8 @@ BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
 """In the picture before: share of the contrast that is a border, and of the face's level that is face."""
 RAYS: Final = 32
+WINDOW: Final = 9
+"""Neighbouring rays whose median counts: a quarter of the rim, wider than what an aligning pin hides."""
 CLEAR: Final = 0.06 * INCH
 """The base's border in the picture before counts where it is this near to the circle it should be."""
 
@@ -181,8 +183,10 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
         spokes = view.back_project(points, float(centre[2])) - centre
         radii.append(np.hypot(spokes[:, 0], spokes[:, 1]))
     clear = np.abs(radii[0] - hole.diameter / 2) < CLEAR
-    clear &= np.roll(clear, 1) & np.roll(clear, -1)
-    neighbours = np.stack([np.roll(radii[1], -1), radii[1], np.roll(radii[1], 1)])
-    smooth = np.median(neighbours, axis=0)[clear]
-    smooth = smooth[~np.isnan(smooth)]
-    return float(smooth.max() - np.median(smooth)) if len(smooth) >= RAYS // 3 else None
+    clear &= np.roll(clear, 1) & np.roll(clear, -1) & ~np.isnan(radii[1])
+    if np.count_nonzero(clear) < RAYS // 3:
+        return None
+    bulges = radii[1] - np.median(radii[1][clear])
+    near = [np.roll(np.arange(RAYS), -k)[:WINDOW] for k in range(RAYS)]
+    windows = [bulges[k][clear[k]] for k in near if np.count_nonzero(clear[k]) > WINDOW // 2]
+    return max((float(np.median(window)) for window in windows), default=None)

@@ -6,7 +6,6 @@ import numpy as np
 
 from handeye import errors
 from handeye.arm.kinematics import IKResult, forward
-from handeye.arm.samples import Samples
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.cell.ports import TICK
 from handeye.plan.motions import change_samples, directions, move_trajectory, turn_samples
@@ -185,4 +184,6 @@ def travel(run: Run, operation: Travel) -> Fault | None:
     if operation.minimum <= run.travel <= operation.maximum:
         return None
     allowed = f"{operation.minimum / INCH:.2f} to {operation.maximum / INCH:.2f} in"
-    return Fault(number=errors.WRONG_TRAVEL, detail=f"it went {run.travel / INCH:.2f} in; {allowed} are right")
+    return Fault(
+        number=errors.WRONG_TRAVEL, detail=f"it went {run.travel / INCH:.2f} in; {allowed} are right"
+    )

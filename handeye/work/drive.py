@@ -13,8 +13,8 @@ from handeye import errors
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.kinematics import forward, jacobian, solve
 from handeye.arm.model import ArmModel
-from handeye.arm.servo import prepare, torque
 from handeye.arm.samples import Samples
+from handeye.arm.servo import prepare, torque
 from handeye.cell.ports import TICK, Drive, Sensed, Workcell
 from handeye.pose import Array, Pose, translated
 from handeye.touch.guards import Guard, Reading, Trip

@@ -7,33 +7,33 @@ import msgspec
 from handeye.plan.program import Record
 
 
-class Event(Record, tag_field="event", tag=True):
+class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
     """Base of the events; `time` is the cell's clock in seconds."""
 
     time: float
 
 
-class RunStarted(Event):
+class RunStarted(Event, frozen=True, kw_only=True):
     """The working phase begins."""
 
     program: str
     steps: int
 
 
-class StageStarted(Event):
+class StageStarted(Event, frozen=True, kw_only=True):
     """A stage begins."""
 
     stage: str
 
 
-class StageFinished(Event):
+class StageFinished(Event, frozen=True, kw_only=True):
     """A stage ended."""
 
     stage: str
     status: Literal["done", "stopped"]
 
 
-class StepStarted(Event):
+class StepStarted(Event, frozen=True, kw_only=True):
     """A step begins; `line` and `text` are the source's."""
 
     step: int
@@ -41,7 +41,7 @@ class StepStarted(Event):
     text: str
 
 
-class StepFinished(Event):
+class StepFinished(Event, frozen=True, kw_only=True):
     """A step ended; where the hand is by the arm's own sensors (m), and the finger gap (m)."""
 
     step: int
@@ -49,14 +49,14 @@ class StepFinished(Event):
     gap: float
 
 
-class Adjusted(Event):
+class Adjusted(Event, frozen=True, kw_only=True):
     """A goal was moved off its planned value before the motion began: by how much (m)."""
 
     goal: str
     shift: tuple[float, float, float]
 
 
-class GuardTripped(Event):
+class GuardTripped(Event, frozen=True, kw_only=True):
     """A guard ended a motion."""
 
     guard: str
@@ -64,35 +64,35 @@ class GuardTripped(Event):
     limit: float
 
 
-class ErrorRaised(Event):
+class ErrorRaised(Event, frozen=True, kw_only=True):
     """An action raised an error."""
 
     number: int
     detail: str
 
 
-class ErrorTested(Event):
+class ErrorTested(Event, frozen=True, kw_only=True):
     """The program asked for an error; `occurred` is the answer."""
 
     number: int
     occurred: bool
 
 
-class SearchAdvanced(Event):
+class SearchAdvanced(Event, frozen=True, kw_only=True):
     """The search goes on to its place number `count` (0 is the first)."""
 
     count: int
     offset: tuple[float, float]
 
 
-class Saved(Event):
+class Saved(Event, frozen=True, kw_only=True):
     """A difference was saved (m)."""
 
     name: str
     difference: tuple[float, float, float]
 
 
-class Restored(Event):
+class Restored(Event, frozen=True, kw_only=True):
     """A saved difference was added to a goal (m)."""
 
     name: str
@@ -100,14 +100,14 @@ class Restored(Event):
     difference: tuple[float, float, float]
 
 
-class PictureTaken(Event):
+class PictureTaken(Event, frozen=True, kw_only=True):
     """A picture was taken through a lens (focal length in m)."""
 
     picture: str
     lens: float
 
 
-class PartSeen(Event):
+class PartSeen(Event, frozen=True, kw_only=True):
     """Vision measured a part: x, y (m) and yaw (rad), or no yaw from a general look."""
 
     part: str
@@ -116,7 +116,7 @@ class PartSeen(Event):
     yaw: float | None
 
 
-class PartInspected(Event):
+class PartInspected(Event, frozen=True, kw_only=True):
     """Vision compared two pictures."""
 
     part: str
@@ -124,21 +124,21 @@ class PartInspected(Event):
     sentence: str
 
 
-class CameraBusy(Event):
+class CameraBusy(Event, frozen=True, kw_only=True):
     """The camera's mechanism needed this long (s)."""
 
     action: str
     seconds: float
 
 
-class OperatorCalled(Event):
+class OperatorCalled(Event, frozen=True, kw_only=True):
     """Brakes are set and the operator is told."""
 
     message: str
     error: int | None
 
 
-class RunFinished(Event):
+class RunFinished(Event, frozen=True, kw_only=True):
     """The working phase ended."""
 
     completed: bool

@@ -63,8 +63,8 @@ class Executor:
         while self.at is not None:
             self.step()
         if self.stage is not None:
-            status = "stopped" if self.stopped else "done"
-            run.emit(StageFinished(time=run.time, stage=program.stages[self.stage], status=status))
+            stage = program.stages[self.stage]
+            run.emit(StageFinished(time=run.time, stage=stage, status="stopped" if self.stopped else "done"))
         run.emit(RunFinished(time=run.time, completed=self.stopped is None))
         return self.stopped is None
 
@@ -81,7 +81,9 @@ class Executor:
         here = self.at
         following = self._perform(here, step)
         hand = run.drive.hand()[:3, 3]
-        run.emit(StepFinished(time=run.time, step=here, hand=vector(hand), gap=round(run.drive.sensed.gap, 6)))
+        run.emit(
+            StepFinished(time=run.time, step=here, hand=vector(hand), gap=round(run.drive.sensed.gap, 6))
+        )
         if self.at is not None:
             self.at = following
         if self.at is None and self.pending is not None:

@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from handeye import errors
 from handeye.plan.program import Aim, General, Inspect, Lens, Look, Specific
 from handeye.pose import Array, Pose, planar, yaw
@@ -40,7 +42,7 @@ def _target(run: Run, name: str) -> Array:
 
 
 def _middle(X_WP: Pose, x: float, y: float) -> Array:
-    return X_WP[:2, :2] @ (x, y) + X_WP[:2, 3]  # type: ignore[no-any-return]
+    return np.asarray(X_WP[:2, :2] @ (x, y) + X_WP[:2, 3])
 
 
 def look(run: Run, operation: Look) -> Fault | None:

@@ -1,9 +1,9 @@
-"""A bare hand for tests of the cell: straight moves by computed torque, through the ports only."""
+"""A bare hand: straight moves by computed torque, through the ports only."""
 
 import numpy as np
 
 from handeye.arm.dynamics import bias, mass_matrix
-from handeye.arm.kinematics import jacobian, solve
+from handeye.arm.kinematics import forward, jacobian, solve
 from handeye.arm.stanford import STANFORD
 from handeye.cell.ports import TICK, Drive, Workcell
 from handeye.pose import Array, hand
@@ -87,8 +87,6 @@ class Hand:
 
     def rest(self) -> None:
         """Freeze the set-point where the arm is, without a reference velocity."""
-        from handeye.arm.kinematics import forward
-
         self.q = self.cell.sense().q
         self.place = forward(STANFORD, self.q)[:3, 3]
         self.q = self.solved(self.q)

@@ -1,0 +1,26 @@
+"""Assembling many pumps, one world each, and counting."""
+
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
+
+from handeye.plan.plan import Plan
+from handeye.report.result import Result
+from handeye.trials.assembly import run_plan
+
+
+def assemble_many(plan: Plan, seeds: Sequence[int], *, camera: str, jobs: int) -> Iterator[Result]:
+    """Results in the order they come; each seed in a process of its own making, so that none can sway another."""
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), max_tasks_per_child=1) as pool:
+        runs = [pool.submit(_one, plan, seed, camera) for seed in seeds]
+        try:
+            for run in as_completed(runs):
+                yield run.result()
+        finally:
+            for run in runs:
+                run.cancel()
+
+
+def _one(plan: Plan, seed: int, camera: str) -> Result:
+    result, _ = run_plan(plan, seed=seed, camera=camera)
+    return result
