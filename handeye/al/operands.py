@@ -15,7 +15,7 @@ _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 _NO_LENGTH = 1e-6
 
 
-class Mistake(Exception):  # noqa: N818 - it never leaves the parser
+class Mistake(Exception):
     """The first mistake of a line."""
 
     def __init__(self, code: str, message: str, span: Span, text: str = "", help: str | None = None) -> None:

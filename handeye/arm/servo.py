@@ -39,10 +39,9 @@ def torque(
         exerted: torques of a force or load, J^T F with F what the hand is to exert.
     """
     acceleration = qdd_des + 2 * omega * (qd_des - qd) + omega * omega * (q_des - q)
-    if free is None:
-        inertial = M @ acceleration
-    else:
-        inertial = np.where(free, 0.0, M @ np.where(free, 0.0, acceleration))
+    inertial = (
+        M @ acceleration if free is None else np.where(free, 0.0, M @ np.where(free, 0.0, acceleration))
+    )
     tau = inertial + bias + friction
     return np.asarray(tau if exerted is None else tau + exerted)
 

@@ -203,7 +203,7 @@ def _explain(holes: int) -> str:
         return "no hole is found: is the picture in focus, and is the part in it?"
     if holes == 1:
         return "only one hole is found; the part cannot be located by one"
-    return f"{holes} dark blobs are found, but no two of them are the part's two largest holes"
+    return f"{holes} dark blobs are found, but no two are the part's largest holes: is the picture in focus?"
 
 
 def _close_box(view: View, general: GeneralLocation) -> Box | None:

@@ -53,7 +53,8 @@ def test_a_forgotten_refocus_fails_with_a_clear_message():
     stage.camera.focus(math.inf)
     picture, _ = stage.camera.digitise()
     failure = locate_specific(picture, view, PART, general)
-    assert failure == Failure(reason="no hole is found: is the picture in focus, and is the part in it?")
+    assert isinstance(failure, Failure)
+    assert "is the picture in focus" in failure.reason
 
 
 def test_the_overlay_marks_the_line_of_centres():

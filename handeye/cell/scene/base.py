@@ -110,6 +110,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "bore")
     shaper.box(body, "base_land", (x - 0.008, y - 0.008, top - 0.010), (x + 0.008, y + 0.008, top))
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
+    carrier.gravcomp = 1.0  # an empty thread has nothing that could sink, and would keep the base from resting
     body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
     carrier.add_joint(shaper.style("thread_slide"), name=f"thread_slide{number}")
     carrier.add_joint(shaper.style("thread_turn"), name=f"thread_turn{number}")

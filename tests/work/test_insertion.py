@@ -1,0 +1,123 @@
+"""The pin-insertion listing of 1973, as printed, with the hole where the program thinks and where it does not.
+
+The base stands in its standard position; the hole is displaced by teaching T beside it, so that `off` is how
+far the hole lies from T.
+"""
+
+import pytest
+from bench import INSERT, TAUGHT, Bench, at_standard, bench, shifted, written
+
+from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
+from handeye.plan.program import Position
+from handeye.units import INCH
+from handeye.work.events import RunFinished, Saved, SearchAdvanced
+
+pytestmark = pytest.mark.slow
+
+SEATED = 1.7309
+"""Height (in) of a seated pin's shoulder: its chamfer's width under the base's face."""
+PLAY = 0.012
+"""Sideways play (in) of the hand that holds a seated pin: pin in hole, pin in fingers, give of the servo."""
+
+
+def inserting(T: Position, more: str = "") -> Bench:
+    positions = {"P": TAUGHT.positions["P1"], "T": T}
+    return bench("OPEN 1\n" + INSERT + more, positions=positions, lay=at_standard())
+
+
+def hole_off(x: float, y: float, more: str = "") -> Bench:
+    """A run with the hole displaced from T by (x, y) in."""
+    return inserting(shifted("T1", -x, -y), more)
+
+
+def over_large_hole() -> Bench:
+    return inserting(written(25.0, 38.0, 3.931, -90))
+
+
+def test_row_12_a_hole_exactly_at_t_is_found_at_the_first_place() -> None:
+    run = hole_off(0.0, 0.0).go()
+    assert (run.finished, run.tries) == (True, 1)
+    assert run.saved("H")[:2] == pytest.approx([0.0, 0.0], abs=PLAY)
+    assert run.place("pin0")[2] == pytest.approx(SEATED, abs=0.005)
+
+
+def test_row_13_a_hole_one_step_off_is_found_at_the_second_place() -> None:
+    """At exactly .07 in the hole's chamfer, which reaches .069, and a little give may catch the pin at once."""
+    run = hole_off(0.08, 0.0).go()
+    assert (run.finished, len(run.all(SearchAdvanced))) == (True, 1)
+    assert run.saved("H")[:2] == pytest.approx([0.08, 0.0], abs=PLAY)
+
+
+@pytest.mark.parametrize("off", [(0.1, 0.0), (0.0, 0.1), (-0.0707, -0.0707), (0.0707, -0.0707)])
+def test_row_14_a_hole_a_tenth_off_is_found_within_nine_tries(off: tuple[float, float]) -> None:
+    run = hole_off(*off).go()
+    assert run.finished
+    assert 2 <= run.tries <= 9
+    assert run.saved("H")[:2] == pytest.approx(off, abs=PLAY)
+
+
+def test_row_15_a_hole_fifteen_hundredths_off_is_found_within_twenty_four_tries() -> None:
+    run = hole_off(0.0, -0.15).go()
+    assert run.finished
+    assert 10 <= run.tries <= 24
+    assert run.saved("H")[:2] == pytest.approx([0.0, -0.15], abs=PLAY)
+
+
+def test_row_16_beside_the_base_nothing_resists_and_the_search_goes_on() -> None:
+    run = inserting(written(25.0, 34.0, 3.931, -90))
+    run.go(lambda: run.tries > 3)
+    assert run.errors == [23, 23] * 3
+    assert not run.all(Saved)
+
+
+def test_row_17_over_the_large_hole_both_force_tests_pass() -> None:
+    run = over_large_hole().to("OPEN  .5")
+    assert run.errors == [23]
+    assert not run.all(SearchAdvanced)
+
+
+def test_row_17_a_pin_that_fell_over_in_the_large_hole_is_missed_by_the_closing_hand() -> None:
+    """Set down squarely the pin may stand on the floor of the hole; the experimenter flicks it over."""
+    run = over_large_hole().to("OPEN  .5")
+    run.executor.step()
+    run.flick("pin0", (-0.05, 0.0, 0.0)).go()
+    assert run.called.error == NOTHING_HELD
+    assert "nothing, or too thin a thing" in run.called.message
+
+
+def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() -> None:
+    run = hole_off(0.08, 0.0, "MOVE T\nRESTORE H\n").to("SAVE")
+    inserted, tries = run.hand(), run.tries
+    run.go()
+    assert run.finished
+    assert run.hand() == pytest.approx(inserted, abs=0.02)
+    assert run.tries == tries
+
+
+def test_row_22_one_hole_found_helps_to_find_the_next() -> None:
+    """The base stands .06 in and -.04 in off; the second pin goes to the diagonal hole."""
+    second = INSERT.replace("L1", "L2").replace("P  ", "P2 ").replace("T  ", "T2 ")
+    second = second.replace("L2:     MOVE  T2              ;", "L2:     MOVE T2\n RESTORE H LEVEL ;")
+    positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
+    script = "OPEN 1\n" + INSERT + second.replace("SAVE  H", "SAVE  H2")
+    run = bench(script, positions=positions, lay=at_standard(0.06, -0.04)).go()
+    assert run.finished
+    assert run.tries <= 2
+    assert run.place("pin1")[2] == pytest.approx(SEATED, abs=0.005)
+
+
+def test_without_search_a_pin_a_tenth_off_misses_and_the_operator_is_called() -> None:
+    script = INSERT.replace("SEARCH .07", "").replace("AOJ   L1", 'WAIT "NO HOLE"')
+    positions = {"P": TAUGHT.positions["P1"], "T": shifted("T1", -0.1, 0.0)}
+    run = bench("OPEN 1\n" + script, positions=positions, lay=at_standard()).go()
+    assert run.called.message == "NO HOLE"
+    assert run.place("pin0")[2] > SEATED + 0.5
+
+
+def test_a_search_that_finds_no_hole_ends_with_the_operator() -> None:
+    """The hole is half an inch away, beyond the spiral's reach."""
+    run = hole_off(0.0, 0.5)
+    run.go(lambda: run.tries > 2)
+    run.run.search.limit = 5
+    assert run.go().called.error == SEARCH_EXHAUSTED
+    assert not run.all(RunFinished)
