@@ -11,6 +11,8 @@ from handeye.errors import InvalidInput
 
 LARGEST: Final = 4096
 """Most points along a side."""
+FINE_SHADOW: Final = 8192
+FINE_SAMPLES: Final = 8
 SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
 
 
@@ -31,7 +33,7 @@ def photograph(
         )
     _, gl = context()
     gl.make_current()
-    drawing = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+    drawing = _drawing(model)
     mujoco.mjr_resizeOffscreen(width, height, drawing)
     mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, drawing)
     scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
@@ -46,3 +48,14 @@ def photograph(
     rgb = np.zeros((height, width, 3), dtype=np.uint8)
     mujoco.mjr_readPixels(rgb, None, viewport, drawing)
     return rgb[::-1]
+
+
+def _drawing(model: mujoco.MjModel) -> mujoco.MjrContext:
+    """A drawing context with finer shadows than the television camera needs; it keeps its own settings."""
+    quality = model.vis.quality
+    before = quality.shadowsize, quality.offsamples
+    quality.shadowsize, quality.offsamples = FINE_SHADOW, FINE_SAMPLES
+    try:
+        return mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
+    finally:
+        quality.shadowsize, quality.offsamples = before

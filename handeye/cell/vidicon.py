@@ -43,12 +43,12 @@ class Vidicon:
             hold_target: keep the gain of the picture before, if there was one.
         """
         image = _defocused(light, disc) if disc > 0.5 else light
-        image = cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1])
+        image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)
         signal = np.clip(image * _shading(), 0, None) ** GAMMA
         if self._gain is None or not hold_target:
             self._gain = PEAK / max(float(np.percentile(_middle(signal), BRIGHT)), 1e-3)
         noise = self._rng.normal(0.0, NOISE, signal.shape)
-        return np.clip(np.rint(signal * self._gain + noise), 0, 15).astype(np.uint8)
+        return np.asarray(np.clip(np.rint(signal * self._gain + noise), 0, 15), dtype=np.uint8)
 
 
 def blur_disc(focal_length: float, focused: float, distance: float) -> float:
@@ -63,7 +63,7 @@ def blur_disc(focal_length: float, focused: float, distance: float) -> float:
 
 def _shading() -> Luminance:
     v, u = np.mgrid[-1 : 1 : ROWS * 1j, -1 : 1 : COLUMNS * 1j]
-    return (1 - SHADING * (u**2 + v**2) / 2).astype(np.float32)
+    return np.asarray(1 - SHADING * (u**2 + v**2) / 2, dtype=np.float32)
 
 
 def _middle(signal: Luminance) -> Luminance:

@@ -110,13 +110,8 @@ def beam(
     if best is None:
         return None
     length = float(k[lo]) + best + SPAN - 0.5 + _vertex(rise, best)
-    return Edge(
-        u=u0 + length * du,
-        v=v0 + length * dv,
-        before=float(mean[best]),
-        after=float(mean[best + SPAN]),
-        length=length,
-    )
+    before, after = float(mean[best]), float(mean[best + SPAN])
+    return Edge(u=u0 + length * du, v=v0 + length * dv, before=before, after=after, length=length)
 
 
 def _first(rise: Array, step: float, ahead: Array, beyond: float) -> int | None:

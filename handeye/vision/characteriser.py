@@ -27,8 +27,6 @@ class Blob(NamedTuple):
     height: float
     surround: float
     """Lowest intensity met on the far side of its border."""
-    inside: float
-    """Mean intensity just inside its border."""
     bounces: int
 
 
@@ -42,12 +40,9 @@ def characterise(
     wide: bool = False,
     beyond: float = 0.0,
 ) -> Blob | None:
-    """Bounce from a seed inside the blob until its centre moves less than a point.
-
-    None if a beam finds no edge.
+    """Bounce from a seed inside the blob until its centre rests; None if a beam finds no edge.
 
     Args:
-        seed: (u, v).
         step: least difference of intensity across the border.
         reach: greatest distance of the border from the present centre, points.
         polarity: BRIGHTER: the surroundings are brighter than the blob.
@@ -73,7 +68,6 @@ def characterise(
                 width=level[1].u - level[0].u,
                 height=upright[1].v - upright[0].v,
                 surround=min(edge.after for edge in edges),
-                inside=sum(edge.before for edge in edges) / len(edges),
                 bounces=bounce,
             )
     return None

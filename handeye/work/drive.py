@@ -36,11 +36,12 @@ class Outcome:
     trip: Trip | None = None
     """The guard that ended it."""
     error: int | None = None
-    """An error of the motion itself (servo lag)."""
+    """An error of the motion itself (servo lag, watchdog)."""
     detail: str = ""
 
 
 REACHED = Outcome()
+CUT = Outcome(error=errors.WATCHDOG)
 
 
 @dataclass(slots=True, kw_only=True)
@@ -68,6 +69,8 @@ class ArmDrive:
     load: float = 0.0
     tool: float = 0.0
     lamp: bool = False
+    cut: bool = field(default=False, init=False)
+    """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
     tare: Array = field(default_factory=lambda: np.zeros(6))
     wrench: Array = field(default_factory=lambda: np.zeros(6))
     """External force and moment on the hand in W, less the tare."""
@@ -100,6 +103,8 @@ class ArmDrive:
         for i in range(len(motion)):
             here = _Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i])
             self._servo(here, motion.q[i], motion.qd[i], motion.qdd[i], estimate=guard is not None)
+            if self.cut:
+                return CUT
             self.q = samples.q[i]
             lag = np.abs(self.sensed.q - self.q) > LAG
             if lag.any():
@@ -128,6 +133,8 @@ class ArmDrive:
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
             self._approach(here, step.q, estimate=True)
+            if self.cut:
+                return CUT
             trip = guard.check(self._reading(direction)) if guard is not None else None
             if trip is not None:
                 self._freeze(direction)
@@ -140,7 +147,7 @@ class ArmDrive:
         if step.q is None:
             return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
         self._approach(here, step.q, estimate=False)
-        return REACHED
+        return CUT if self.cut else REACHED
 
     def hold(self, ticks: int) -> None:
         """Hold the set-point."""
@@ -180,6 +187,7 @@ class ArmDrive:
             Drive(torque=tau, brakes=brakes, gap=self.gap, grip=self.grip, tool=self.tool, lamp=self.lamp)
         )
         self.sensed = self.cell.sense()
+        self.cut = self.sensed.braked and not brakes
         self.watch(self.sensed)
 
     # -- stopping -----------------------------------------------------------------------------------

@@ -118,6 +118,8 @@ class Executor:
         return step.next
 
     def _raise(self, fault: Fault | None) -> None:
+        if self.state.drive.cut:  # whatever the action made of it
+            fault = Fault(number=errors.WATCHDOG)
         self.pending = fault
         if fault is not None:
             self.state.emit(ErrorRaised(time=self.state.time, number=fault.number, detail=fault.detail))

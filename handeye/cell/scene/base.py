@@ -79,6 +79,9 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody) -> None:
     for colour, surface in solids.painted(solids.casting(), _colour).items():
         shaper.look(body, f"casting_{colour}", colour, surface)
     shaper.look(body, "base_plate", "plate", solids.surface(solids.plate()))
+    d = dimensions()  # the floor of the through hole is as oily as its wall
+    x, radius, floor = d("base.large_hole_2.x"), d("base.large_hole_2.diameter") / 2, d("base.plate.thickness")
+    shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole")
 
 
 def _colour(middles: Array, normals: Array) -> NDArray[np.str_]:
