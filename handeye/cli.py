@@ -138,9 +138,12 @@ def render(
     seed: Seed = 0,
 ) -> int:
     """Render a picture of the work cell."""
-    from handeye.trials.picture import picture
+    from handeye.cell.imperfection import World
+    from handeye.cell.photograph import photograph_png
+    from handeye.cell.simulated import SimulatedCell
 
-    write_whole(output, picture(camera=camera, width=width, height=height, seed=seed))
+    cell = SimulatedCell(World.sample(_world(seed)), camera="ray")
+    write_whole(output, photograph_png(cell.truth, camera, width, height))
     _out.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0
 
@@ -194,6 +197,12 @@ def trials(
             out, b"".join(msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
         )
     return 3 if silent else 0
+
+
+def _world(seed: int) -> int:
+    if seed < 0:
+        raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
+    return seed
 
 
 def _range(text: str) -> list[int]:
@@ -260,14 +269,12 @@ def _watched(
     from handeye.trials.assembly import run_plan
     from handeye.work.events import Event
 
-    if seed < 0:
-        raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
     events: list[Event] = []
     with Progress(plan, _err) as progress:
-        result, run = run_plan(
-            plan, seed=seed, camera=camera, planning_wall_s=planning, referee=referee,
+        finished = run_plan(
+            plan, seed=_world(seed), camera=camera, planning_wall_s=planning, referee=referee,
             listeners=(events.append, progress),
         )  # fmt: skip
     if out is not None:
-        keep(out, plan, events, run.shots, result)
-    return result
+        keep(out, plan, events, finished)
+    return finished.result

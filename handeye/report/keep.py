@@ -1,35 +1,44 @@
 """What a run leaves in a folder: plan, events, pictures, result."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Final
 
 import cv2
 
+from handeye.cell.photograph import photograph_png
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.plan.plan import Plan, encode
-from handeye.report.result import Result, to_json
+from handeye.report.result import to_json
+from handeye.trials.assembly import Finished
 from handeye.work.events import Event, to_line
-from handeye.work.run import Shot
+
+PHOTOGRAPHS: Final = ("studio", "pump")
+"""Cameras of the scene whose view of the end is kept."""
 
 
-def keep(
-    folder: Path, plan: Plan, events: Iterable[Event], shots: Mapping[str, Shot], result: Result
-) -> None:  # fmt: skip
+def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) -> None:
     """Write `plan.json`, `events.jsonl`, `pictures/*.png` and `result.json`, each whole or not at all.
+
+    The pictures are those the program took, as it saw them, and photographs of the end where there is OpenGL.
 
     Raises:
         InvalidInput: the folder cannot be made or written to.
     """
+    pictures = folder / "pictures"
     try:
-        (folder / "pictures").mkdir(parents=True, exist_ok=True)
+        pictures.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
     write_whole(folder / "plan.json", encode(plan).encode())
     write_whole(folder / "events.jsonl", b"".join(to_line(event) for event in events))
-    for name, shot in shots.items():
+    for name, shot in finished.run.shots.items():
         enlarged = cv2.resize(shot.picture * 17, None, fx=3, fy=3, interpolation=cv2.INTER_NEAREST)
         done, data = cv2.imencode(".png", enlarged)
         assert done
-        write_whole(folder / "pictures" / f"{name.lower()}.png", data.tobytes())
-    write_whole(folder / "result.json", to_json(result))
+        write_whole(pictures / f"{name.lower()}.png", data.tobytes())
+    if finished.cell.camera.renderer.startswith("OpenGL"):
+        for camera in PHOTOGRAPHS:
+            write_whole(pictures / f"{camera}.png", photograph_png(finished.cell.truth, camera, 1280, 960))
+    write_whole(folder / "result.json", to_json(finished.result))

@@ -44,6 +44,15 @@ class _Stopwatch:
             self.seconds[event.stage] = (event.status, event.time - self.started[0] - busy)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Finished:
+    """A run that has ended: what it came to, what it remembers, and the cell as it was left."""
+
+    result: Result
+    run: Run
+    cell: SimulatedCell
+
+
 def run_plan(
     plan: Plan,
     *,
@@ -52,7 +61,7 @@ def run_plan(
     planning_wall_s: float = 0.0,
     referee: bool = True,
     listeners: tuple[Callable[[Event], None], ...] = (),
-) -> tuple[Result, Run]:
+) -> Finished:
     """Carry out a plan in the world of a seed and have it judged.
 
     Raises:
@@ -100,7 +109,7 @@ def run_plan(
         camera=_camera(cell, calibration),
         versions=versions(),
     )
-    return result, run
+    return Finished(result=result, run=run, cell=cell)
 
 
 def _stage(name: str, stages: _Stopwatch) -> Stage:

@@ -22,5 +22,4 @@ def assemble_many(plan: Plan, seeds: Sequence[int], *, camera: str, jobs: int) -
 
 
 def _one(plan: Plan, seed: int, camera: str) -> Result:
-    result, _ = run_plan(plan, seed=seed, camera=camera)
-    return result
+    return run_plan(plan, seed=seed, camera=camera).result

@@ -27,6 +27,8 @@ PRESS_GAIN = 0.0015
 """Speed of a pressing motion per missing force, m/s/N: slow enough for the arm's 20 kg of felt inertia."""
 PRESS_SPEED = 0.0127
 """Greatest speed of a pressing motion, m/s."""
+PRESS_TICKS = 600
+"""Periods after which a pressing motion ends that neither gets on nor meets its guard: ten seconds."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,7 +127,9 @@ class ArmDrive:
         here = self.dynamics()
         X_start = forward(self.arm, self.q)
         gone = 0.0
-        while gone < distance:
+        for _ in range(PRESS_TICKS):
+            if gone >= distance:
+                break
             felt = float(-self.wrench[:3] @ direction)
             speed = float(np.clip((force - felt) * PRESS_GAIN, -PRESS_SPEED, PRESS_SPEED))
             gone += speed * TICK
