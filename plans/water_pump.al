@@ -130,10 +130,16 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CLOSE   .9 1.1
         CHANGE  [0 0 1] 2
         LOAD    15
-        MOVE    S1
+        SEARCH  .05
+M1:     MOVE    S1
         RESTORE DRV LEVEL
+        RESTORE DS LEVEL
         STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 -1] .5
+        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M1
+        SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
 K1:     MOVE    H0
@@ -143,37 +149,48 @@ K1:     MOVE    H0
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K1
         STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6     ;down to the thread
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .6 .4  ;down to the thread
         SKIPN   23
         AOJ     K1
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
         CHANGE  [0 0 1] 1
-        MOVE    S2
+        SEARCH  .05
+M2:     MOVE    S2
         RESTORE DRV LEVEL
+        RESTORE DS LEVEL
         STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 -1] .5
+        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M2
+        SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
 K2:     MOVE    H2
+        RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K2
         STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6     ;down to the thread
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .6 .4  ;down to the thread
         SKIPN   23
         AOJ     K2
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
@@ -214,98 +231,134 @@ K2:     MOVE    H2
         CLOSE   .9 1.1
         CHANGE  [0 0 1] 2
         LOAD    15
-        MOVE    S3
+        SEARCH  .05
+M3:     MOVE    S3
         RESTORE DRV LEVEL
+        RESTORE DS LEVEL
         STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 -1] .5
+        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M3
+        SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
 K3:     MOVE    H3
+        RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K3
         STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6     ;down to the thread
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .6 .4  ;down to the thread
         SKIPN   23
         AOJ     K3
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
         CHANGE  [0 0 1] 1
-        MOVE    S4
+        SEARCH  .05
+M4:     MOVE    S4
         RESTORE DRV LEVEL
+        RESTORE DS LEVEL
         STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 -1] .5
+        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M4
+        SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
 K4:     MOVE    H4
+        RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K4
         STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6     ;down to the thread
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .6 .4  ;down to the thread
         SKIPN   23
         AOJ     K4
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
         CHANGE  [0 0 1] 1
-        MOVE    S5
+        SEARCH  .05
+M5:     MOVE    S5
         RESTORE DRV LEVEL
+        RESTORE DS LEVEL
         STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 -1] .5
+        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M5
+        SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
 K5:     MOVE    H1
+        RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K5
         STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6     ;down to the thread
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .6 .4  ;down to the thread
         SKIPN   23
         AOJ     K5
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
         CHANGE  [0 0 1] 1
-        MOVE    S6
+        SEARCH  .05
+M6:     MOVE    S6
         RESTORE DRV LEVEL
+        RESTORE DS LEVEL
         STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5     ;socket onto the head
+        CHANGE  [0 0 -1] .5
+        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M6
+        SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
 K6:     MOVE    H5
+        RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K6
         STOP    [0 0 -30]
-        CHANGE  [0 0 -1] .6     ;down to the thread
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .6 .4  ;down to the thread
         SKIPN   23
         AOJ     K6
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high

@@ -218,6 +218,14 @@ _TABLE = (
         fits=("CHANGE",),
     ),
     Instruction(
+        op="FREE",
+        group=MODIFIERS,
+        help="give way to force along these table axes (1 or 0 each) during the next CHANGE",
+        operands=(_vector("[x y z]", ONE, ONE, ONE),),
+        role=Role.MODIFIER,
+        fits=("CHANGE",),
+    ),
+    Instruction(
         op="TORQUE",
         group=MODIFIERS,
         help="end the next motion when the screwdriver turns with this torque (oz-in); else error 24",

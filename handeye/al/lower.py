@@ -15,6 +15,8 @@ from handeye.plan.program import AnyOperation, Move, Step, Test
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
+_WAY = {"FORCE": "press", "FREE": "give way"}
+"""What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 
 def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[str, ...], tuple[Step, ...]]:
@@ -151,8 +153,7 @@ class _Lowering:
             help = "it modifies " + ", ".join(f"`{op}`" for op in fits)
             self.problem("modifier-misplaced", message, word, modified, help=help)
             return False
-        # A motion ends in one way and presses in one way.
-        same = [m for m in self.pending if (_word(m).text == "FORCE") == (word.text == "FORCE")]
+        same = [m for m in self.pending if _WAY.get(_word(m).text) == _WAY.get(word.text)]
         if modifier is not same[0]:
             first = Label(span=_word(same[0]).span, text="the other one")
             message = f"`{motion.word.text}` has both `{_word(same[0]).text}` and `{word.text}`"

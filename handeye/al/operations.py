@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS, Instruction
@@ -49,19 +50,31 @@ class Operands:
         return value.text
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _How:
+    """What the modifiers say of a motion."""
+
+    stop: p.Stop | None = None
+    press: p.Vector | None = None
+    free: p.Vector | None = None
+
+
 def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOperation:
     """The operation of a statement whose modifiers fit it, jumps and skips still without their targets."""
     assert statement.word is not None
-    stop = press = None
+    how = _How()
     for modifier in modifiers:
         assert modifier.word is not None
-        if modifier.word.text == "FORCE":
-            press = Operands(modifier).vector3("[x y z]")
+        word, operands = modifier.word.text, Operands(modifier)
+        if word == "FORCE":
+            how = replace(how, press=operands.vector3("[x y z]"))
+        elif word == "FREE":
+            how = replace(how, free=operands.vector3("[x y z]"))
         else:
-            stop = _stop(modifier.word.text, Operands(modifier), modifier.operands[0])
+            how = replace(how, stop=_stop(word, operands, modifier.operands[0]))
     motion = _MOTIONS.get(statement.word.text)
     if motion is not None:
-        return motion(Operands(statement), stop, press)
+        return motion(Operands(statement), how)
     return _STEPS[statement.word.text](Operands(statement))
 
 
@@ -87,18 +100,18 @@ def _stop(op: str, operands: Operands, value: Value | None) -> p.Stop:
     return p.Stop(against=operands.number("force"))
 
 
-def _change(operands: Operands, stop: p.Stop | None, press: p.Vector | None) -> p.Change:
+def _change(operands: Operands, how: _How) -> p.Change:
     x, y, z = operands.vector3("[x y z]")
     scale = operands.number("distance") / math.hypot(x, y, z)
     displacement = (x * scale, y * scale, z * scale)
-    return p.Change(displacement=displacement, speed=operands.number_or("speed"), stop=stop, press=press)
+    speed = operands.number_or("speed")
+    return p.Change(displacement=displacement, speed=speed, stop=how.stop, press=how.press, free=how.free)
 
 
-_Motion = Callable[[Operands, p.Stop | None, p.Vector | None], p.AnyOperation]
-_MOTIONS: Final[dict[str, _Motion]] = {
-    "MOVE": lambda o, stop, _: p.Move(goal=o.name("position"), direct=o.has("DIRECT"), stop=stop),
-    "PARK": lambda _o, stop, _: p.Move(goal="PARK", stop=stop),
-    "TURN": lambda o, stop, _: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=stop),
+_MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
+    "MOVE": lambda o, how: p.Move(goal=o.name("position"), direct=o.has("DIRECT"), stop=how.stop),
+    "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop),
+    "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=how.stop),
     "CHANGE": _change,
 }
 _STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {

@@ -38,9 +38,13 @@ def move_trajectory(
 
 def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
     """Set-points of a Change from configuration `q`, or why there are none."""
+    return straight(arm, q, np.array(operation.displacement), change_speed(operation))
+
+
+def change_speed(operation: Change) -> float:
+    """Speed of a Change, m/s: as written, else by whether it feels its way."""
     guarded = operation.stop is not None or operation.press is not None
-    speed = operation.speed or (GUARDED_SPEED if guarded else FREE_SPEED)
-    return straight(arm, q, np.array(operation.displacement), speed)
+    return operation.speed or (GUARDED_SPEED if guarded else FREE_SPEED)
 
 
 def turn_samples(arm: ArmModel, q: Array, centre: Pose, operation: Turn) -> Samples | IKResult:

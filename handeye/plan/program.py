@@ -65,6 +65,8 @@ class Change(Operation, frozen=True, kw_only=True):
     stop: Stop | None = None
     press: Vector | None = None
     """Force to exert while moving (N, table coordinates): the hand follows what it presses on."""
+    free: Vector | None = None
+    """Axes of the table, 1 or 0, along which the hand gives way to force while moving."""
 
 
 class Turn(Operation, frozen=True, kw_only=True):
@@ -123,7 +125,11 @@ class Jump(Operation, frozen=True, kw_only=True):
 
 
 class Save(Operation, frozen=True, kw_only=True):
-    """Keep the difference actual minus goal of the last Move; after Center only its part along the finger line."""
+    """Keep the difference actual minus goal of the last Move; after Center only its part along the finger line.
+
+    What a Restore of the same name had added to that goal counts to the difference, so that saving again under
+    one name follows a datum that moves.
+    """
 
     name: str
 

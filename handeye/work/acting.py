@@ -8,13 +8,14 @@ from handeye import errors
 from handeye.arm.kinematics import IKResult, forward
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.cell.ports import TICK
-from handeye.plan.motions import change_samples, directions, move_trajectory, turn_samples
+from handeye.plan.motions import change_samples, change_speed, directions, move_trajectory, turn_samples
 from handeye.plan.program import Center, Change, Close, Move, Open, Stop, Travel, Turn
 from handeye.pose import Pose, translated
 from handeye.touch.centring import Centring
 from handeye.touch.guards import AgainstGuard, ForceGuard, Guard, TorqueGuard
 from handeye.touch.hold import within
 from handeye.units import INCH
+from handeye.work.compliance import Course
 from handeye.work.drive import Outcome
 from handeye.work.events import Adjusted, GuardTripped, Restored
 from handeye.work.run import Fault, Run, vector
@@ -34,11 +35,13 @@ __all__ = ["center", "change", "close", "move", "open_hand", "travel", "turn"]
 def move(run: Run, number: int, operation: Move) -> Fault | None:
     """Move to a position by its measured place, shifted by what was saved and by the search."""
     X_WT = run.world.position(operation.goal)
+    run.restored = {}
     for restore in operation.restore:
         difference = run.saved.get(restore.name, np.zeros(3)).copy()
         if restore.level:
             difference[2] = 0.0
         X_WT = translated(X_WT, difference)
+        run.restored[restore.name] = difference
         run.emit(
             Restored(time=run.time, name=restore.name, goal=operation.goal, difference=vector(difference))
         )  # fmt: skip
@@ -73,16 +76,27 @@ def change(run: Run, operation: Change) -> Fault | None:
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
     guard = _guard(operation.stop)
-    if operation.press is not None:
-        force = float(np.linalg.norm(operation.press))
-        outcome = run.drive.press(np.array(operation.press) / force, distance, force, guard)
-    else:
+    if operation.press is None and operation.free is None:
         samples = change_samples(run.arm, run.drive.q, operation)
         if isinstance(samples, IKResult):
             return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
         outcome = run.drive.follow(samples, guard, displacement / distance)
+    else:
+        outcome = run.drive.comply(_course(operation), guard)
     run.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     return _finish(run, outcome, operation.stop)
+
+
+def _course(operation: Change) -> Course:
+    displacement = np.array(operation.displacement)
+    distance = float(np.linalg.norm(displacement))
+    return Course(
+        direction=displacement / distance,
+        distance=distance,
+        speed=change_speed(operation),
+        force=None if operation.press is None else float(np.linalg.norm(operation.press)),
+        free=np.zeros(3) if operation.free is None else (np.array(operation.free) != 0).astype(float),
+    )
 
 
 def turn(run: Run, operation: Turn) -> Fault | None:

@@ -18,15 +18,16 @@ from handeye.arm.servo import prepare, torque
 from handeye.cell.ports import TICK, Drive, Sensed, Workcell
 from handeye.pose import Array, Pose, translated
 from handeye.touch.guards import Guard, Reading, Trip
+from handeye.units import INCH
+from handeye.work.compliance import Course
 
 SETTLE_TICKS = 8
 """Periods held at the end of a motion, and averaged for the tare of the force estimate."""
 LAG = np.array([0.05, 0.05, 0.03, 0.15, 0.15, 0.15])
 """Following error (rad, m) that means collision. Placeholder: twenty times what free motions show."""
-PRESS_GAIN = 0.0015
-"""Speed of a pressing motion per missing force, m/s/N: slow enough for the arm's 20 kg of felt inertia."""
-PRESS_SPEED = 0.0127
-"""Greatest speed of a pressing motion, m/s."""
+SHORT = 0.004
+"""Distance of the hand from its set-point at the end of a free motion (m) that means it stands on something: the
+servo is soft. Placeholder: five times the .032 in that whole runs show."""
 PRESS_TICKS = 600
 """Periods after which a pressing motion ends that neither gets on nor meets its guard: ten seconds."""
 
@@ -119,29 +120,38 @@ class ArmDrive:
                 self._freeze(along)
                 return Outcome(trip=trip)
         self.hold(SETTLE_TICKS)
-        return REACHED
+        return REACHED if guard is not None else self._arrived()
 
-    def press(self, direction: Array, distance: float, force: float, guard: Guard | None) -> Outcome:
-        """Press with `force` (N) along a unit `direction` and follow what gives way, at most `distance` (m)."""
+    def _arrived(self) -> Outcome:
+        """Whether the hand is where it is held."""
+        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.q)[:3, 3]))
+        if off < SHORT:
+            return REACHED
+        return Outcome(error=errors.SERVO_LAG, detail=f"the hand is {off / INCH:.2f} in from its set-point")
+
+    def comply(self, course: Course, guard: Guard | None) -> Outcome:
+        """Go straight, pressing or giving way as the course says; end early when `guard` trips.
+
+        A position servo in which the measured force moves the set-point: it needs no joint to be slack.
+        """
         self.zero()
         here = self.dynamics()
         X_start = forward(self.arm, self.q)
-        gone = 0.0
-        for _ in range(PRESS_TICKS):
-            if gone >= distance:
+        gone, given = 0.0, np.zeros(3)
+        for tick in range(PRESS_TICKS):
+            if gone >= course.distance:
                 break
-            felt = float(-self.wrench[:3] @ direction)
-            speed = float(np.clip((force - felt) * PRESS_GAIN, -PRESS_SPEED, PRESS_SPEED))
-            gone += speed * TICK
-            step = solve(self.arm, translated(X_start, gone * direction), self.q)
+            gone += course.advance(self.wrench, tick) * TICK
+            given += course.yielding(self.wrench) * TICK
+            step = solve(self.arm, translated(X_start, gone * course.direction + given), self.q)
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
             self._approach(here, step.q, estimate=True)
             if self.cut:
                 return CUT
-            trip = guard.check(self._reading(direction)) if guard is not None else None
+            trip = guard.check(self._reading(course.direction)) if guard is not None else None
             if trip is not None:
-                self._freeze(direction)
+                self._freeze(course.direction)
                 return Outcome(trip=trip)
         return REACHED
 

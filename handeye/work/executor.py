@@ -145,6 +145,8 @@ class Executor:
     def _save(self, operation: op.Save) -> None:
         run = self.state
         difference = run.drive.hand()[:3, 3] - run.goal
+        if operation.name in run.restored:  # what it has added already still belongs to it
+            difference = difference + run.restored[operation.name]
         if run.finger_line is not None:  # CENTER measures along the finger line; the rest is servo error
             difference = (difference @ run.finger_line) * run.finger_line
         run.saved[operation.name] = difference

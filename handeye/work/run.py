@@ -71,6 +71,8 @@ class Run:
     world: WorldModel = field(init=False)
     saved: dict[str, Array] = field(default_factory=dict)
     search: SearchState | None = None
+    restored: dict[str, Array] = field(default_factory=dict)
+    """What RESTOREs added to the goal of the last Move."""
     goal: Array = field(default_factory=lambda: np.zeros(3))
     """Goal of the last Move without its search offset, in W (m)."""
     travel: float = 0.0

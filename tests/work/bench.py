@@ -4,8 +4,9 @@ Before a run begins the experimenter may lay parts where the question needs them
 state; once it has begun nobody touches anything, unless a test says that the experimenter does.
 """
 
+import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import Final, TypeVar
 
 import mujoco
@@ -13,9 +14,10 @@ import numpy as np
 
 from handeye.al import compile_text
 from handeye.arm.stanford import STANFORD
-from handeye.cell.imperfection import World
+from handeye.cell.imperfection import Placing, World
 from handeye.cell.ports import Drive
-from handeye.cell.scene.drawing import standard
+from handeye.cell.scene.dimensions import dimensions
+from handeye.cell.scene.drawing import base_top, screw_holes, standard
 from handeye.cell.simulated import SimulatedCell
 from handeye.plan.planner import make_plan
 from handeye.plan.program import Part, Position
@@ -56,13 +58,34 @@ L1:     MOVE  T              ;GO TO THE HOLE
 """The pin-insertion listing of 1973, reference 3.6, with the taught names P and T."""
 
 
+SCRIPT: Final = (plans() / "water_pump.al").read_text(encoding="utf-8")
+"""The water-pump program."""
+
+
+def stage(*names: str) -> str:
+    """The text of some stages of the water-pump program."""
+    texts = dict(re.findall(r'STAGE\s+"([^"]+)"\n(.*?)(?=\n\s+STAGE|\Z)', SCRIPT, re.DOTALL))
+    return "\n".join(f'STAGE "{name}"\n{texts[name]}' for name in names)
+
+
+def without(word: str, script: str) -> str:
+    """A script without the lines that begin with an instruction."""
+    return re.sub(rf"(?m)^\s*{word}\b.*\n", "", script)
+
+
+SEATED: Final = 1.7309
+"""Height (in) of a seated pin's shoulder over the underside of the base: in the chamfer of its hole."""
+
+
 @dataclass(slots=True, kw_only=True)
 class Bench:
     """A cell, a program in it, and everything that happened."""
 
     cell: SimulatedCell
     executor: Executor
-    events: list[Event] = field(default_factory=list)
+    events: list[Event]
+    first: dict[str, Array]
+    """Where bodies lay before the run, in inches."""
 
     # -- the run ------------------------------------------------------------------------------------
 
@@ -128,6 +151,10 @@ class Bench:
         found = self.cell.truth.data.body(body)
         return pose(found.xmat.reshape(3, 3).copy(), found.xpos.copy())
 
+    def moved(self, body: str) -> float:
+        """How far a body has moved sideways since the run began, in inches."""
+        return float(np.hypot(*(self.place(body) - self.first[body])[:2]))
+
     def hand(self) -> Array:
         """Where the fingers really are, midway between their tips, in inches; shape (3,), W."""
         return np.array(self.cell.truth.data.site("stanford/tool").xpos) / INCH
@@ -176,7 +203,8 @@ def bench(
     settle(cell)
     events: list[Event] = []
     run = Run(plan=plan, arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
-    return Bench(cell=cell, executor=Executor(state=run), events=events)
+    first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
+    return Bench(cell=cell, executor=Executor(state=run), events=events, first=first)
 
 
 def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:
@@ -200,6 +228,23 @@ def at_standard(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, 
     return {"base": translated(standard(), (x * INCH, y * INCH, 1e-5)) @ planar(0, 0, 0, turn * DEGREE)}
 
 
+def stacked() -> dict[str, Pose]:
+    """Base, gasket and top in their places, held together by the two pins, nothing screwed."""
+    X_WP, seat = at_standard()["base"], base_top()
+    lay = {"base": X_WP, "gasket": X_WP @ planar(0, 0, seat, 0)}
+    lay["top"] = X_WP @ planar(0, 0, seat + dimensions()("gasket.thickness"), 0)
+    for pin, hole in (("pin0", 1), ("pin1", 5)):
+        lay[pin] = X_WP @ planar(*screw_holes()[hole], SEATED * INCH, 0)
+    return lay
+
+
+def base_off(x: float, y: float) -> World:
+    """A world in which nothing is wrong but the place of the base on the belt (in)."""
+    world = World.nominal()
+    base = Placing(x=world.base.x + x * INCH, y=world.base.y + y * INCH, yaw=world.base.yaw)
+    return replace(world, base=base)
+
+
 def shifted(name: str, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Position:
     """A taught position of the water-pump program moved by inches in W."""
     position = TAUGHT.positions[name]
@@ -213,3 +258,11 @@ def shifted(name: str, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Positi
 def written(x: float, y: float, z: float, o: float, a: float = 90.0, t: float = 0.0) -> Position:
     """A hand position in table inches and degrees."""
     return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE))
+
+
+def _of_base(x: float, y: float, o: float) -> Position:
+    return Position(at=(x * INCH, y * INCH, 1.25 * INCH, o * DEGREE, 90 * DEGREE, 0.0), of="BASE")
+
+
+TOUCHING: Final = {"A": _of_base(0.0, 1.53, 90), "B": _of_base(3.60, 0.0, 0), "WEB": _of_base(1.655, 0.0, 0)}
+"""Grasp points where fingers .75 in wide really touch: they meet the wall of a round hole with their edges."""

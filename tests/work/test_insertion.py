@@ -5,18 +5,15 @@ far the hole lies from T.
 """
 
 import pytest
-from bench import INSERT, TAUGHT, Bench, at_standard, bench, shifted, written
+from bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifted, written
 
 from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
 from handeye.plan.program import Position
-from handeye.units import INCH
 from handeye.work.events import RunFinished, Saved, SearchAdvanced
 
 pytestmark = pytest.mark.slow
 
-SEATED = 1.7309
-"""Height (in) of a seated pin's shoulder: its chamfer's width under the base's face."""
-PLAY = 0.012
+PLAY = 0.02
 """Sideways play (in) of the hand that holds a seated pin: pin in hole, pin in fingers, give of the servo."""
 
 
@@ -96,22 +93,14 @@ def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() ->
 
 def test_row_22_one_hole_found_helps_to_find_the_next() -> None:
     """The base stands .06 in and -.04 in off; the second pin goes to the diagonal hole."""
-    second = INSERT.replace("L1", "L2").replace("P  ", "P2 ").replace("T  ", "T2 ")
-    second = second.replace("L2:     MOVE  T2              ;", "L2:     MOVE T2\n RESTORE H LEVEL ;")
+    second = INSERT.replace("L1", "L2").replace("MOVE  P", "MOVE  P2").replace("MOVE  T", "MOVE  T2")
+    second = second.replace("STOP  [0 0 -50]", "RESTORE H LEVEL\n STOP [0 0 -50]").replace("SAVE  H", "SAVE  H2")
     positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
-    script = "OPEN 1\n" + INSERT + second.replace("SAVE  H", "SAVE  H2")
+    script = "OPEN 1\n" + INSERT + "OPEN 1\n" + second
     run = bench(script, positions=positions, lay=at_standard(0.06, -0.04)).go()
     assert run.finished
     assert run.tries <= 2
     assert run.place("pin1")[2] == pytest.approx(SEATED, abs=0.005)
-
-
-def test_without_search_a_pin_a_tenth_off_misses_and_the_operator_is_called() -> None:
-    script = INSERT.replace("SEARCH .07", "").replace("AOJ   L1", 'WAIT "NO HOLE"')
-    positions = {"P": TAUGHT.positions["P1"], "T": shifted("T1", -0.1, 0.0)}
-    run = bench("OPEN 1\n" + script, positions=positions, lay=at_standard()).go()
-    assert run.called.message == "NO HOLE"
-    assert run.place("pin0")[2] > SEATED + 0.5
 
 
 def test_a_search_that_finds_no_hole_ends_with_the_operator() -> None:

@@ -38,8 +38,9 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
     )
     body.add_site(name="bit", group=5)
     shaper.cylinder(body, "bit", 0.0065, (0, 0, 0), (0, 0, 0.008), name="bit")
-    ring = Bore(radius=d("screw.head_radius") + 0.0003, outer=0.0085, height=0.003, below=0.0012, sectors=8)
-    shaper.ring(body, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
+    ring = Bore(radius=d("screw.head_radius") + 0.0003, outer=0.0085, height=0.003, below=0.002, sectors=8)
+    brass = body.add_body(name="socket")  # a body of its own: the magnet holds by the bit's face, not by the ring
+    shaper.ring(brass, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
     shaper.cylinder(body, "look", 0.006, (0, 0, 0.012), (0, 0, length), "steel")
     shaper.cylinder(body, "look", 0.0085, (0, 0, 0), (0, 0, 0.014), "brass")
 
