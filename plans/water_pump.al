@@ -16,12 +16,22 @@
 
         STAGE   "feel for the grasp"
         OPEN    1.775
-        MOVE    A
+        SEARCH  .2
+LA:     MOVE    A
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] 1.5    ;one finger into the large hole
+        SKIPE   23              ;no resistance: neither finger stands on the casting
+        AOJ     LA
         CENTER  .5
         SAVE    DA              ;how far it is off across this wall
         OPEN    1.42
-        MOVE    B
+        SEARCH  .2
+LB:     MOVE    B
         RESTORE DA
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] 1.5    ;one finger into the small hole
+        SKIPE   23
+        AOJ     LB
         CENTER  .3
         SAVE    DB              ;and along the line of centres
         OPEN    1.85
@@ -142,7 +152,7 @@ M1:     MOVE    S1
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K1:     MOVE    H0
+K1:     MOVE    H2
         RESTORE E1 LEVEL
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
@@ -174,7 +184,7 @@ M2:     MOVE    S2
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K2:     MOVE    H2
+K2:     MOVE    H5
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -243,7 +253,7 @@ M3:     MOVE    S3
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K3:     MOVE    H3
+K3:     MOVE    H0
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -276,7 +286,7 @@ M4:     MOVE    S4
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K4:     MOVE    H4
+K4:     MOVE    H3
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -342,7 +352,7 @@ M6:     MOVE    S6
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K6:     MOVE    H5
+K6:     MOVE    H4
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]

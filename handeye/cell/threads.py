@@ -21,7 +21,7 @@ from handeye.cell.ports import TICK
 from handeye.pose import Array
 
 CAPTURE: Final = 0.0008  # m, tip to axis. The bore leaves .35 mm of play; assembly study, section 3.
-START_DEPTH: Final = 0.0015  # m, tip below the mouth: the first whole turn. Assembly study, section 3.
+START_DEPTH: Final = 0.00127  # m, tip below the mouth: one turn of the thread.
 START_RATE: Final = 3.0  # rad/s, clockwise; slower is mere dragging. Assembly study, section 3.
 SQUARE: Final = radians(3.0)  # beyond this tilt the threads cross. Assembly study, section 3.
 STEEPEST: Final = radians(20.0)  # beyond this the tip does not bite at all. Placeholder.

@@ -11,7 +11,9 @@ GASKET_PLACE: Final = 0.7  # mm at the worst screw hole: the .55 mm that a screw
 
 TOP_HEIGHT: Final = 0.3  # mm off nominal: assembly study; a top that hangs on a pin stands 22 mm high
 TOP_TILT: Final = 0.5  # deg: assembly study
-TOP_PLACE: Final = 0.5  # mm at the worst screw hole: the .21 mm that a screw leaves, .15 mm of drilling, softness
+TOP_PLACE: Final = (
+    0.5  # mm at the worst screw hole: the .21 mm that a screw leaves, .15 mm of drilling, softness
+)
 
 SCREW_GAP: Final = (
     0.2  # mm between head and flange: a crossed screw stands 4.4 to 5.7 mm high; assembly study

@@ -43,24 +43,30 @@ class _Look:
     places: tuple[tuple[float, float, float], ...]
 
 
-def _grid(x: float, y: float, dx: float, dy: float) -> tuple[tuple[float, float, float], ...]:
-    """Twelve places around (x, y) at mixed heights: places of one height would not tell height from depth.
+def _looks(lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]) -> list[_Look]:
+    """A look at each of six places on a grid about (x, y), with the lamp shown left and right, high and low.
 
-    The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
+    The camera is aimed anew for each look, because the reading of its pan and tilt has an error of its own
+    each time; the heights are mixed, because places of one height would not tell height from depth.
     """
-    heights = (7.5, 11.5, 9.5, 13.0, 8.5, 12.0, 10.0, 8.0, 11.5, 9.0, 12.5, 10.5)
-    columns, rows = (-1.0, -0.33, 0.33, 1.0), (-1.0, 0.0, 1.0)
-    return tuple(
-        (x + dx * columns[k % 4], y + dy * rows[k // 4], heights[k]) for k in range(12)
-    )  # fmt: skip
+    looks = []
+    for k in range(6):
+        cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)
+        low, high = heights[k % len(heights)], heights[(k + 2) % len(heights)]
+        places = ((cx - dx / 2, cy - dy / 4, low), (cx + dx / 2, cy + dy / 4, high))
+        looks.append(_Look(lens=lens, at=(cx, cy, (low + high) / 2), places=places))
+    return looks
 
 
 LOOKS: Final = (
-    _Look(lens=0.025, at=(43.0, 29.0, 8.0), places=_grid(42.0, 30.0, 5.0, 5.0)),
-    _Look(lens=0.050, at=(43.0, 29.0, 8.0), places=_grid(42.5, 30.0, 3.5, 3.0)),
-    _Look(lens=0.050, at=(25.0, 38.0, 8.0), places=_grid(24.5, 38.5, 3.5, 3.0)),
+    *_looks(0.025, 42.5, 29.0, 5.0, 6.0, (7.5, 10.0, 12.5)),
+    *_looks(0.050, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
+    *_looks(0.050, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
 )
-"""Both lenses over the belt, and the close-up lens over the standard position too."""
+"""Both lenses over the belt, and the close-up lens from there to the standard position too.
+
+The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
+"""
 
 
 def calibrate_camera(cell: Workcell, arm: ArmModel, drawing: CameraModel) -> Calibration:
