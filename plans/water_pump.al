@@ -104,11 +104,14 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         MOVE    G
         CLOSE   .7
         CHANGE  [0 0 1] 1
-        MOVE    GON
+        SEARCH  .05
+LG:     MOVE    GON
         RESTORE E2 LEVEL
         STOP    [0 0 -12]
         CHANGE  [0 0 -1] 2.3
         TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
+        SKIPN   8
+        AOJ     LG
         OPEN    1.9
 
         STAGE   "check the gasket"
@@ -123,11 +126,14 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CLOSE   2 2.4
         LOAD    36
         CHANGE  [0 0 1] 1
-        MOVE    TOPON
+        SEARCH  .05
+LT:     MOVE    TOPON
         RESTORE E1 LEVEL
         STOP    [0 0 -43]
         CHANGE  [0 0 -1] 2.3
         TRAVEL  1.7 2.1         ;a top that stands on the pins stops high
+        SKIPN   8
+        AOJ     LT
         LOAD    0
         OPEN    2.8
         CHANGE  [0 0 1] 3
@@ -152,7 +158,7 @@ M1:     MOVE    S1
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K1:     MOVE    H2
+K1:     MOVE    H0
         RESTORE E1 LEVEL
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] .45
@@ -184,7 +190,7 @@ M2:     MOVE    S2
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K2:     MOVE    H5
+K2:     MOVE    H2
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -205,10 +211,14 @@ K2:     MOVE    H5
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
         CHANGE  [0 0 1] 1
-        MOVE    DUP
+        SEARCH  .07
+D1:     MOVE    DUP
         RESTORE DRV
         STOP    [0 0 -20]
         CHANGE  [0 0 -1] .8     ;into the rack until it stands
+        TRAVEL  .4 .65          ;on the guides it would stand higher
+        SKIPN   8
+        AOJ     D1
         LOAD    0
         OPEN    1.6
         CHANGE  [0 0 1] 2
@@ -253,7 +263,7 @@ M3:     MOVE    S3
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K3:     MOVE    H0
+K3:     MOVE    H5
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -286,7 +296,7 @@ M4:     MOVE    S4
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K4:     MOVE    H3
+K4:     MOVE    H1
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -319,7 +329,7 @@ M5:     MOVE    S5
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K5:     MOVE    H1
+K5:     MOVE    H4
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -352,7 +362,7 @@ M6:     MOVE    S6
         SAVE    DS
         CHANGE  [0 0 1] 1.5
         SEARCH  .07
-K6:     MOVE    H4
+K6:     MOVE    H3
         RESTORE E1 LEVEL
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -373,10 +383,14 @@ K6:     MOVE    H4
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
         CHANGE  [0 0 1] 1
-        MOVE    DUP
+        SEARCH  .07
+D2:     MOVE    DUP
         RESTORE DRV
         STOP    [0 0 -20]
         CHANGE  [0 0 -1] .8     ;into the rack until it stands
+        TRAVEL  .4 .65          ;on the guides it would stand higher
+        SKIPN   8
+        AOJ     D2
         LOAD    0
         OPEN    1.6
         CHANGE  [0 0 1] 2

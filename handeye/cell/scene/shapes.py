@@ -87,14 +87,16 @@ class Shaper:
         bore: Bore,
         at: Vector,
         style: Callable[[float], str],
-    ) -> None:
+    ) -> list[mujoco.MjsGeom]:
         """The wedges of a bore with its axis through `at` (m); `style` gives their class by direction."""
         if self.spec.mesh(mesh) is None:
             self.convex(mesh, bore.wedge())
+        wedges = []
         for k in range(bore.sectors):
             angle = 2 * math.pi * k / bore.sectors
             turn = [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
-            body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn)
+            wedges.append(body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn))
+        return wedges
 
     def look(
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],

@@ -46,23 +46,16 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
 
 
 def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
-    """Two rails that the grip block stands on, the spindle hanging between, and four guides around it."""
+    """Two rails that the grip block stands on, the spindle hanging between, in a square guide with a lead-in."""
     d = dimensions()
     (x, y), height = d.all("rack.place"), d("rack.height")
-    half, play, guide = d("driver.width") / 2, d("rack.play"), 0.006
     for side in (-1, 1):
         low, high = sorted((y + side * 0.0090, y + side * 0.0134))
-        shaper.box(fixture.body, "solid", (x - 0.02, low, 0.0), (x + 0.02, high, height))
-        shaper.box(fixture.body, "look", (x - 0.02, low, height - 0.02), (x + 0.02, high, height), "enamel")
-        for px in (x - 0.016, x + 0.016):
-            post = (px, y + side * 0.0112)
-            shaper.cylinder(fixture.body, "look", 0.0035, (*post, 0.006), (*post, height - 0.02), "steel")
-        low, high = sorted((side * (half + play), side * (half + play + guide)))
-        bottom, top = height - 0.02, height + 0.008
-        along_x = ((x - 0.012, y + low, bottom), (x + 0.012, y + high, top))
-        along_y = ((x + low, y - 0.012, bottom), (x + high, y + 0.012, top))
-        for corners in (along_x, along_y):
-            shaper.box(fixture.body, "solid", *corners, "enamel").group = 2
+        shaper.box(fixture.body, "solid", (x - 0.02, low, 0.006), (x + 0.02, high, height), "enamel").group = 2
+    near, lead = d("driver.width") / 2 + d("rack.play"), d("rack.lead")
+    guide = Bore(radius=near, outer=near + lead + 0.002, height=0.028, above=lead, sectors=4)
+    for wedge in shaper.ring(fixture.body, "guide", guide, (x, y, height - 0.02), lambda _: "solid"):
+        wedge.group, wedge.material = 2, "enamel"
     shaper.box(fixture.body, "look", (x - 0.04, y - 0.04, 0.0), (x + 0.04, y + 0.04, 0.006), "enamel")
 
 
