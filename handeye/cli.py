@@ -20,6 +20,7 @@ from handeye.plan.taught import Taught, load_taught
 from handeye.report.result import Result
 from handeye.resources import plans
 from handeye.source import Source, read_source
+from handeye.units import DEGREE, INCH
 
 CameraKind = Literal["auto", "gl", "ray"]
 Seed = Annotated[int, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
@@ -33,7 +34,9 @@ app = App(
     help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.",
 )
 bench = App(name="bench", help="Measure, as ratios in one run.")
+trials = App(name="trials", help="Try in many worlds and count.")
 app.command(bench)
+app.command(trials)
 
 _out = Console(highlight=False)
 _err = Console(stderr=True, highlight=False)
@@ -80,9 +83,14 @@ def assemble(
 
 @app.command
 def check(file: Path, *, json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False) -> int:
-    """Check a script and its taught positions; nothing moves."""
+    """Check a script and its taught positions, the arm's reach included; nothing moves."""
+    from handeye.arm.stanford import STANFORD
+    from handeye.plan.planner import make_plan
+
     source = read_source(file)
-    _, diagnostics = compile_text(source, _taught(file))
+    program, diagnostics = compile_text(source, _taught(file))
+    if program is not None:
+        diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
     _show(diagnostics, source, json=json)
     if has_errors(diagnostics):
         return 2
@@ -161,8 +169,8 @@ def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     return 0 if result.completed else 1
 
 
-@app.command
-def trials(
+@trials.command(name="assembly")
+def assembly_trials(
     *,
     seeds: Annotated[str, Parameter(help="Worlds to try: a range such as 0-19, or one number.")] = "0-19",
     jobs: Annotated[int, Parameter(help="Processes at a time.")] = 2,
@@ -203,6 +211,54 @@ def _world(seed: int) -> int:
     if seed < 0:
         raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
     return seed
+
+
+@trials.command(name="base")
+def base_vision_trials(
+    count: int = 100,
+    *,
+    seed: Annotated[int, Parameter(help="Of the first world.")] = 0,
+    eye: Annotated[
+        Literal["calibrated", "drawn", "true"], Parameter(help="What the program knows of its camera.")
+    ] = "calibrated",
+    camera: Camera = "auto",
+) -> int:
+    """Find the base on the belt in many worlds: how often, how exactly, and was it ever taken for another thing.
+
+    Exit code 0: no wrong pose was accepted; 3: one was.
+    """
+    from handeye.trials.vision import WITHIN, base_trials
+
+    counts = base_trials(_some(count), _world(seed), renderer=camera, camera=eye)
+    x, y, turn = counts.rms
+    _out.print(f"found {counts.found} of {counts.tried}, {counts.wrong} of them wrong")
+    _out.print(f"{counts.within} within {WITHIN[0] / INCH:.2f} x {WITHIN[1] / INCH:.2f} in")
+    _out.print(f"rms error {x / INCH:.3f} in, {y / INCH:.3f} in, {turn / DEGREE:.2f} deg")
+    for failure in counts.failures:
+        _out.print(failure, markup=False)
+    return 3 if counts.wrong else 0
+
+
+@trials.command(name="gasket")
+def gasket_vision_trials(
+    count: int = 50,
+    *,
+    seed: Annotated[int, Parameter(help="Of the first world.")] = 0,
+    camera: Camera = "auto",
+) -> int:
+    """Check the gasket in many worlds: on properly, shifted, absent."""
+    from handeye.trials.vision import gasket_trials
+
+    counts = gasket_trials(_some(count), _world(seed), renderer=camera)
+    for case, accepted in counts.accepted.items():
+        _out.print(f"{case:12} accepted {accepted} of {counts.tried}")
+    return 0
+
+
+def _some(count: int) -> int:
+    if count < 1:
+        raise InvalidInput(f"at least one world is needed; {count} is too few")
+    return count
 
 
 def _range(text: str) -> list[int]:
@@ -264,11 +320,13 @@ def _watched(
     plan: Plan, *, seed: int, camera: CameraKind, planning: float, referee: bool, out: Path | None
 ) -> Result:
     """Run a plan with a progress bar on standard error, and keep what it leaves in `out`."""
-    from handeye.report.keep import keep
+    from handeye.report.keep import keep, make_folder
     from handeye.report.progress import Progress
     from handeye.trials.assembly import run_plan
     from handeye.work.events import Event
 
+    if out is not None:
+        make_folder(out)  # better found out before the run than after
     events: list[Event] = []
     with Progress(plan, _err) as progress:
         finished = run_plan(

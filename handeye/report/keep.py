@@ -1,5 +1,6 @@
 """What a run leaves in a folder: plan, events, pictures, result."""
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
@@ -18,6 +19,22 @@ PHOTOGRAPHS: Final = ("studio", "pump")
 """Cameras of the scene whose view of the end is kept."""
 
 
+def make_folder(folder: Path) -> Path:
+    """Make the folder and the one for its pictures, which is returned.
+
+    Raises:
+        InvalidInput: it cannot be made, or not be written to.
+    """
+    pictures = folder / "pictures"
+    try:
+        pictures.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+    if not os.access(pictures, os.W_OK):
+        raise InvalidInput(f"{folder} cannot be written to")
+    return pictures
+
+
 def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) -> None:
     """Write `plan.json`, `events.jsonl`, `pictures/*.png` and `result.json`, each whole or not at all.
 
@@ -26,11 +43,7 @@ def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) 
     Raises:
         InvalidInput: the folder cannot be made or written to.
     """
-    pictures = folder / "pictures"
-    try:
-        pictures.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+    pictures = make_folder(folder)
     write_whole(folder / "plan.json", encode(plan).encode())
     write_whole(folder / "events.jsonl", b"".join(to_line(event) for event in events))
     for name, shot in finished.run.shots.items():

@@ -1,13 +1,7 @@
-"""How well the eye does: the base on the belt and the gasket, over many worlds, counted.
+"""How well the eye does: the base on the belt and the gasket, over many worlds, counted."""
 
-python -m handeye.trials.vision base 100
-python -m handeye.trials.vision gasket 50
-"""
-
-import argparse
 import math
-import sys
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -237,25 +231,3 @@ def _is_wrong(location: SpecificLocation, stage: Stage, part: Part) -> bool:
 def _error(pose: tuple[float, float, float], truth: tuple[float, float, float]) -> tuple[float, float, float]:
     dx, dy, turn = (a - b for a, b in zip(pose, truth, strict=True))
     return dx, dy, math.remainder(turn, 2 * math.pi)
-
-
-def main(arguments: list[str] | None = None) -> None:
-    """Run trials and write the counts to standard output."""
-    parser = argparse.ArgumentParser(prog="handeye.trials.vision", description=main.__doc__)
-    parser.add_argument("what", choices=("base", "gasket"))
-    parser.add_argument("n", type=int, help="how many worlds")
-    parser.add_argument("--seed", type=int, default=0, help="of the first world")
-    parser.add_argument("--renderer", choices=("auto", "gl", "ray"), default="auto")
-    parser.add_argument("--camera", choices=("true", "drawn", "calibrated"), default="calibrated")
-    given = parser.parse_args(arguments)
-    counts: BaseCounts | GasketCounts
-    if given.what == "base":
-        counts = base_trials(given.n, given.seed, renderer=given.renderer, camera=given.camera)
-    else:
-        counts = gasket_trials(given.n, given.seed, renderer=given.renderer)
-    for field in fields(counts):
-        sys.stdout.write(f"{field.name}: {getattr(counts, field.name)}\n")
-
-
-if __name__ == "__main__":
-    main()

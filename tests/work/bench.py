@@ -260,9 +260,13 @@ def written(x: float, y: float, z: float, o: float, a: float = 90.0, t: float = 
     return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE))
 
 
-def _of_base(x: float, y: float, o: float) -> Position:
-    return Position(at=(x * INCH, y * INCH, 1.25 * INCH, o * DEGREE, 90 * DEGREE, 0.0), of="BASE")
+def touching() -> dict[str, Position]:
+    """The grasp points of the base where fingers .75 in wide really touch.
 
-
-TOUCHING: Final = {"A": _of_base(0.0, 1.53, 90), "B": _of_base(3.60, 0.0, 0), "WEB": _of_base(1.655, 0.0, 0)}
-"""Grasp points where fingers .75 in wide really touch: they meet the wall of a round hole with their edges."""
+    They meet the wall of a round hole with their edges, and not where its drawing is deepest.
+    """
+    places = {"A": (0.0, 1.53), "B": (3.60, 0.0), "WEB": (1.655, 0.0)}
+    return {
+        name: Position(at=(x * INCH, y * INCH, *TAUGHT.positions[name].at[2:]), of="BASE")
+        for name, (x, y) in places.items()
+    }

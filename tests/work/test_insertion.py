@@ -9,7 +9,7 @@ from bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifted, wr
 
 from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
 from handeye.plan.program import Position
-from handeye.work.events import RunFinished, Saved, SearchAdvanced
+from handeye.work.events import Saved, SearchAdvanced
 
 pytestmark = pytest.mark.slow
 
@@ -91,15 +91,17 @@ def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() ->
     assert run.tries == tries
 
 
-def test_row_22_one_hole_found_helps_to_find_the_next() -> None:
-    """The base stands .06 in and -.04 in off; the second pin goes to the diagonal hole."""
+@pytest.mark.parametrize("off", [(0.06, -0.04), (0.12, -0.08)])
+def test_row_22_one_hole_found_helps_to_find_the_next(off: tuple[float, float]) -> None:
+    """The base stands off its place; the second pin goes to the diagonal hole."""
     second = INSERT.replace("L1", "L2").replace("MOVE  P", "MOVE  P2").replace("MOVE  T", "MOVE  T2")
-    second = second.replace("STOP  [0 0 -50]", "RESTORE H LEVEL\n STOP [0 0 -50]").replace("SAVE  H", "SAVE  H2")
+    second = second.replace("STOP  [0 0 -50]", "RESTORE H LEVEL\n STOP [0 0 -50]")
     positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
     script = "OPEN 1\n" + INSERT + "OPEN 1\n" + second
-    run = bench(script, positions=positions, lay=at_standard(0.06, -0.04)).go()
-    assert run.finished
-    assert run.tries <= 2
+    run = bench(script, positions=positions, lay=at_standard(*off)).to("SAVE")
+    before = len(run.all(SearchAdvanced))
+    assert run.go().finished
+    assert len(run.all(SearchAdvanced)) - before <= 1
     assert run.place("pin1")[2] == pytest.approx(SEATED, abs=0.005)
 
 
@@ -107,6 +109,6 @@ def test_a_search_that_finds_no_hole_ends_with_the_operator() -> None:
     """The hole is half an inch away, beyond the spiral's reach."""
     run = hole_off(0.0, 0.5)
     run.go(lambda: run.tries > 2)
-    run.run.search.limit = 5
+    assert run.run.search is not None
+    run.run.search.limit = 5  # the rest of the 49 places would be no different
     assert run.go().called.error == SEARCH_EXHAUSTED
-    assert not run.all(RunFinished)

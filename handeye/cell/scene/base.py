@@ -80,7 +80,11 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody) -> None:
         shaper.look(body, f"casting_{colour}", colour, surface)
     shaper.look(body, "base_plate", "plate", solids.surface(solids.plate()))
     d = dimensions()  # the floor of the through hole is as oily as its wall
-    x, radius, floor = d("base.large_hole_2.x"), d("base.large_hole_2.diameter") / 2, d("base.plate.thickness")
+    x, radius, floor = (
+        d("base.large_hole_2.x"),
+        d("base.large_hole_2.diameter") / 2,
+        d("base.plate.thickness"),
+    )
     shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole")
 
 
@@ -113,7 +117,9 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "bore")
     shaper.box(body, "base_land", (x - 0.008, y - 0.008, top - 0.010), (x + 0.008, y + 0.008, top))
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
-    carrier.gravcomp = 1.0  # an empty thread has nothing that could sink, and would keep the base from resting
+    carrier.gravcomp = (
+        1.0  # an empty thread has nothing that could sink, and would keep the base from resting
+    )
     body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
     carrier.add_joint(shaper.style("thread_slide"), name=f"thread_slide{number}")
     carrier.add_joint(shaper.style("thread_turn"), name=f"thread_turn{number}")

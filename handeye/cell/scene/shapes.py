@@ -95,7 +95,9 @@ class Shaper:
         for k in range(bore.sectors):
             angle = 2 * math.pi * k / bore.sectors
             turn = [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
-            wedges.append(body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn))
+            wedges.append(
+                body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn)
+            )
         return wedges
 
     def look(

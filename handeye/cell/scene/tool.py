@@ -39,7 +39,9 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
     body.add_site(name="bit", group=5)
     shaper.cylinder(body, "bit", 0.0065, (0, 0, 0), (0, 0, 0.008), name="bit")
     ring = Bore(radius=d("screw.head_radius") + 0.0003, outer=0.0085, height=0.003, below=0.002, sectors=8)
-    brass = body.add_body(name="socket")  # a body of its own: the magnet holds by the bit's face, not by the ring
+    brass = body.add_body(
+        name="socket"
+    )  # a body of its own: the magnet holds by the bit's face, not by the ring
     shaper.ring(brass, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
     shaper.cylinder(body, "look", 0.006, (0, 0, 0.012), (0, 0, length), "steel")
     shaper.cylinder(body, "look", 0.0085, (0, 0, 0), (0, 0, 0.014), "brass")
@@ -51,7 +53,9 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
     (x, y), height = d.all("rack.place"), d("rack.height")
     for side in (-1, 1):
         low, high = sorted((y + side * 0.0090, y + side * 0.0134))
-        shaper.box(fixture.body, "solid", (x - 0.02, low, 0.006), (x + 0.02, high, height), "enamel").group = 2
+        shaper.box(
+            fixture.body, "solid", (x - 0.02, low, 0.006), (x + 0.02, high, height), "enamel"
+        ).group = 2
     near, lead = d("driver.width") / 2 + d("rack.play"), d("rack.lead")
     guide = Bore(radius=near, outer=near + lead + 0.002, height=0.028, above=lead, sectors=4)
     for wedge in shaper.ring(fixture.body, "guide", guide, (x, y, height - 0.02), lambda _: "solid"):

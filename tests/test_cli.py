@@ -1,0 +1,186 @@
+"""The command line: exit codes, and one clear error for every kind of bad input."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from handeye import cli
+from handeye.trials import assembly
+from handeye.vision.calibration import Calibration
+from handeye.vision.camera import DRAWING
+
+Command = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Command:
+    """Runs `handeye` in an empty folder: exit code, standard output, standard error."""
+    monkeypatch.chdir(tmp_path)
+    app = cli.app
+
+    def run(*words: str) -> tuple[int, str, str]:
+        monkeypatch.setattr(cli, "app", partial(app, words))
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        out, err = capsys.readouterr()
+        assert "Traceback" not in out + err
+        code = end.value.code
+        assert isinstance(code, int)
+        return code, out, err
+
+    return run
+
+
+@pytest.fixture
+def planned(command: Command, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], str]:
+    """The plan file of a script; such plans take no pictures, so the camera is left as drawn."""
+    drawn = Calibration(model=DRAWING, residual_px={}, residual_m=0.0)
+    monkeypatch.setattr(assembly, "calibrate_camera", lambda *_: drawn)
+
+    def plan(text: str) -> str:
+        Path("job.al").write_text(text, encoding="utf-8")
+        assert command("plan", "job.al")[0] == 0
+        return "job.plan.json"
+
+    return plan
+
+
+MISTAKES = {
+    "unknown-instruction": "MOVEX T",
+    "missing-operand": "CHANGE [0 0 -1]",
+    "label-twice": "L: OPEN 1\nL: OPEN 2",
+    "unknown-label": "JUMP NOWHERE",
+    "unreachable-position": "TRANS T [200 38 4 90 90 0]\nMOVE T",
+}
+"""Diagnostic code and a script that deserves it."""
+
+
+@pytest.mark.parametrize("code", MISTAKES)
+def test_a_wrong_script_gets_one_diagnostic_and_no_plan(command: Command, code: str) -> None:
+    Path("wrong.al").write_text(MISTAKES[code], encoding="utf-8")
+    exit_code, out, err = command("plan", "wrong.al")
+    assert (exit_code, out, err.count("error[")) == (2, "", 1)
+    assert f"error[{code}]" in err
+    assert [path.name for path in Path().iterdir()] == ["wrong.al"]
+
+
+@pytest.mark.parametrize("code", [code for code in MISTAKES if code != "unreachable-position"])
+def test_check_finds_the_same_mistakes(command: Command, code: str) -> None:
+    Path("wrong.al").write_text(MISTAKES[code], encoding="utf-8")
+    exit_code, _, err = command("check", "wrong.al")
+    assert (exit_code, err.count("error[")) == (2, 1)
+
+
+def test_check_of_a_right_script_ends_with_zero(command: Command) -> None:
+    Path("right.al").write_text("OPEN 1\n", encoding="utf-8")
+    assert command("check", "right.al") == (0, "right.al: no errors\n", "")
+
+
+def test_a_script_that_is_not_utf_8_is_told_by_its_byte(command: Command) -> None:
+    Path("latin.al").write_bytes(b"OPEN 1\n\xff\n")
+    assert command("check", "latin.al") == (2, "", "handeye: latin.al is not UTF-8 text: byte 7 is 0xff\n")
+
+
+@pytest.mark.parametrize("words", [("check", "no.al"), ("plan", "no.al"), ("run", "no.json")])
+def test_a_missing_file_is_named(command: Command, words: tuple[str, str]) -> None:
+    exit_code, out, err = command(*words)
+    assert (exit_code, out) == (2, "")
+    assert err.startswith(f"handeye: {words[1]}")
+    assert err.count("\n") == 1
+
+
+SPOILED: dict[str, Callable[[str], str]] = {
+    "is cut short": lambda text: text[:200],
+    "has plan format version 99": lambda text: text.replace('"version": 1', '"version": 99'),
+    "unknown field `extra`": lambda text: text.replace("{", '{"extra": 1,', 1),
+    "not a plan": lambda _: "[]",
+}
+"""What is said of a plan file, and how to spoil one so."""
+
+
+@pytest.mark.parametrize("words", SPOILED)
+def test_a_spoiled_plan_is_refused_before_anything_moves(
+    command: Command, planned: Callable[[str], str], words: str
+) -> None:
+    file = Path(planned("OPEN 1"))
+    file.write_text(SPOILED[words](file.read_text(encoding="utf-8")), encoding="utf-8")
+    exit_code, out, err = command("run", str(file))
+    assert (exit_code, out, err.count("\n")) == (2, "", 1)
+    assert words in err
+
+
+@pytest.mark.parametrize("target", ["absent/job.json", "."])
+def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, target: str) -> None:
+    Path("job.al").write_text("OPEN 1", encoding="utf-8")
+    exit_code, out, err = command("plan", "job.al", "-o", target)
+    assert (exit_code, out) == (2, "")
+    assert "cannot be written" in err
+    assert [path.name for path in Path().iterdir()] == ["job.al"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("assemble", "--seed", "-1"), "a seed is a whole number from 0 up; -1 is not"),
+        (("assemble", "--seed", "x"), "Invalid value for --seed"),
+        (("assemble", "--camera", "film"), 'Invalid value "film" for --camera'),
+        (("trials", "--seeds", "9-3"), "'9-3' is neither"),
+        (("frobnicate",), 'Unknown command "frobnicate"'),
+    ],
+)
+def test_a_wrong_argument_ends_with_two(command: Command, words: tuple[str, ...], sentence: str) -> None:
+    exit_code, _, err = command(*words)
+    assert exit_code == 2
+    assert sentence in err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("script", "more", "code"),
+    [
+        ("OPEN 1", (), 0),
+        ('WAIT "HELP ME"', (), 1),
+        ('WAIT "HELP ME"', ("--judge",), 1),
+        ("OPEN 1", ("--judge",), 3),
+    ],
+)
+def test_the_exit_code_says_how_a_run_ended(
+    command: Command, planned: Callable[[str], str], script: str, more: tuple[str, ...], code: int
+) -> None:
+    """0 done, 1 the operator was called, 3 the program said done and the referee disagrees."""
+    assert command("run", planned(script), *more)[0] == code
+
+
+@pytest.mark.slow
+def test_json_is_one_object_alone_on_standard_output(command: Command, planned: Callable[[str], str]) -> None:
+    exit_code, out, _ = command("run", planned('WAIT "HELP ME"'), "--json", "--seed", "3")
+    result = json.loads(out)
+    assert (exit_code, result["completed"], result["message"], result["seed"]) == (1, False, "HELP ME", 3)
+
+
+@pytest.mark.slow
+def test_an_output_folder_that_cannot_be_made_ends_with_two(
+    command: Command, planned: Callable[[str], str]
+) -> None:
+    Path("file").write_text("", encoding="utf-8")
+    exit_code, _, err = command("run", planned("OPEN 1"), "--out", "file/folder")
+    assert exit_code == 2
+    assert "file/folder cannot be made" in err
+
+
+@pytest.mark.slow
+def test_it_is_started_as_a_module_too(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "check", "no.al"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "handeye: no.al: there is no such file\n"
