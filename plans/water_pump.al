@@ -51,6 +51,8 @@ LB:     MOVE    B
         CHANGE  [0 1 0] 1.2 .5  ;against the far block
         STOP    [-72 0 0]
         CHANGE  [-1 0 0] 1.2 .5 ;against the left block
+        STOP    [0 72 0]
+        CHANGE  [0 1 0] 1.2 .5  ;and once more, where that has dragged it off
         OPEN    1.85
         CHANGE  [0 0 1] 2
 
@@ -58,6 +60,7 @@ LB:     MOVE    B
         OPEN    1
         MOVE    P1
         CENTER  .1
+        SAVE    C1              ;where the holder really is
         CLOSE   0.1             ;grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         MOVE    T1              ;GO TO THE HOLE
@@ -78,6 +81,7 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         OPEN    1
         MOVE    P2
         CENTER  .1
+        SAVE    C2              ;where the holder really is
         CLOSE   0.1             ;grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         MOVE    T2              ;GO TO THE HOLE
@@ -150,9 +154,10 @@ LT:     MOVE    TOPON
 M1:     MOVE    S1
         RESTORE DRV LEVEL
         RESTORE DS LEVEL
-        STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5
-        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M1
         SAVE    DS
@@ -182,9 +187,10 @@ K1:     MOVE    H0
 M2:     MOVE    S2
         RESTORE DRV LEVEL
         RESTORE DS LEVEL
-        STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5
-        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M2
         SAVE    DS
@@ -229,18 +235,28 @@ D1:     MOVE    DUP
         RESTORE E1 LEVEL
         CLOSE   .1
         CHANGE  [0 0 1] 2
-        MOVE    P1UP
+        SEARCH  .05
+R1:     MOVE    P1UP
+        RESTORE C1 LEVEL
         STOP    [0 0 -20]
-        CHANGE  [0 0 -1] 1
+        CHANGE  [0 0 -1] 1.2
+        TRAVEL  .7 1.1          ;home, or on top of the holder?
+        SKIPN   8
+        AOJ     R1
         OPEN    1
         OPEN    .6
         MOVE    Q2
         RESTORE E2 LEVEL
         CLOSE   .1
         CHANGE  [0 0 1] 2
-        MOVE    P2UP
+        SEARCH  .05
+R2:     MOVE    P2UP
+        RESTORE C2 LEVEL
         STOP    [0 0 -20]
-        CHANGE  [0 0 -1] 1
+        CHANGE  [0 0 -1] 1.2
+        TRAVEL  .7 1.1          ;home, or on top of the holder?
+        SKIPN   8
+        AOJ     R2
         OPEN    1
 
         STAGE   "drive the last four screws"
@@ -255,9 +271,10 @@ D1:     MOVE    DUP
 M3:     MOVE    S3
         RESTORE DRV LEVEL
         RESTORE DS LEVEL
-        STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5
-        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M3
         SAVE    DS
@@ -288,9 +305,10 @@ K3:     MOVE    H5
 M4:     MOVE    S4
         RESTORE DRV LEVEL
         RESTORE DS LEVEL
-        STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5
-        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M4
         SAVE    DS
@@ -321,9 +339,10 @@ K4:     MOVE    H1
 M5:     MOVE    S5
         RESTORE DRV LEVEL
         RESTORE DS LEVEL
-        STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5
-        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M5
         SAVE    DS
@@ -354,9 +373,10 @@ K5:     MOVE    H4
 M6:     MOVE    S6
         RESTORE DRV LEVEL
         RESTORE DS LEVEL
-        STOP    [0 0 -14]
-        CHANGE  [0 0 -1] .5
-        TRAVEL  .2 .35          ;socket over the head, or beside it?
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M6
         SAVE    DS
