@@ -9,7 +9,8 @@ import numpy as np
 
 from handeye.cell.imperfection import CameraErrors
 from handeye.cell.ports import Picture, TvCamera
-from handeye.cell.rendering import SceneRenderer, cast
+from handeye.cell.raycasting import cast
+from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.vision.camera import DRAWING, CameraModel, View
 

@@ -9,7 +9,7 @@ from handeye.cell.camera import SimulatedCamera
 from handeye.cell.drives import ArmDrive, HandDrive, Lamp
 from handeye.cell.imperfection import World
 from handeye.cell.ports import TICK, Drive, Sensed, Workcell
-from handeye.cell.rendering import make_renderer
+from handeye.cell.renderers import make_renderer
 from handeye.cell.resting import Resting
 from handeye.cell.scene import build
 from handeye.cell.sensors import Sensors

@@ -7,7 +7,7 @@ import numpy as np
 
 from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.imperfection import World
-from handeye.cell.rendering import make_renderer
+from handeye.cell.renderers import make_renderer
 from handeye.cell.scene import ARM, build
 from handeye.pose import Pose, pose
 from handeye.units import DEGREE, INCH

@@ -11,7 +11,7 @@ _MARK = {"done": ("✓", "green"), "stopped": ("✗", "red"), "not reached": ("�
 
 def page(result: Result) -> RenderableType:
     """Stages, timing table, findings of the referee, and the verdict."""
-    parts: list[RenderableType] = [stages(result), Text(), timing(result)]
+    parts: list[RenderableType] = [stages(result), Text(), timing(result), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
     return Group(*parts, Text(), verdict(result))
@@ -52,6 +52,15 @@ def timing(result: Result) -> Table:
         Text(f"{t.real_time_factor:.1f}x real time", "dim"),
     )
     return table
+
+
+def camera(result: Result) -> Text:
+    """How the pictures were made, and how well the camera was calibrated."""
+    seen = result.camera
+    lenses = ", ".join(f"{lens} {rms:.1f} points" for lens, rms in seen.sightings_rms_px.items())
+    return Text(
+        f"camera: {seen.renderer}; calibrated to {seen.residual_in:.2f} in rms on the table ({lenses})", "dim"
+    )
 
 
 def clock(seconds: float) -> str:

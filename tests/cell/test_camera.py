@@ -8,7 +8,8 @@ import pytest
 
 from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.imperfection import World
-from handeye.cell.rendering import SceneRenderer, make_renderer
+from handeye.cell.renderers import make_renderer
+from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
 from handeye.vision.beam import Scan

@@ -1,0 +1,26 @@
+"""The choice of a renderer."""
+
+import mujoco
+
+from handeye.cell.opengl import OpenGlRenderer
+from handeye.cell.raycasting import RayRenderer
+from handeye.cell.rendering import SceneRenderer
+from handeye.errors import InvalidInput
+
+
+def make_renderer(kind: str, model: mujoco.MjModel) -> SceneRenderer:
+    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere.
+
+    Raises:
+        InvalidInput: another `kind`, or OpenGL is asked for and does not work here.
+    """
+    if kind == "ray":
+        return RayRenderer(model)
+    if kind == "gl":
+        return OpenGlRenderer(model)
+    if kind != "auto":
+        raise InvalidInput(f"no renderer `{kind}`; choose `auto`, `gl` or `ray`")
+    try:
+        return OpenGlRenderer(model)
+    except InvalidInput:
+        return RayRenderer(model)
