@@ -33,7 +33,6 @@ THREAD_RADIUS: Final = 0.00345  # m, mean thread radius over the cosine of the f
 STIFF: Final = (0.999, 0.9999, 0.0001)
 """Impedance of a thread. Measured: with MuJoCo's own a screw turns twice more under load, no deeper."""
 
-MOTOR_TORQUE: Final = 0.32  # N m (45 oz in), stall of the motor: much more turns the free base. Placeholder.
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.
 ON_HEAD: Final = (
     0.005,
@@ -76,14 +75,11 @@ class Threads:
         self._driver_geoms = np.flatnonzero(root[model.geom_bodyid] == root[self._bit])
         self._drive, self._spindle = model.actuator("drive").id, model.actuator("spindle").id
         self._spin = int(model.joint("spindle").dofadr[0])
-        helices = [_helix(model, *pair) for pair in zip(self._slide, self._turn, strict=True)]
-        model.eq_solimp[helices, :3] = STIFF
-        self._lead = float(model.eq_data[helices[0], 1])  # advance per radian, m
+        self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
         self._head_bits = (int(model.geom_contype[self._head[0]]), int(model.geom_conaffinity[self._head[0]]))
         self._turning: int | None = None
         model.geom_contype[self._head] = 0  # heads of empty holes meet nothing
         model.geom_conaffinity[self._head] = 0
-        model.actuator_forcerange[self._drive] = (-MOTOR_TORQUE, MOTOR_TORQUE)
         data.ctrl[model.actuator("magnet").id] = 1.0  # permanent
 
     @property

@@ -6,7 +6,7 @@ from scene_bench import FREE, Bench, pinned_base, shift
 
 from handeye.cell.imperfection import World
 from handeye.cell.scene.dimensions import dimensions
-from handeye.cell.scene.drawing import base_top, screw_holes, standard
+from handeye.cell.scene.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.pose import planar, translated
 
 
@@ -29,7 +29,8 @@ def test_pins_a_millimetre_off_drop_home_through_the_chamfers():
     for pin, hole in enumerate(int(k) for k in d.all("base.screw_holes.pinned")):
         home = standard() @ planar(*screw_holes()[hole], base_top(), 0.0)
         p = bench.pose(f"pin{pin}")[:3, 3] - home[:3, 3]
-        assert abs(p[2] + 0.5e-3) < 0.05e-3  # its shoulder rests in the chamfer
+        seat = pin_seat(d("base.screw_holes.chamfer"), d("base.screw_holes.radius"))
+        assert abs(p[2] - seat) < 0.05e-3  # its shoulder rests in the chamfer
         assert np.hypot(p[0], p[1]) < 0.2e-3
 
 
