@@ -30,7 +30,10 @@ def main(words: list[str]) -> int:
     except KeyboardInterrupt:
         print("\nsetting up was interrupted; the next start goes on with it", file=sys.stderr)
         return 130
-    command = ["-m", "pytest", *words[1:]] if testing else ["-m", "handeye", *words]
+    if testing:  # a process for each core; what a file's tests share is made once
+        command = ["-m", "pytest", "-n", "auto", "--dist", "loadfile", *words[1:]]
+    else:
+        command = ["-m", "handeye", *words]
     if testing:
         os.chdir(ROOT)
     return run(command)

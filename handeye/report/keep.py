@@ -13,7 +13,9 @@ from handeye.files import write_whole
 from handeye.plan.plan import Plan, encode
 from handeye.report.result import to_json
 from handeye.trials.assembly import Finished
+from handeye.vision.drawing import annotate
 from handeye.work.events import Event, to_line
+from handeye.work.run import Found
 
 PHOTOGRAPHS: Final = ("studio", "pump")
 """Cameras of the scene whose view of the end is kept."""
@@ -38,7 +40,8 @@ def make_folder(folder: Path) -> Path:
 def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) -> None:
     """Write `plan.json`, `events.jsonl`, `pictures/*.png` and `result.json`, each whole or not at all.
 
-    The pictures are those the program took, as it saw them, and photographs of the end where there is OpenGL.
+    The pictures are those the program took, with what it found in them, and photographs of the end where there
+    is OpenGL.
 
     Raises:
         InvalidInput: the folder cannot be made or written to.
@@ -46,9 +49,13 @@ def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) 
     pictures = make_folder(folder)
     write_whole(folder / "plan.json", encode(plan).encode())
     write_whole(folder / "events.jsonl", b"".join(to_line(event) for event in events))
-    for name, shot in finished.run.shots.items():
-        enlarged = cv2.resize(shot.picture * 17, None, fx=3, fy=3, interpolation=cv2.INTER_NEAREST)
-        done, data = cv2.imencode(".png", enlarged)
+    run = finished.run
+    for name, shot in run.shots.items():
+        found = run.found.get(name, Found())
+        image = annotate(
+            shot.picture, general=found.general, specific=found.specific, inspection=found.inspection
+        )
+        done, data = cv2.imencode(".png", image)
         assert done
         write_whole(pictures / f"{name.lower()}.png", data.tobytes())
     if finished.cell.camera.renderer.startswith("OpenGL"):

@@ -81,7 +81,9 @@ def referee(result: Result) -> Table:
     table.add_column("unit")
     for check in result.referee.values():
         mark = Text("✓", "green") if check.ok else Text("✗", "red")
-        table.add_row(mark, check.sentence, f"{check.value:.3g}", f"{check.limit:.3g}", check.unit)
+        what, _, bound = check.sentence.partition(" (")
+        sign = ">=" if bound.startswith("at least") else "<="
+        table.add_row(mark, what, f"{check.value:.3g}", f"{sign} {check.limit:.3g}", check.unit)
     return table
 
 

@@ -4,6 +4,7 @@ Done once when the camera is set up, before pumps are made: its time is not in t
 arm believes of its own place enters here, and the same arm grasps later, so what is common to both cancels.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
@@ -40,6 +41,8 @@ class _Look:
 
     lens: float
     at: tuple[float, float, float]
+    sharp: tuple[float, float, float]
+    """Where the focus is set; one for neighbouring looks, since refocusing takes three times as long as aiming."""
     places: tuple[tuple[float, float, float], ...]
 
 
@@ -54,7 +57,8 @@ def _looks(lens: float, x: float, y: float, dx: float, dy: float, heights: tuple
         cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)
         low, high = heights[k % len(heights)], heights[(k + 2) % len(heights)]
         places = ((cx - dx / 2, cy - dy / 4, low), (cx + dx / 2, cy + dy / 4, high))
-        looks.append(_Look(lens=lens, at=(cx, cy, (low + high) / 2), places=places))
+        at, sharp = (cx, cy, (low + high) / 2), (x, y, sum(heights) / len(heights))
+        looks.append(_Look(lens=lens, at=at, sharp=sharp, places=places))
     return looks
 
 
@@ -94,7 +98,7 @@ def _sightings(drive: ArmDrive, drawing: CameraModel, look: _Look) -> Iterator[S
     target = np.array(look.at) * INCH
     drive.brake(camera.lens(look.lens))
     drive.brake(camera.aim(*drawing.aim(target, look.lens)))
-    drive.brake(camera.focus(float(np.linalg.norm(target - np.array(drawing.mount)))))
+    drive.brake(camera.focus(math.dist(np.array(look.sharp) * INCH, drawing.mount)))
     R = hand(0, 0, 0, HAND_ANGLE, 90 * DEGREE, 0)[:3, :3]
     for place in look.places:
         p_T = np.array(place) * INCH - R @ LAMP

@@ -10,7 +10,7 @@ from handeye.pose import Array, Pose, planar, yaw
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.gasket import inspect as inspect_gasket
 from handeye.work.events import CameraBusy, PartInspected, PartSeen, PictureTaken
-from handeye.work.run import Fault, Run, Shot
+from handeye.work.run import Fault, Found, Run, Shot
 
 
 def lens(run: Run, operation: Lens) -> Fault | None:
@@ -74,6 +74,7 @@ def general(run: Run, operation: General) -> Fault | None:
     if isinstance(found, Failure):
         return Fault(number=errors.PART_NOT_SEEN, detail=found.reason)
     run.general[operation.part] = found
+    run.found[operation.picture] = Found(general=found)
     run.world.measure(operation.part, planar(found.x, found.y, part.at[2], part.at[3]))
     run.emit(PartSeen(time=run.time, part=operation.part, x=round(found.x, 6), y=round(found.y, 6), yaw=None))
     return None
@@ -91,6 +92,7 @@ def specific(run: Run, operation: Specific) -> Fault | None:
     run.clockwork.vision += run.stopwatch() - started
     if isinstance(found, Failure):
         return Fault(number=errors.FEATURES_NOT_SEEN, detail=found.reason)
+    run.found[operation.picture] = Found(specific=found)
     x, y, angle = (round(value, 9) for value in found.pose)
     run.world.measure(operation.part, planar(x, y, part.at[2], angle))
     run.emit(PartSeen(time=run.time, part=operation.part, x=x, y=y, yaw=angle))
@@ -106,5 +108,6 @@ def inspect(run: Run, operation: Inspect) -> Fault | None:
     pose = (float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP))
     seen = inspect_gasket(before.picture, after.picture, after.view, part, pose)
     run.clockwork.vision += run.stopwatch() - started
+    run.found[operation.after] = Found(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, sentence=seen.sentence))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, detail=seen.sentence)

@@ -11,8 +11,9 @@ from handeye.plan.plan import Plan
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
 from handeye.touch.spiral import spiral
-from handeye.vision.base import GeneralLocation
+from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.camera import CameraModel, View
+from handeye.vision.gasket import Inspection
 from handeye.work.drive import ArmDrive
 from handeye.work.events import Event
 
@@ -45,6 +46,15 @@ class Shot:
 
     picture: Picture
     view: View
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """What vision found in a picture."""
+
+    general: GeneralLocation | None = None
+    specific: SpecificLocation | None = None
+    inspection: Inspection | None = None
 
 
 @dataclass(slots=True, kw_only=True)
@@ -82,6 +92,8 @@ class Run:
     lens: float = 0.025
     shots: dict[str, Shot] = field(default_factory=dict)
     general: dict[str, GeneralLocation] = field(default_factory=dict)
+    found: dict[str, Found] = field(default_factory=dict)
+    """What vision made of each picture."""
     clockwork: Clockwork = field(default_factory=Clockwork)
 
     def __post_init__(self) -> None:

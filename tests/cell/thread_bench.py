@@ -84,7 +84,8 @@ def scene(offset: float, tilt: float) -> str:
   <geom type="cylinder" size=".0065 .004" pos="0 0 .004" contype="0" conaffinity="8" condim="4" mass="0"
    friction=".8 .003 .0001" priority="2"/>{sock_geoms}</body><site name="reaction"/></body>
 </worldbody>
-<equality><joint joint1="thread_slide0" joint2="thread_turn0" polycoef="0 {lead} 0 0 0" solref=".004 1" solimp=".999 .9999 .0001"/>
+<equality><joint joint1="thread_slide0" joint2="thread_turn0" polycoef="0 {lead} 0 0 0"
+  solref=".004 1" solimp=".999 .9999 .0001"/>
  <weld body1="base" relpose="0 0 {-MOUTH} 1 0 0 0" anchor="0 0 0" solref=".004 1"/></equality>
 <actuator><general name="spindle" joint="spindle" gainprm=".02" biastype="affine" biasprm="0 0 -.02"
   forcelimited="true" forcerange="-.05 .05"/>
