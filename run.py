@@ -30,13 +30,10 @@ def main(words: list[str]) -> int:
     except KeyboardInterrupt:
         print("\nsetting up was interrupted; the next start goes on with it", file=sys.stderr)
         return 130
-    if testing:  # a process for each core; what a file's tests share is made once
-        command = ["-m", "pytest", "-n", "auto", "--dist", "loadfile", *words[1:]]
-    else:
-        command = ["-m", "handeye", *words]
-    if testing:
-        os.chdir(ROOT)
-    return run(command)
+    if not testing:
+        return run(["-m", "handeye", *words])
+    os.chdir(ROOT)  # a process for each core; what the tests of a file share is made once
+    return run(["-m", "pytest", "-n", "auto", "--dist", "loadfile", *words[1:]])
 
 
 def set_up(lock: Path) -> None:

@@ -129,7 +129,7 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
         (("assemble", "--seed", "-1"), "a seed is a whole number from 0 up; -1 is not"),
         (("assemble", "--seed", "x"), "Invalid value for --seed"),
         (("assemble", "--camera", "film"), 'Invalid value "film" for --camera'),
-        (("trials", "--seeds", "9-3"), "'9-3' is neither"),
+        (("trials", "assembly", "--seeds", "9-3"), "'9-3' is neither"),
         (("frobnicate",), 'Unknown command "frobnicate"'),
     ],
 )

@@ -22,8 +22,8 @@ def pushed(world: World | None = None) -> Bench:
     return bench(script, world=world, positions=positions, lay=at_standard(0.4, -0.4)).go()
 
 
-def test_row_59_both_pushes_are_stopped_by_force() -> None:
-    assert [trip.guard for trip in pushed().all(GuardTripped)] == ["force", "force"]
+def test_row_59_every_push_is_stopped_by_force() -> None:
+    assert [trip.guard for trip in pushed().all(GuardTripped)] == ["force", "force", "force"]
 
 
 def test_row_59_the_base_ends_within_five_hundredths_of_its_standard_position() -> None:
