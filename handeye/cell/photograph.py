@@ -13,8 +13,8 @@ from handeye.errors import InvalidInput
 
 LARGEST: Final = 4096
 """Most points along a side."""
-FINE_SHADOW: Final = 8192
-FINE_SAMPLES: Final = 8
+FINE_SHADOW: Final = 4096
+FINE_SAMPLES: Final = 4
 SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
 
 
