@@ -111,8 +111,9 @@ def plan(file: Path, *, output: Annotated[Path | None, Parameter(name=["--output
     target = output or file.with_suffix(".plan.json")
     made = _compile(file)
     write_plan(target, made)
-    steps, motions = len(made.program.steps), len(made.motions)
-    _out.print(f"{target}: {steps} steps, {motions} motions, {len(made.program.stages)} stages", markup=False)
+    counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
+    said = ", ".join(f"{len(items)} {name}{'' if len(items) == 1 else 's'}" for name, items in counts.items())
+    _out.print(f"{target}: {said}", markup=False)
     return 0
 
 

@@ -57,6 +57,8 @@ def timing(result: Result) -> Table:
 def camera(result: Result) -> Text:
     """How the pictures were made, and how well the camera was calibrated."""
     seen = result.camera
+    if seen.residual_in is None:
+        return Text(f"camera: {seen.renderer}; not used", "dim")
     lenses = ", ".join(f"{lens} {rms:.1f} points" for lens, rms in seen.sightings_rms_px.items())
     return Text(
         f"camera: {seen.renderer}; calibrated to {seen.residual_in:.2f} in rms on the table ({lenses})", "dim"

@@ -46,8 +46,8 @@ class CameraReport(Record, frozen=True, kw_only=True):
     renderer: str
     sightings_rms_px: dict[str, float]
     """Residual for each lens."""
-    residual_in: float
-    """On the table, inches."""
+    residual_in: float | None
+    """On the table, inches; None where the program takes no picture and nobody calibrated."""
 
 
 class Result(Record, frozen=True, kw_only=True):

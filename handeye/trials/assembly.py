@@ -15,6 +15,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.errors import InvalidInput
 from handeye.judge.referee import judge
 from handeye.plan.plan import Plan
+from handeye.plan.program import Look
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.units import INCH
 from handeye.vision.calibration import Calibration
@@ -73,7 +74,8 @@ def run_plan(
             f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
         )
     cell = SimulatedCell(World.sample(seed), camera=camera)
-    calibration = calibrate_camera(cell, arm, DRAWING)
+    looks = any(isinstance(step.operation, Look) for step in plan.program.steps)
+    calibration = calibrate_camera(cell, arm, DRAWING) if looks else None
     stages = _Stopwatch()
 
     def emit(event: Event) -> None:
@@ -82,8 +84,13 @@ def run_plan(
             listener(event)
 
     run = Run(
-        plan=plan, arm=arm, cell=cell, camera=calibration.model, emit=emit, stopwatch=time.process_time
-    )  # fmt: skip
+        plan=plan,
+        arm=arm,
+        cell=cell,
+        camera=calibration.model if calibration else DRAWING,
+        emit=emit,
+        stopwatch=time.process_time,
+    )
     stages.run = run
     ready, simulated = time.perf_counter(), run.time
     executor = Executor(state=run)
@@ -130,7 +137,9 @@ def _timing(run: Run, simulated: float, wall: float, planning: float) -> Timing:
     )
 
 
-def _camera(cell: SimulatedCell, calibration: Calibration) -> CameraReport:
+def _camera(cell: SimulatedCell, calibration: Calibration | None) -> CameraReport:
+    if calibration is None:
+        return CameraReport(renderer=cell.camera.renderer, sightings_rms_px={}, residual_in=None)
     residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}
     return CameraReport(
         renderer=cell.camera.renderer,

@@ -12,7 +12,7 @@ import numpy as np
 from handeye import errors
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.kinematics import forward, jacobian, solve
-from handeye.arm.model import ArmModel
+from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.servo import prepare, torque
 from handeye.cell.ports import TICK, Drive, Sensed, Workcell
@@ -190,6 +190,8 @@ class ArmDrive:
         before = self.sensed
         load = here.J[2] * self.load
         tau = torque(here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
+        effort = constants(self.arm).effort
+        tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
         self._tick(tau)
         if estimate:
             acceleration = (self.sensed.qd - before.qd) / TICK

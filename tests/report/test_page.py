@@ -1,0 +1,45 @@
+"""What a person reads at the end of a run."""
+
+import pytest
+
+from handeye.report.page import clock, verdict
+from handeye.report.result import CameraReport, Check, Result, Timing
+
+
+def result(
+    *, completed: bool, assembled: bool | None, message: str = "", checks: dict[str, Check] | None = None
+) -> Result:
+    return Result(
+        assembled=assembled, completed=completed, stopped_at=None if completed else "check the gasket",
+        error=None if completed else 32, message=message, stages=(), referee=checks or {}, seed=0, versions={},
+        timing=Timing(
+            planning_wall_s=0, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1, real_time_factor=1
+        ),
+        camera=CameraReport(renderer="ray casting", sightings_rms_px={}, residual_in=None),
+    )  # fmt: skip
+
+
+def test_a_stop_names_the_step_the_error_and_what_went_wrong() -> None:
+    said = verdict(result(completed=False, assembled=False, message="no gasket")).plain
+    assert said == "Stopped in step “check the gasket” (error 32): no gasket"
+
+
+def test_a_silent_failure_says_what_the_referee_found() -> None:
+    wrong = Check(ok=False, value=5.0, limit=0.2, unit="mm", sentence="gap under a head (at most 0.2 mm)")
+    said = verdict(result(completed=True, assembled=False, checks={"gap": wrong})).plain
+    assert said == "The program said done, but the pump is not right: gap under a head (at most 0.2 mm)"
+
+
+@pytest.mark.parametrize(
+    ("completed", "assembled", "code"),
+    [(True, True, 0), (False, False, 1), (True, False, 3), (True, None, 0)],
+)
+def test_the_exit_code_tells_the_cases_apart(completed: bool, assembled: bool | None, code: int) -> None:
+    assert result(completed=completed, assembled=assembled).exit_code == code
+
+
+@pytest.mark.parametrize(
+    ("seconds", "said"), [(332, "5:32 min"), (0.034, "0.03 s"), (12.3, "12 s"), (59.9, "60 s")]
+)
+def test_times_are_said_as_people_say_them(seconds: float, said: str) -> None:
+    assert clock(seconds) == said
