@@ -32,6 +32,7 @@ app = App(
     name="handeye",
     version=__version__,
     help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.",
+    suppress_keyboard_interrupt=False,
 )
 bench = App(name="bench", help="Measure, as ratios in one run.")
 trials = App(name="trials", help="Try in many worlds and count.")
@@ -321,15 +322,13 @@ def _watched(
     plan: Plan, *, seed: int, camera: CameraKind, planning: float, referee: bool, out: Path | None
 ) -> Result:
     """Run a plan with a progress bar on standard error, and keep what it leaves in `out`."""
-    from handeye.report.keep import keep, make_folder
+    from handeye.report.keep import keep, kept_clean
     from handeye.report.progress import Progress
     from handeye.trials.assembly import run_plan
     from handeye.work.events import Event
 
-    if out is not None:
-        make_folder(out)  # better found out before the run than after
     events: list[Event] = []
-    with Progress(plan, _err) as progress:
+    with kept_clean(out), Progress(plan, _err) as progress:
         finished = run_plan(
             plan, seed=_world(seed), camera=camera, planning_wall_s=planning, referee=referee,
             listeners=(events.append, progress),

@@ -1,7 +1,8 @@
 """What a run leaves in a folder: plan, events, pictures, result."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
@@ -35,6 +36,26 @@ def make_folder(folder: Path) -> Path:
     if not os.access(pictures, os.W_OK):
         raise InvalidInput(f"{folder} cannot be written to")
     return pictures
+
+
+@contextmanager
+def kept_clean(folder: Path | None) -> Iterator[None]:
+    """Find out before a run whether its folder can be had; a run that breaks off leaves no empty one behind.
+
+    Raises:
+        InvalidInput: as `make_folder`.
+    """
+    if folder is None:
+        yield
+        return
+    made = [path for path in (folder / "pictures", folder, *folder.parents) if not path.exists()]
+    make_folder(folder)
+    try:
+        yield
+    except BaseException:
+        for path in made:
+            path.rmdir()
+        raise
 
 
 def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) -> None:
