@@ -109,8 +109,8 @@ def context() -> tuple[str, Any]:
             gl.make_current()
             return name, gl
     raise InvalidInput(
-        "OpenGL does not work on this machine; on Debian, install libegl1, libgl1-mesa-dri and libopengl0,"
-        " or choose the renderer `ray`, which needs none"
+        "OpenGL does not work on this machine (on Debian, install libegl1, libgl1-mesa-dri and libopengl0);"
+        " photographs need it, and so does the camera unless its pictures are ray cast (`--camera ray`)"
     )
 
 

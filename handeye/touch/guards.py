@@ -1,10 +1,14 @@
 """Guards: what ends a motion before its end."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Final
 
 import numpy as np
 
 from handeye.pose import Array
+
+HELD: Final = 4
+"""Servo periods for which a torque has to last. Placeholder: the spindle is up to speed in less."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -58,17 +62,22 @@ class AgainstGuard:
         return Trip(guard="against", value=value, limit=self.limit) if value > self.limit else None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(slots=True, kw_only=True)
 class TorqueGuard:
-    """Trips when the screwdriver's motor reaches a torque, in either sense of turning."""
+    """Trips when the screwdriver's motor holds a torque, in either sense of turning.
+
+    A motor that starts, or takes up a screw, shows a current for an instant that is not yet a tight screw.
+    """
 
     limit: float
     """N m"""
+    _held: int = field(default=0, init=False)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None."""
+        """The trip, or None; to be asked once a servo period."""
         value = abs(reading.tool_torque)
-        return Trip(guard="torque", value=value, limit=self.limit) if value >= self.limit else None
+        self._held = self._held + 1 if value >= self.limit else 0
+        return Trip(guard="torque", value=value, limit=self.limit) if self._held >= HELD else None
 
 
 Guard = ForceGuard | AgainstGuard | TorqueGuard

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from handeye.touch.guards import AgainstGuard, ForceGuard, Reading, TorqueGuard
+from handeye.touch.guards import HELD, AgainstGuard, ForceGuard, Reading, TorqueGuard
 from handeye.units import OUNCE_FORCE
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -35,15 +35,21 @@ def test_an_against_guard_looks_where_the_motion_goes(direction: np.ndarray) -> 
     assert guard.check(Reading(force=9 * direction, direction=direction)) is None
 
 
-def test_a_torque_guard_trips_when_the_motor_reaches_its_torque() -> None:
+def answers(*torques: float) -> list[bool]:
+    """Whether a guard for .3 N m trips, period by period."""
     guard = TorqueGuard(limit=0.3)
-    assert guard.check(Reading(force=np.zeros(3), direction=DOWN, tool_torque=0.29)) is None
-    trip = guard.check(Reading(force=np.zeros(3), direction=DOWN, tool_torque=0.3))
-    assert trip is not None
-    assert (trip.guard, trip.value, trip.limit) == ("torque", 0.3, 0.3)
+    readings = [Reading(force=100 * DOWN, direction=DOWN, tool_torque=torque) for torque in torques]
+    return [guard.check(reading) is not None for reading in readings]
+
+
+def test_a_torque_guard_trips_when_the_motor_holds_its_torque() -> None:
+    assert answers(0.29, *[0.3] * HELD) == [False] * HELD + [True]
+
+
+def test_a_torque_guard_does_not_mind_an_instant() -> None:
+    assert not any(answers(*[0.4] * (HELD - 1), 0.1, *[0.4] * (HELD - 1)))
 
 
 def test_a_torque_guard_minds_neither_force_nor_the_sense_of_turning() -> None:
-    guard = TorqueGuard(limit=0.3)
-    assert guard.check(Reading(force=100 * DOWN, direction=DOWN)) is None
-    assert guard.check(Reading(force=np.zeros(3), direction=DOWN, tool_torque=-0.4)) is not None
+    assert answers(*[0.0] * HELD) == [False] * HELD
+    assert answers(*[-0.4] * HELD)[-1]
