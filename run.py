@@ -38,7 +38,7 @@ def main(words: list[str]) -> int:
 
 def set_up(lock: Path) -> None:
     """Make the environment hold what `lock` lists, unless a stamp says that it does already."""
-    digest = hashlib.sha256(lock.read_bytes() + sys.version.encode()).hexdigest()
+    digest = hashlib.sha256(lock.read_bytes() + f"{sys.version}{ROOT}".encode()).hexdigest()
     stamp = VENV / f"{lock.stem}.stamp"
     if PYTHON.exists() and stamp.exists() and stamp.read_text() == digest:
         return

@@ -15,7 +15,8 @@ from handeye.diagnostics import Diagnostic, as_json, has_errors
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.files import write_whole
-from handeye.plan.plan import Plan, read_plan, write_plan
+from handeye.plan.plan import Plan
+from handeye.plan.store import read_plan, write_plan
 from handeye.plan.taught import Taught, load_taught
 from handeye.report.result import Result
 from handeye.resources import plans

@@ -1,6 +1,6 @@
 ; The water pump of 1973, assembled in eleven steps.
 ;
-; Times, forces and lengths are those of the reference; words in capitals stand in the listing of 1973.
+; The comments in capitals, and the instructions beside them, stand in the listing of 1973.
 ; Inches, ounces, degrees. Positions are taught, in the file beside this one.
 
         STAGE   "find the base"

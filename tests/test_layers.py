@@ -13,6 +13,8 @@ LAYERS = [
         "plan.__init__",
         "plan.program",
         "plan.plan",
+        "plan.soundness",
+        "plan.store",
         "plan.world",
         "plan.taught",
         "cell.__init__",

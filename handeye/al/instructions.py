@@ -286,7 +286,7 @@ _TABLE = (
     Instruction(
         op="WAIT",
         group=FLOW,
-        help="stop, set the brakes, show the operator the text, and go on when told to",
+        help="stop, set the brakes, and tell the operator; the run ends there",
         operands=(Operand(name="text", takes=(Text,), free=True),),
     ),
     Instruction(

@@ -3,6 +3,10 @@
 from typing import Final
 
 BLOCK_GAP: Final = 1.27  # mm, .05 in: reference test 59, displacement from the standard position
+BASE_HEIGHT: Final = (
+    0.5  # mm of its reference point: contact softness; a base that hangs on a block stands 6 mm high
+)
+BASE_TILT: Final = 0.3  # deg: 1 mm over the length of the plate's shorter half
 BASE_YAW: Final = 1.0  # deg, of the base's edge against the far block: the assembly study's criterion
 
 GASKET_HEIGHT: Final = 0.3  # mm off nominal: half of it would already be a lost chip under it; assembly study
@@ -22,6 +26,7 @@ SCREWS: Final = 6
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_TILT: Final = 10.0  # deg: the pin stands, it does not lean out
+RACK_TILT: Final = 5.0  # deg: what the play of the guides allows, and no more than leaning
 RACK_PLACE: Final = 3.0  # mm from its place in the rack: guides and their bevels
 
 ROTOR_TORQUE: Final = 0.35  # N m: 40 oz at the crank's 1.25 in, the reference's check of the rotor

@@ -32,11 +32,6 @@ class Measured:
         """Pose of `body` in the frame of `other`."""
         return inverse(self.pose(other)) @ self.pose(body)
 
-    def strayed(self, body: str) -> tuple[float, float]:
-        """How far a body is from where it stood at the very first: distance (m) and tilt (rad)."""
-        X, X0 = self.pose(body), _pose(self._start, self.model.body(body).id)
-        return float(np.linalg.norm(X[:3, 3] - X0[:3, 3])), tilt(X)
-
     def place(self, body: str, places: tuple[str, ...]) -> tuple[float, float]:
         """How far a body is from the nearest of the first places of `places`; distance (m) and tilt (rad)."""
         X = self.pose(body)

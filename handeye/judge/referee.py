@@ -53,6 +53,11 @@ def _base(measured: Measured) -> dict[str, Finding]:
         for side in ("far", "left")
     }  # fmt: skip
     findings["base_yaw"] = at_most(abs(turn), limits.BASE_YAW, "deg", "turn of the base against the blocks")
+    X_WB = measured.pose("base")
+    findings["base_height"] = at_most(
+        abs(X_WB[2, 3]) * _MM, limits.BASE_HEIGHT, "mm", "height of the base off the table"
+    )
+    findings["base_tilt"] = at_most(degrees(tilt(X_WB)), limits.BASE_TILT, "deg", "tilt of the base")
     return findings
 
 
@@ -100,6 +105,7 @@ def _cell(measured: Measured, truth: Truth) -> dict[str, Finding]:
     in_threads = {thread.screw for thread in truth.threads}
     loose = [name for k, name in enumerate(_SCREWS) if k not in in_threads]
     strayed = [measured.place(name, _SCREWS)[0] for name in loose]
+    away, lean = measured.place("driver", ("driver",))
     lowest = min(measured.pose(name)[2, 3] for name in ("base", "gasket", "top", *_PINS, "driver", *loose))
     return {
         "pins": at_most(
@@ -108,9 +114,8 @@ def _cell(measured: Measured, truth: Truth) -> dict[str, Finding]:
         "pins_tilt": at_most(
             max(degrees(lean) for _, lean in pins), limits.PIN_TILT, "deg", "lean of a pin in its holder"
         ),
-        "rack": at_most(
-            measured.strayed("driver")[0] * _MM, limits.RACK_PLACE, "mm", "screwdriver from its rack"
-        ),
+        "rack": at_most(away * _MM, limits.RACK_PLACE, "mm", "screwdriver from its rack"),
+        "rack_tilt": at_most(degrees(lean), limits.RACK_TILT, "deg", "lean of the screwdriver in its rack"),
         "dispenser": at_most(
             max(strayed, default=0.0) * _MM, limits.PIN_PLACE, "mm", "loose screw from the dispenser"
         ),

@@ -11,7 +11,8 @@ import cv2
 from handeye.cell.photograph import photograph_png
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
-from handeye.plan.plan import Plan, encode
+from handeye.plan.plan import Plan
+from handeye.plan.store import encode
 from handeye.report.result import to_json
 from handeye.trials.assembly import Finished
 from handeye.vision.drawing import annotate
@@ -81,5 +82,7 @@ def keep(folder: Path, plan: Plan, events: Iterable[Event], finished: Finished) 
         write_whole(pictures / f"{name.lower()}.png", data.tobytes())
     if finished.cell.camera.renderer.startswith("OpenGL"):
         for camera in PHOTOGRAPHS:
-            write_whole(pictures / f"{camera}.png", photograph_png(finished.cell.truth, camera, 1280, 960))
+            write_whole(
+                pictures / f"end_{camera}.png", photograph_png(finished.cell.truth, camera, 1280, 960)
+            )
     write_whole(folder / "result.json", to_json(finished.result))

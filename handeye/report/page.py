@@ -27,7 +27,7 @@ def stages(result: Result) -> Table:
     for stage in result.stages:
         mark, style = _MARK[stage.status]
         seconds = f"{stage.arm_s:.1f} s" if stage.status != "not reached" else ""
-        table.add_row(Text(mark, style), stage.name, Text(stage.status, style), seconds)
+        table.add_row(Text(mark, style), Text(stage.name), Text(stage.status, style), seconds)
     return table
 
 

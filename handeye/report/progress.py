@@ -4,6 +4,7 @@ from types import TracebackType
 from typing import Self
 
 from rich.console import Console
+from rich.markup import escape
 from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
 
@@ -47,11 +48,10 @@ class Progress:
         clock = f"{event.time:.1f} s"
         if isinstance(event, StageStarted):
             number = self._plan.program.stages.index(event.stage)
-            self._bar.update(self._task, description=event.stage, completed=number, clock=clock)
+            self._bar.update(self._task, description=escape(event.stage), completed=number, clock=clock)
             if not self._console.is_terminal:
                 self._console.print(f"{clock:>8}  {event.stage}", markup=False)
         elif isinstance(event, StepStarted):
-            text = event.text.replace("[", r"\[")
-            self._bar.update(self._task, text=text, clock=clock)
+            self._bar.update(self._task, text=escape(event.text), clock=clock)
         elif isinstance(event, ErrorRaised | RunStarted):
             self._bar.update(self._task, clock=clock)

@@ -19,7 +19,11 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Where the time went. `_wall_s` is of this computer, the others are simulated."""
+    """Where the time went: simulated seconds, but for these.
+
+    `planning_wall_s` and `vision_wall_s` are processor time of this computer. `wall_s` is its clock from building
+    the cell to the referee's word; the real-time factor is all simulated time, camera calibration included, over it.
+    """
 
     planning_wall_s: float
     manipulation_s: float

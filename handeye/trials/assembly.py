@@ -8,19 +8,19 @@ from importlib.metadata import version as installed
 from typing import Final
 
 from handeye import __version__
-from handeye.arm.model import digest
+from handeye.arm.model import ArmModel, digest
 from handeye.arm.stanford import STANFORD
 from handeye.cell.imperfection import World
-from handeye.cell.simulated import SimulatedCell
+from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
-from handeye.judge.referee import judge
+from handeye.judge.referee import assembled, judge
 from handeye.plan.plan import Plan
 from handeye.plan.program import Look
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.units import INCH
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera import DRAWING
-from handeye.work.calibration import calibrate_camera
+from handeye.work.calibration import LAST_LENS, CalibrationFailed, calibrate_camera
 from handeye.work.events import Event, StageFinished, StageStarted
 from handeye.work.executor import Executor
 from handeye.work.run import Run
@@ -42,7 +42,8 @@ class _Stopwatch:
             self.started = (event.time, self.run.clockwork.lens)
         elif isinstance(event, StageFinished):
             busy = self.run.clockwork.lens - self.started[1]
-            self.seconds[event.stage] = (event.status, event.time - self.started[0] - busy)
+            _, before = self.seconds.get(event.stage, ("", 0.0))
+            self.seconds[event.stage] = (event.status, before + event.time - self.started[0] - busy)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,9 +74,9 @@ def run_plan(
         raise InvalidInput(
             f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
         )
+    begun = time.perf_counter()
     cell = SimulatedCell(World.sample(seed), camera=camera)
-    looks = any(isinstance(step.operation, Look) for step in plan.program.steps)
-    calibration = calibrate_camera(cell, arm, DRAWING) if looks else None
+    calibration, trouble = _calibrated(cell, arm, plan)
     stages = _Stopwatch()
 
     def emit(event: Event) -> None:
@@ -91,32 +92,46 @@ def run_plan(
         emit=emit,
         stopwatch=time.process_time,
     )
+    if calibration is not None:
+        run.lens = LAST_LENS
     stages.run = run
-    ready, simulated = time.perf_counter(), run.time
+    simulated = run.time
     executor = Executor(state=run)
-    completed = executor.run()
+    try:
+        completed = trouble is None and executor.run()
+    except SimulationError as error:
+        completed, trouble = False, str(error)
     findings = judge(cell.truth) if completed and referee else {}
-    checks = {
-        name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
-        for name, f in findings.items()
-    }
-    wall = time.perf_counter() - ready
+    wall = time.perf_counter() - begun
     stopped = executor.stopped
     names = plan.program.stages
     result = Result(
-        assembled=None if not referee else completed and all(check.ok for check in checks.values()),
+        assembled=None if not referee else completed and assembled(findings),
         completed=completed,
-        stopped_at=names[executor.stage] if stopped and executor.stage is not None else None,
+        stopped_at=names[executor.stage] if not completed and executor.stage is not None else None,
         error=stopped.error if stopped else None,
-        message=stopped.message if stopped else "the program came to its end",
+        message=trouble or (stopped.message if stopped else "the program came to its end"),
         stages=tuple(_stage(name, stages) for name in names),
         timing=_timing(run, run.time - simulated, wall, planning_wall_s),
-        referee=checks,
+        referee={
+            name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
+            for name, f in findings.items()
+        },
         seed=seed,
         camera=_camera(cell, calibration),
         versions=versions(),
     )
     return Finished(result=result, run=run, cell=cell)
+
+
+def _calibrated(cell: SimulatedCell, arm: ArmModel, plan: Plan) -> tuple[Calibration | None, str | None]:
+    """The calibration of the camera, if the plan looks at all, or why there is none."""
+    if not any(isinstance(step.operation, Look) for step in plan.program.steps):
+        return None, None
+    try:
+        return calibrate_camera(cell, arm, DRAWING), None
+    except (CalibrationFailed, SimulationError) as error:
+        return None, str(error)
 
 
 def _stage(name: str, stages: _Stopwatch) -> Stage:
@@ -133,7 +148,7 @@ def _timing(run: Run, simulated: float, wall: float, planning: float) -> Timing:
         vision_wall_s=vision,
         total_s=round(simulated + vision, 3),
         wall_s=wall,
-        real_time_factor=simulated / wall if wall > 0 else 0.0,
+        real_time_factor=run.time / wall if wall > 0 else 0.0,
     )
 
 

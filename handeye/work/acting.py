@@ -13,7 +13,7 @@ from handeye.plan.program import Center, Change, Close, Move, Open, Stop, Travel
 from handeye.pose import Pose, translated
 from handeye.touch.centring import Centring
 from handeye.touch.guards import AgainstGuard, ForceGuard, Guard, TorqueGuard
-from handeye.touch.hold import within
+from handeye.touch.hold import at_least, within
 from handeye.units import INCH
 from handeye.work.compliance import Course
 from handeye.work.drive import Outcome
@@ -164,7 +164,7 @@ def close(run: Run, operation: Close) -> Fault | None:
 
 
 def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
-    if gap < minimum:
+    if not at_least(gap, minimum):
         detail = f"the gap is {gap / INCH:.2f} in, the minimum {minimum / INCH:.2f} in"
         return Fault(number=errors.NOTHING_HELD, detail=detail)
     if maximum is not None and not within(gap, minimum, maximum):
@@ -188,8 +188,11 @@ def center(run: Run, operation: Center) -> Fault | None:
         outcome = drive.shift(here, X_WT)
         if outcome.error is not None:
             return Fault(number=outcome.error, detail=outcome.detail)
-    run.finger_line = line
     drive.hold(GRASP_TICKS // 2)
+    if centring.error:
+        detail = f"the fingers do not both touch anything; the gap is {drive.sensed.gap / INCH:.2f} in"
+        return Fault(number=centring.error, detail=detail)
+    run.finger_line = line
     return _held(drive.sensed.gap, operation.minimum, None)
 
 

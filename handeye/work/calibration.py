@@ -13,7 +13,7 @@ import numpy as np
 
 from handeye.arm.kinematics import IKResult, forward
 from handeye.arm.model import ArmModel
-from handeye.arm.trajectory import move
+from handeye.arm.trajectory import Trajectory, move
 from handeye.cell.ports import TICK, Workcell
 from handeye.errors import HandeyeError
 from handeye.pose import hand
@@ -71,6 +71,8 @@ LOOKS: Final = (
 
 The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
 """
+LAST_LENS: Final = LOOKS[-1].lens
+"""The lens that calibration leaves in the turret."""
 
 
 def calibrate_camera(cell: Workcell, arm: ArmModel, drawing: CameraModel) -> Calibration:
@@ -89,8 +91,16 @@ def calibrate_camera(cell: Workcell, arm: ArmModel, drawing: CameraModel) -> Cal
                                     f"{FEWEST} are needed to calibrate the camera")  # fmt: skip
     back = move(arm, drive.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
     if not isinstance(back, IKResult):
-        drive.follow(back.sample(TICK))
+        _go(drive, back)
     return calibrate(sightings, drawing)
+
+
+def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
+    outcome = drive.follow(trajectory.sample(TICK))
+    if outcome.error is not None:
+        raise CalibrationFailed(
+            f"while the camera was being calibrated, {outcome.detail or 'the drives were cut'}"
+        )
 
 
 def _sightings(drive: ArmDrive, drawing: CameraModel, look: _Look) -> Iterator[Sighting]:
@@ -106,7 +116,7 @@ def _sightings(drive: ArmDrive, drawing: CameraModel, look: _Look) -> Iterator[S
         trajectory = move(drive.arm, drive.q, X_WT, departure=0.0, approach=0.0, speed=1.0)
         if isinstance(trajectory, IKResult):
             continue
-        drive.follow(trajectory.sample(TICK))
+        _go(drive, trajectory)
         dark, seconds = camera.digitise()
         drive.lamp = True
         drive.brake(seconds)

@@ -4,11 +4,13 @@ An admittance: speed follows force. It leaves every joint under its position ser
 gravity model does not make the hand drift as slack joints would.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
+from handeye.cell.ports import TICK
 from handeye.pose import Array
 
 GAIN: Final = 0.0015
@@ -35,6 +37,10 @@ class Course:
     """N to press with, following what gives way; None: go at `speed`."""
     free: Array
     """1 along the axes of W in which the hand gives way, else 0, shape (3,)."""
+
+    def patience(self, pressing: int) -> int:
+        """Servo periods the motion may take: `pressing` ones, beside those of an unhindered way."""
+        return pressing + math.ceil(self.distance / self.speed / TICK)
 
     def advance(self, wrench: Array, tick: int) -> float:
         """Speed along the way (m/s) for an external wrench on the hand, in servo period number `tick`."""

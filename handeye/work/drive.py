@@ -138,9 +138,9 @@ class ArmDrive:
         here = self.dynamics()
         X_start = forward(self.arm, self.q)
         gone, given = 0.0, np.zeros(3)
-        for tick in range(PRESS_TICKS):
+        for tick in range(course.patience(PRESS_TICKS)):
             if gone >= course.distance:
-                break
+                return REACHED if guard is not None else self._arrived()
             gone += course.advance(self.wrench, tick) * TICK
             given += course.yielding(self.wrench) * TICK
             step = solve(self.arm, translated(X_start, gone * course.direction + given), self.q)
@@ -153,7 +153,9 @@ class ArmDrive:
             if trip is not None:
                 self._freeze(course.direction)
                 return Outcome(trip=trip)
-        return REACHED
+        if guard is not None:  # its error says that nothing was met
+            return REACHED
+        return Outcome(error=errors.SERVO_LAG, detail=f"the hand got on {gone / INCH:.2f} in and no farther")
 
     def shift(self, here: _Dynamics, X_WT: Pose) -> Outcome:
         """One period towards a pose close by."""

@@ -64,10 +64,16 @@ def _wait(run: Run, action: str, seconds: float) -> None:
     run.emit(CameraBusy(time=run.time, action=action, seconds=round(seconds, 6)))
 
 
+def _no_picture(number: int, picture: str) -> Fault:
+    return Fault(number=number, detail=f"no picture {picture} was taken")
+
+
 def general(run: Run, operation: General) -> Fault | None:
     """Find the outline of a part; its measured place becomes the middle of what was found."""
     part = run.world.parts[operation.part]
-    shot = run.shots[operation.picture]
+    shot = run.shots.get(operation.picture)
+    if shot is None:
+        return _no_picture(errors.PART_NOT_SEEN, operation.picture)
     started = run.stopwatch()
     found = locate_general(shot.picture, shot.view, part)
     run.clockwork.vision += run.stopwatch() - started
@@ -83,7 +89,9 @@ def general(run: Run, operation: General) -> Fault | None:
 def specific(run: Run, operation: Specific) -> Fault | None:
     """Find the holes of a part; its pose is measured by them."""
     part = run.world.parts[operation.part]
-    shot = run.shots[operation.picture]
+    shot = run.shots.get(operation.picture)
+    if shot is None:
+        return _no_picture(errors.FEATURES_NOT_SEEN, operation.picture)
     general = run.general.get(operation.part)
     if general is None:
         return Fault(number=errors.FEATURES_NOT_SEEN, detail="the part was not located generally before")
@@ -101,7 +109,9 @@ def specific(run: Run, operation: Specific) -> Fault | None:
 
 def inspect(run: Run, operation: Inspect) -> Fault | None:
     """Difference two pictures and see whether a part lies where it should."""
-    before, after = run.shots[operation.before], run.shots[operation.after]
+    before, after = run.shots.get(operation.before), run.shots.get(operation.after)
+    if before is None or after is None:
+        return _no_picture(errors.GASKET_WRONG, operation.after if before else operation.before)
     started = run.stopwatch()
     part = run.world.parts[operation.part]
     X_WP = run.world.part(operation.part)

@@ -8,8 +8,9 @@ import pytest
 from handeye.al import compile_text
 from handeye.arm.stanford import STANFORD
 from handeye.errors import InvalidInput
-from handeye.plan.plan import VERSION, Plan, decode, encode, read_plan, write_plan
+from handeye.plan.plan import VERSION, Plan
 from handeye.plan.planner import make_plan
+from handeye.plan.store import decode, encode, read_plan, write_plan
 from handeye.plan.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source, read_source
@@ -87,6 +88,56 @@ def test_a_step_that_leads_nowhere_is_refused(plan: Plan) -> None:
     data = json.loads(encode(plan))
     data["program"]["steps"][0]["next"] = 77
     assert refusal(json.dumps(data)) == "p.json: step 0 (line 2) leads to step 77; the plan has steps 0 to 3"
+
+
+def edited(plan: Plan, path: str, value: object) -> str:
+    """The plan's text with one value replaced; `path` is dotted."""
+    data = json.loads(encode(plan))
+    *way, last = path.split(".")
+    place = data
+    for key in way:
+        place = place[int(key) if isinstance(place, list) else key]
+    place[int(last) if isinstance(place, list) else last] = value
+    return json.dumps(data)
+
+
+CHANGE = "program.steps.1.operation"
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "said"),
+    [
+        ("program.steps", [], "it has no steps"),
+        ("speed", 0, "its speed is 0; a share of the arm's limits is above 0 and at most 1"),
+        ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 times; 4 and 3 are right"),
+        (
+            "motions.0.times",
+            [1.0, -1.0, 1.0],
+            "step 0 (line 2) has a planned motion with times or joints no arm",
+        ),
+        (f"{CHANGE}.displacement", [0, 0, 0], "step 1 (line 4) has a displacement of size 0"),
+        (f"{CHANGE}.displacement", [0, 0, 1e300], "step 1 (line 4) has a displacement of size 1e+300"),
+        (f"{CHANGE}.speed", 1e-30, "step 1 (line 4) has speed 1e-30"),
+        (f"{CHANGE}.stop", {}, "step 1 (line 4) has a stop with 0 conditions; it has to have one"),
+        ("program.steps.3.operation.gap", 1e30, "step 3 (line 6) has gap 1e+30"),
+        (
+            "program.steps.3.operation",
+            {"op": "lens", "focal_length": 0.077},
+            "step 3 (line 6) wants a lens of 77 mm",
+        ),
+        ("program.steps.3.operation", {"op": "aim", "target": "X"}, "step 3 (line 6) aims at X"),
+        (
+            "program.steps.3.operation",
+            {"op": "look", "picture": "../x"},
+            "step 3 (line 6) calls a picture '../x'",
+        ),
+        ("program.steps.3.operation", {"op": "search", "step": 1, "limit": -1}, "step 3 (line 6) has step 1"),
+    ],
+)
+def test_an_edited_plan_that_cannot_be_carried_out_is_refused(
+    plan: Plan, path: str, value: object, said: str
+) -> None:
+    assert refusal(edited(plan, path, value)).startswith(f"p.json: {said}")
 
 
 def test_another_json_file_is_refused() -> None:

@@ -1,0 +1,130 @@
+"""What the types of a plan cannot say: every reference leads somewhere, and every number can be carried out.
+
+A plan may have been cut, edited or made by another program; whatever passes here can be run without a surprise.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.plan import program as op
+from handeye.plan.plan import Motion, Plan
+
+_NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+"""Names that become file names."""
+_LENSES: Final = (0.025, 0.050)
+_FORCE: Final = (1e-6, 1e4)  # N, or N m
+_LENGTH: Final = (1e-6, 10.0)  # m
+
+_BOUNDS: Final[dict[tuple[type, str], tuple[float, float]]] = {
+    (op.Change, "speed"): (1e-4, 2.0),
+    (op.Turn, "angle"): (-4 * math.pi, 4 * math.pi),
+    (op.Open, "gap"): (0.0, 0.2),
+    (op.Close, "minimum"): (0.0, 0.2),
+    (op.Close, "maximum"): (0.0, 0.2),
+    (op.Center, "minimum"): (0.0, 0.2),
+    (op.Search, "step"): (1e-5, 0.5),
+    (op.Search, "limit"): (1, 10_000),
+    (op.Load, "weight"): (-1e3, 1e3),
+    (op.Tool, "speed"): (-1e3, 1e3),
+    (op.Travel, "minimum"): (-10.0, 10.0),
+    (op.Travel, "maximum"): (-10.0, 10.0),
+}
+"""Least and greatest value of a number of an operation, SI."""
+
+
+def faults(plan: Plan) -> Iterator[str]:
+    """What is wrong with a plan, a sentence each; nothing if it is sound."""
+    program = plan.program
+    if not program.steps:
+        yield "it has no steps"
+    if not 0 < plan.speed <= 1:
+        yield f"its speed is {plan.speed:g}; a share of the arm's limits is above 0 and at most 1"
+    for key, position in program.positions.items():
+        if position.of is not None and position.of not in program.parts:
+            yield f"position {key} is relative to part {position.of}, which the plan does not have"
+        if not all(abs(value) <= 100 for value in position.at):
+            yield f"position {key} is not on this table"
+    for key, part in program.parts.items():
+        if not all(abs(value) <= 100 for value in part.at):
+            yield f"part {key} is not on this table"
+    for number, step in enumerate(program.steps):
+        for fault in (*_references(plan, step), *_numbers(step.operation), *_motion(plan, number, step)):
+            yield f"step {number} (line {step.line}) {fault}"
+    for number in plan.motions:
+        if not 0 <= number < len(program.steps):
+            yield f"it has a motion for step {number}, and no such step"
+
+
+def _references(plan: Plan, step: op.Step) -> Iterator[str]:
+    """Steps, stages, positions, parts and pictures a step names."""
+    program, operation = plan.program, step.operation
+    count = len(program.steps)
+    for target in (step.next, getattr(operation, "raised", None)):
+        if target is not None and not 0 <= target < count:
+            yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
+    if not 0 <= step.stage < len(program.stages):
+        yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
+    for field in ("goal", "centre"):
+        name = getattr(operation, field, None)
+        if name is not None and name not in program.positions:
+            yield f"uses position {name}, which the plan does not have"
+    part = getattr(operation, "part", None)
+    if part is not None and part not in program.parts:
+        yield f"uses part {part}, which the plan does not have"
+    if isinstance(operation, op.Aim) and operation.target not in program.parts | program.positions:
+        yield f"aims at {operation.target}, which is no part or position of the plan"
+    for field in ("picture", "before", "after"):
+        name = getattr(operation, field, None)
+        if name is not None and not _NAME.fullmatch(name):
+            yield f"calls a picture {name!r}; a name has letters, digits and underscores"
+
+
+def _numbers(operation: op.AnyOperation) -> Iterator[str]:
+    """Numbers that cannot be carried out."""
+    for (kind, field), (low, high) in _BOUNDS.items():
+        value = getattr(operation, field) if isinstance(operation, kind) else None
+        if value is not None and not low <= value <= high:
+            yield f"has {field} {value:g}; it has to be from {low:g} to {high:g}"
+    if isinstance(operation, op.Change):
+        yield from _size("displacement", operation.displacement, _LENGTH)
+        if operation.press is not None:
+            yield from _size("press", operation.press, _FORCE)
+    if isinstance(operation, op.Lens) and not any(math.isclose(operation.focal_length, f) for f in _LENSES):
+        yield f"wants a lens of {operation.focal_length * 1000:g} mm; the turret has 25 and 50 mm"
+    stop = getattr(operation, "stop", None)
+    if stop is not None:
+        given = [value for value in (stop.force, stop.against, stop.torque) if value is not None]
+        if len(given) != 1:
+            yield f"has a stop with {len(given)} conditions; it has to have one"
+        for value in given:
+            yield from _size("stop", value if isinstance(value, tuple) else (value, 0.0, 0.0), _FORCE)
+
+
+def _size(what: str, vector: op.Vector, bounds: tuple[float, float]) -> Iterator[str]:
+    size = math.hypot(*vector)
+    if not bounds[0] <= size <= bounds[1]:
+        yield f"has a {what} of size {size:g}; it has to be from {bounds[0]:g} to {bounds[1]:g}"
+
+
+def _motion(plan: Plan, number: int, step: op.Step) -> Iterator[str]:
+    motion = plan.motions.get(number)
+    moves = isinstance(step.operation, op.Move | op.Change | op.Turn)
+    if motion is None:
+        if isinstance(step.operation, op.Move):
+            yield "has no planned motion"
+        return
+    knots = 4 if isinstance(step.operation, op.Move) else 2
+    if not moves:
+        yield "has a planned motion, and does not move"
+    elif len(motion.knots) != knots or len(motion.times) != knots - 1:
+        yield f"has {len(motion.knots)} knots and {len(motion.times)} times; {knots} and {knots - 1} are right"
+    elif not _can_be_run(motion):
+        yield "has a planned motion with times or joints no arm can have"
+
+
+def _can_be_run(motion: Motion) -> bool:
+    return all(0 <= t <= 600 for t in motion.times) and sum(motion.times) >= 0 and all(
+        abs(q) <= 10 for knot in motion.knots for q in knot
+    )  # fmt: skip

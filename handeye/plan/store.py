@@ -1,0 +1,94 @@
+"""Plans on disk: JSON with one step, position or motion a line, so that a text diff shows what a change in the
+script did to the arm. What is read is checked before anything uses it.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.files import write_whole
+from handeye.plan.plan import VERSION, Plan
+from handeye.plan.soundness import faults
+
+
+def encode(plan: Plan) -> str:
+    """The plan as canonical text."""
+    data = msgspec.to_builtins(plan, str_keys=True)
+    program = data.pop("program")
+    motions = data.pop("motions")
+    lines = ["{"]
+    lines += [f' "{key}": {_line(value)},' for key, value in data.items()]
+    lines.append(' "program": {')
+    for key, value in program.items():
+        comma = "" if key == "parts" else ","
+        if isinstance(value, dict):
+            body = [f'   "{name}": {_line(item)}' for name, item in value.items()]
+            lines += [f'  "{key}": {{', *_separated(body), f"  }}{comma}"]
+        elif key == "steps":
+            lines += [f'  "{key}": [', *_separated([f"   {_line(item)}" for item in value]), f"  ]{comma}"]
+        else:
+            lines.append(f'  "{key}": {_line(value)}{comma}')
+    lines += [" },", ' "motions": {']
+    lines += [
+        *_separated([f'  "{number}": {_line(motion)}' for number, motion in motions.items()]),
+        " }",
+        "}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _line(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _separated(lines: list[str]) -> list[str]:
+    return [f"{line}," for line in lines[:-1]] + lines[-1:]
+
+
+def decode(text: str | bytes, name: str) -> Plan:
+    """The plan in a text.
+
+    Raises:
+        InvalidInput: not a plan, cut short, of a newer version, or not sound.
+    """
+    try:
+        head = msgspec.json.decode(text)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"{name} is not a plan, or is cut short: {error}") from None
+    if not isinstance(head, dict) or head.get("format") != "handeye plan":
+        raise InvalidInput(f'{name} is not a plan: it does not say "format": "handeye plan"')
+    version = head.get("version")
+    if not isinstance(version, int) or version < 1:
+        raise InvalidInput(f"{name} does not say which version of the plan format it has")
+    if version > VERSION:
+        raise InvalidInput(
+            f"{name} has plan format version {version}; this handeye reads up to version {VERSION}"
+        )
+    try:
+        plan = msgspec.json.decode(text, type=Plan)
+    except msgspec.DecodeError as error:
+        raise InvalidInput(f"{name} is not a sound plan: {error}") from None
+    for fault in faults(plan):
+        raise InvalidInput(f"{name}: {fault}")
+    return plan
+
+
+def read_plan(path: Path) -> Plan:
+    """The plan in a file.
+
+    Raises:
+        InvalidInput: as `decode`, or the file cannot be read.
+    """
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
+    return decode(text, str(path))
+
+
+def write_plan(path: Path, plan: Plan) -> None:
+    """Write a plan, whole or not at all."""
+    write_whole(path, encode(plan).encode())
