@@ -54,7 +54,7 @@ def main() -> NoReturn:
         _err.print(f"handeye: {error}", style="red", markup=False, soft_wrap=True)
         sys.exit(2)
     except KeyboardInterrupt:
-        _err.print("\nhandeye: interrupted; nothing was written", markup=False)
+        _err.print("\nhandeye: interrupted", markup=False)
         sys.exit(130)
     except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -227,6 +227,9 @@ def base_vision_trials(
     camera: Camera = "auto",
 ) -> int:
     """Find the base on the belt in many worlds: how often, how exactly, and was it ever taken for another thing.
+
+    The camera is calibrated with 20 simulated sightings for each lens and an arm wrong by .1 in, which is quicker than
+    to have the arm show its lamp a hundred times over; `assemble` does that.
 
     Exit code 0: no wrong pose was accepted; 3: one was.
     """

@@ -1,7 +1,5 @@
 """A still scene with parts put where one wants them, and the camera: for pictures without a run."""
 
-from typing import Final
-
 import mujoco
 import numpy as np
 
@@ -9,17 +7,14 @@ from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.imperfection import World
 from handeye.cell.renderers import make_renderer
 from handeye.cell.scene import ARM, build
+from handeye.cell.simulated import PARK
 from handeye.pose import Pose, pose
-from handeye.units import DEGREE, INCH
-
-PARKED: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [1, 1, INCH / DEGREE, 1, 1, 1] * DEGREE
-"""Joint positions with the arm out of the camera's way; layout study, section 2. rad, joint 3 m."""
 
 
 class Stage:
     """The cell of a world before it has moved, its arm parked."""
 
-    def __init__(self, world: World, *, renderer: str = "auto", posture: np.ndarray = PARKED) -> None:
+    def __init__(self, world: World, *, renderer: str = "auto", posture: np.ndarray = PARK) -> None:
         """Raises InvalidInput if there is no such renderer, or it does not work here."""
         self.world = world
         self._model = build(world)

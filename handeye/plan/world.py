@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from handeye.errors import InvalidInput
 from handeye.plan.program import Part, Position, Program
 from handeye.pose import Pose, hand, planar
@@ -49,7 +47,3 @@ class WorldModel:
         position = self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else planned_pose(self.parts[position.of]) @ X_PT
-
-    def shift(self, name: str) -> float:
-        """How far (m) the measured place of a position is from the planned one."""
-        return float(np.linalg.norm(self.position(name)[:3, 3] - self.planned_position(name)[:3, 3]))

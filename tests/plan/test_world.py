@@ -37,12 +37,6 @@ def test_a_position_of_no_part_stays_where_it_is() -> None:
     assert known.position("T")[:3, 3] == pytest.approx([0.5, 0.6, 0.7])
 
 
-def test_the_shift_is_how_far_the_measured_place_is_from_the_planned() -> None:
-    known = world()
-    known.measure("BASE", planar(1.3, 2.4, 0.0, 0.0))
-    assert known.shift("A") == pytest.approx(0.5)
-
-
 def test_an_unknown_part_is_refused_with_those_there_are() -> None:
     with pytest.raises(InvalidInput, match=r"^no part LID; there are BASE$"):
         world().measure("LID", planar(0, 0, 0, 0))

@@ -233,7 +233,9 @@ def stacked() -> dict[str, Pose]:
     X_WP, seat = at_standard()["base"], base_top()
     lay = {"base": X_WP, "gasket": X_WP @ planar(0, 0, seat, 0)}
     lay["top"] = X_WP @ planar(0, 0, seat + dimensions()("gasket.thickness"), 0)
-    for pin, hole in (("pin0", 1), ("pin1", 5)):
+    for pin, hole in zip(
+        ("pin0", "pin1"), (int(k) for k in dimensions().all("base.screw_holes.pinned")), strict=True
+    ):
         lay[pin] = X_WP @ planar(*screw_holes()[hole], SEATED * INCH, 0)
     return lay
 
@@ -258,15 +260,3 @@ def shifted(name: str, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Positi
 def written(x: float, y: float, z: float, o: float, a: float = 90.0, t: float = 0.0) -> Position:
     """A hand position in table inches and degrees."""
     return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE))
-
-
-def touching() -> dict[str, Position]:
-    """The grasp points of the base where fingers .75 in wide really touch.
-
-    They meet the wall of a round hole with their edges, and not where its drawing is deepest.
-    """
-    places = {"A": (0.0, 1.53), "B": (3.60, 0.0), "WEB": (1.655, 0.0)}
-    return {
-        name: Position(at=(x * INCH, y * INCH, *TAUGHT.positions[name].at[2:]), of="BASE")
-        for name, (x, y) in places.items()
-    }

@@ -1,7 +1,7 @@
 """CENTER and what plain closing does instead; refining the place of the base by touch."""
 
 import pytest
-from bench import Bench, base_off, bench, stage, touching, written
+from bench import Bench, base_off, bench, stage, written
 
 from handeye.errors import NOTHING_HELD
 from handeye.pose import planar, yaw
@@ -21,7 +21,7 @@ def closing(word: str, across: float = 0.0) -> Bench:
 
 
 def feeling() -> Bench:
-    return bench(stage("feel for the grasp"), world=base_off(*VISION_ERROR), positions=touching())
+    return bench(stage("feel for the grasp"), world=base_off(*VISION_ERROR))
 
 
 def test_row_24_center_moves_the_hand_to_the_object() -> None:

@@ -4,7 +4,7 @@ And where a sense fails, the program notices: it ends with the operator, never s
 """
 
 import pytest
-from bench import INSERT, SEATED, TAUGHT, at_standard, base_off, bench, shifted, stage, touching, without
+from bench import INSERT, SEATED, TAUGHT, at_standard, base_off, bench, shifted, stage, without
 
 from handeye.cell.imperfection import World
 
@@ -23,22 +23,22 @@ def test_without_vision_the_base_is_not_grasped_and_the_operator_is_called(seed:
 
 
 def test_with_vision_as_good_as_in_1973_the_base_is_grasped() -> None:
-    assert bench(FEEL, world=base_off(*OFF), positions=touching()).go().finished
+    assert bench(FEEL, world=base_off(*OFF)).go().finished
 
 
 def test_without_center_the_base_is_dragged() -> None:
     script = FEEL.replace("CENTER", "CLOSE")
-    assert bench(script, world=base_off(*OFF), positions=touching()).go().moved("base") > 0.1
+    assert bench(script, world=base_off(*OFF)).go().moved("base") > 0.1
 
 
 def test_with_center_it_stays_where_it_is() -> None:
-    assert bench(FEEL, world=base_off(*OFF), positions=touching()).go().moved("base") < 0.02
+    assert bench(FEEL, world=base_off(*OFF)).go().moved("base") < 0.02
 
 
 def test_without_feeling_the_hand_comes_down_on_the_base_and_the_operator_is_called() -> None:
     """The fingers have .23 in to spare in the small hole."""
     script = "OPEN 1.85\nMOVE WEB\nCLOSE .9 1.4"
-    run = bench(script, world=base_off(*OFF), positions=touching()).go()
+    run = bench(script, world=base_off(*OFF)).go()
     assert run.called.message.startswith("the arm did not follow its set-points")
     assert run.hand()[2] > run.place("base")[2] + 1.7
 

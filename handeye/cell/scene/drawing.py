@@ -30,12 +30,6 @@ def pin_seat(chamfer: float, radius: float) -> float:
     return min(0.0, dimensions()("pin.body_radius") - radius - chamfer)
 
 
-def driver_over_bit() -> float:
-    """Height of the screwdriver's origin (middle of its grip block) over the face of its bit, m."""
-    d = dimensions()
-    return d("driver.height") / 2 + d("driver.bit")
-
-
 def standard() -> Pose:
     """`X_WP` of the base in its standard position."""
     d = dimensions()
