@@ -21,7 +21,7 @@ def test_the_base_has_the_holes_and_the_height_of_the_drawing(name: str) -> None
         (0.0, d("base.large_hole_1.diameter")),
         (d("base.large_hole_2.x"), d("base.large_hole_2.diameter")),
     ]
-    assert [(hole.x, hole.diameter) for hole in part.holes] == pytest.approx(drawn)
+    assert np.array([(hole.x, hole.diameter) for hole in part.holes]) == pytest.approx(np.array(drawn))
     assert part.face == pytest.approx(base_top())
 
 
