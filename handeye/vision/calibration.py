@@ -36,7 +36,7 @@ class Sighting:
     tilt: float
     u: float
     v: float
-    point_W: tuple[float, float, float]  # noqa: N815
+    point_W: tuple[float, float, float]
     """Where the arm says the lamp is, m."""
 
 

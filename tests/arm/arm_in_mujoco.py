@@ -50,4 +50,4 @@ def _joint(i: int, joint: Joint, damping: bool) -> str:
 
 
 def _text(numbers: object) -> str:
-    return " ".join(repr(float(x)) for x in numbers)  # type: ignore[attr-defined]
+    return " ".join(repr(float(x)) for x in numbers)  # type: ignore[attr-defined]  # any iterable of numbers

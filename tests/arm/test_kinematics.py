@@ -116,7 +116,9 @@ def test_a_hand_that_would_point_at_its_own_arm_meets_a_joint_limit() -> None:
         (6, 41, 9.0, 90, 14.0, 95.5, 33.6, 84.5, 104.0),
     ],
 )
-def test_stations_of_the_layout_have_the_listed_postures(x, y, z, yaw, q1, q2, q3, q5, q6) -> None:  # type: ignore[no-untyped-def]
+def test_stations_of_the_layout_have_the_listed_postures(
+    x: float, y: float, z: float, yaw: float, q1: float, q2: float, q3: float, q5: float, q6: float
+) -> None:
     q = solve(STANFORD, at(x, y, z, yaw), PARK).q
     listed = np.array([q1, q2, q3, 0, q5, q6])
     unit = np.array([DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE])

@@ -78,7 +78,7 @@ def test_a_finger_that_loses_its_object_closes_on_it_again() -> None:
 @pytest.mark.parametrize("minimum", [0.0, 0.1 * INCH])
 def test_centring_on_nothing_ends_with_an_error_at_the_minimum(minimum: float) -> None:
     bench = Bench(centre=10.0, width=0.0)
-    bench.touch = lambda: (False, False)  # type: ignore[method-assign]
+    bench.touch = lambda: (False, False)  # type: ignore[method-assign]  # switches that never fire
     centring = Centring(minimum=minimum, speed=SPEED)
     bench.run(centring)
     assert centring.error == NOTHING_HELD
