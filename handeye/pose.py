@@ -18,6 +18,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Pose = NDArray[np.float64]
+
+UPRIGHT = math.radians(2)
+"""Within this of straight down, all of the hand's turn about the vertical is called O, and T is nothing."""
 """A homogeneous matrix, shape (4, 4), lengths in metres."""
 
 _R_ZERO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
@@ -62,6 +65,17 @@ def yaw(X: Pose) -> float:
 def hand(x: float, y: float, z: float, o: float, a: float, t: float) -> Pose:
     """The hand pose with its tool centre point at (x, y, z) metres and angles O, A, T in radians."""
     return pose(rotation_z(o) @ rotation_x(a) @ _R_ZERO @ rotation_z(t), (x, y, z))
+
+
+def hand_angles(X_WT: Pose) -> tuple[float, float, float]:
+    """The angles O, A, T (rad) of a hand pose; the inverse of `hand`."""
+    finger, approach = X_WT[:3, 1], X_WT[:3, 2]
+    a = math.asin(min(1.0, max(-1.0, -float(approach[2]))))
+    if abs(abs(a) - math.pi / 2) < UPRIGHT:
+        return math.atan2(finger[1], finger[0]), a, 0.0
+    o = math.atan2(approach[0], -approach[1])
+    along = np.array([math.cos(o), math.sin(o), 0.0])  # of the fingers, were T nothing
+    return o, a, math.atan2(float(along @ X_WT[:3, 0]), float(along @ finger))
 
 
 def translated(X: Pose, p: Array | Sequence[float]) -> Pose:

@@ -4,51 +4,10 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 import pytest
-
-from handeye import cli
-from handeye.trials import assembly
-from handeye.vision.calibration import Calibration
-from handeye.vision.camera import DRAWING
-
-Command = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Command:
-    """Runs `handeye` in an empty folder: exit code, standard output, standard error."""
-    monkeypatch.chdir(tmp_path)
-    app = cli.app
-
-    def run(*words: str) -> tuple[int, str, str]:
-        monkeypatch.setattr(cli, "app", partial(app, words))
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        out, err = capsys.readouterr()
-        assert "Traceback" not in out + err
-        code = end.value.code
-        assert isinstance(code, int)
-        return code, out, err
-
-    return run
-
-
-@pytest.fixture
-def planned(command: Command, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], str]:
-    """The plan file of a script; such plans take no pictures, so the camera is left as drawn."""
-    drawn = Calibration(model=DRAWING, residual_px={}, residual_m=0.0)
-    monkeypatch.setattr(assembly, "calibrate_camera", lambda *_: drawn)
-
-    def plan(text: str) -> str:
-        Path("job.al").write_text(text, encoding="utf-8")
-        assert command("plan", "job.al")[0] == 0
-        return "job.plan.json"
-
-    return plan
-
+from conftest import Command
 
 MISTAKES = {
     "unknown-instruction": "MOVEX T",

@@ -8,7 +8,7 @@ import pytest
 PACKAGE = Path(__file__).parent.parent / "handeye"
 
 LAYERS = [
-    {"__init__", "units", "pose", "source", "diagnostics", "errors", "files", "resources"},
+    {"__init__", "units", "pose", "source", "diagnostics", "errors", "files", "resources", "versions"},
     {
         "plan.__init__",
         "plan.program",
@@ -23,7 +23,7 @@ LAYERS = [
     {"arm", "vision", "touch", "al"},
     {"plan.planner", "plan.motions", "work"},
     {"cell", "judge"},
-    {"report", "trials", "cli", "__main__"},
+    {"report", "trace", "stepping", "trials", "cli", "__main__"},
 ]
 """Downwards only: a module may import from its own layer and those above it in this list."""
 

@@ -11,6 +11,7 @@ from handeye.cell.imperfection import CameraErrors
 from handeye.cell.ports import Picture, TvCamera
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
+from handeye.cell.state import CameraState, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.vision.camera import DRAWING, CameraModel, View
 
@@ -82,6 +83,30 @@ class SimulatedCamera(TvCamera):
     @property
     def renderer(self) -> str:
         return self._renderer.name
+
+    def capture(self) -> CameraState:
+        """The state of mechanism, tube and noise."""
+        return CameraState(
+            noise=noise_state(self._rng),
+            lens=self._lens,
+            pots=self._pots,
+            stand=self._stand,
+            focus=None if math.isinf(self._focus) else self._focus,
+            gain=self._vidicon.gain,
+        )
+
+    def restore(self, state: CameraState) -> None:
+        """Put mechanism, tube and noise into a state.
+
+        Raises:
+            InvalidInput: there is no such lens.
+            ValueError, KeyError, TypeError: the state of the generator is none.
+        """
+        set_noise(self._rng, state.noise)
+        self._lens = self._model.lens(state.lens).focal_length
+        self._pots, self._stand = state.pots, state.stand
+        self._focus = math.inf if state.focus is None else state.focus
+        self._vidicon.gain = state.gain
 
     def true_view(self) -> View:
         """What it really sees at present. For the referee and for tests: the program has `pots` only."""

@@ -52,7 +52,8 @@ class HandDrive:
         self._motor = model.actuator("stanford/grip").id
         fingers = [model.joint(f"stanford/finger_{side}").id for side in "ab"]
         self._fingers = model.jnt_qposadr[fingers]
-        self._set_point = self.gap
+        self.set_point = self.gap
+        """Where the finger servo is to be at the end of this tick, m."""
         model.actuator_ctrllimited[self._motor] = 0
 
     @property
@@ -67,11 +68,11 @@ class HandDrive:
         """
         goal = min(max(gap, 0.0), GAP_MAX)
         here, step = self.gap, GAP_SPEED * TICK
-        start = min(max(self._set_point, here - _GIVE), here + _GIVE)
+        start = min(max(self.set_point, here - _GIVE), here + _GIVE)
         if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
         moved = min(max(goal - start, -step), step)
-        self._set_point = start + moved
+        self.set_point = start + moved
         self._press(min(max(grip, 0.0), GRIP_MAX), ahead=moved * (_LAG / TICK - 0.5))
 
     def _press(self, grip: float, ahead: float) -> None:
@@ -83,7 +84,7 @@ class HandDrive:
         model.actuator_gainprm[motor, 0] = grip / _GIVE
         model.actuator_biasprm[motor, 1:3] = (-grip / _GIVE, -grip / _GIVE * _LAG)
         model.actuator_forcerange[motor] = (-grip, grip)
-        self._data.ctrl[motor] = self._set_point + ahead
+        self._data.ctrl[motor] = self.set_point + ahead
 
 
 class Lamp:

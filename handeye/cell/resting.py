@@ -38,7 +38,8 @@ class Resting:
         self._welds = [model.equality(f"merge_{name}").id for name in _LAYERS]
         self._lands = np.flatnonzero(np.isin(model.geom_contype, _LANDS))
         self._bits = model.geom_contype[self._lands].copy(), model.geom_conaffinity[self._lands].copy()
-        self._clamped = False
+        self.clamped = False
+        """Whether the layers are held by welds at present."""
         if allowed:
             trees = [model.body_treeid[model.body(name).id] for name in _MOTORED]
             model.tree_sleep_policy[trees] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
@@ -48,11 +49,11 @@ class Resting:
     def before(self, threads: tuple[Thread, ...]) -> None:
         """The events at the start of a tick."""
         clamped = self._allowed and sum(hole.clamp > CLAMP for hole in threads) >= SCREWS
-        if clamped and not self._clamped:
+        if clamped and not self.clamped:
             self._join()
-        elif self._clamped and not clamped:
+        elif self.clamped and not clamped:
             self.part(self._model, self._data)
-        self._clamped = clamped
+        self.clamped = clamped
 
     def _join(self) -> None:
         model, data = self._model, self._data

@@ -14,12 +14,13 @@ class Sensors:
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, world: World) -> None:
         self._data, self._world = data, world
-        self._rng = world.generator(1)
+        self.rng = world.generator(1)
+        """Source of the noise."""
         self._switches = [int(model.sensor(f"stanford/switch_{side}").adr[0]) for side in "ab"]
 
     def read(self, arm: ArmDrive, hand: HandDrive, threads: Threads, *, braked: bool) -> Sensed:
         """One reading of everything; draws new noise each time."""
-        data, world, noise = self._data, self._world, self._rng.standard_normal(14)
+        data, world, noise = self._data, self._world, self.rng.standard_normal(14)
         errors = world.hand
         first, second = data.sensordata[self._switches] > errors.switch_force
         gap = hand.gap * (1 + errors.gap_scale) + errors.gap_offset + errors.gap_noise * noise[12]

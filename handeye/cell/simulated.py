@@ -13,10 +13,14 @@ from handeye.cell.renderers import make_renderer
 from handeye.cell.resting import Resting
 from handeye.cell.scene import build
 from handeye.cell.sensors import Sensors
+from handeye.cell.state import MUTABLE, CellState, noise_state, set_noise
 from handeye.cell.threads import Threads
 from handeye.cell.truth import Truth
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.units import DEGREE, INCH
+
+INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+"""What MuJoCo needs to go on from a state as if it had never left it."""
 
 PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
     DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
@@ -54,7 +58,9 @@ class SimulatedCell(Workcell):
         self._arm.put(np.zeros(6), brakes=True)
         mujoco.mj_forward(model, data)
         self._sensed = self._read(braked=True)
-        self.camera = SimulatedCamera(data, world.camera, world.generator(2), make_renderer(camera, model))
+        self.camera: SimulatedCamera = SimulatedCamera(
+            data, world.camera, world.generator(2), make_renderer(camera, model)
+        )
 
     @property
     def truth(self) -> Truth:
@@ -86,6 +92,69 @@ class SimulatedCell(Workcell):
         self._tripped = True
         self._arm.put(np.zeros(6), brakes=True)
         self._advance(tool=0.0, braked=True)
+
+    def capture(self) -> CellState:
+        """All that the future of this cell depends on; `restore` puts it back, in this cell or its like."""
+        physics = np.empty(mujoco.mj_stateSize(self._model, INTEGRATION))
+        mujoco.mj_getState(self._model, self._data, physics, INTEGRATION)
+        return CellState(
+            physics=physics,
+            figures={name: np.array(getattr(self._model, name), dtype=float) for name in MUTABLE},
+            threads=self._threads.holes,
+            driven=self._threads.driven,
+            clamped=self._resting.clamped,
+            fingers=self._hand.set_point,
+            tripped=self._tripped,
+            sensed=self._sensed,
+            noise=noise_state(self._sensors.rng),
+            camera=self.camera.capture(),
+        )
+
+    def restore(self, state: CellState) -> None:
+        """Put the cell into a state; what follows is the same, to the byte, whatever was before.
+
+        Sleep is not part of a state: everything wakes, and falls asleep again where it stands still. Therefore a run
+        is the same with and without a stop only if its cell is put into its own state wherever it might be stopped.
+
+        Raises:
+            InvalidInput: it is the state of another kind of cell, or no state at all.
+        """
+        try:
+            self._check(state)
+            set_noise(self._sensors.rng, state.noise)
+            self.camera.restore(state.camera)
+        except (ValueError, KeyError, TypeError) as error:
+            raise InvalidInput(f"this is not a state of this work cell: {error}") from None
+        model, data = self._model, self._data
+        for name, values in state.figures.items():
+            getattr(model, name)[:] = values
+        self._threads.holes, self._threads.driven = state.threads, state.driven
+        self._resting.clamped, self._hand.set_point = state.clamped, state.fingers
+        self._tripped, self._sensed = state.tripped, state.sensed
+        mujoco.mj_resetData(model, data)
+        mujoco.mj_setState(model, data, state.physics, INTEGRATION)
+        mujoco.mj_forward(model, data)
+        mujoco.mj_setState(model, data, state.physics, INTEGRATION)  # what the solver starts from, too
+
+    def _check(self, state: CellState) -> None:
+        """Raises ValueError unless every figure of a state has its place in this cell."""
+        if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
+            raise ValueError("its physics are of another scene")
+        if set(state.figures) != set(MUTABLE):
+            raise ValueError("it has not the figures that change in this scene")
+        for name, values in state.figures.items():
+            if values.shape != getattr(self._model, name).shape:
+                raise ValueError(f"{name} has another size here")
+        if not all(np.isfinite(values).all() for values in (state.physics, *state.figures.values())):
+            raise ValueError("some of its figures are not finite numbers")
+        screws = [hole.screw for hole in state.threads if hole.screw is not None]
+        if len(state.threads) != len(self._threads.holes) or not set(screws) <= set(
+            range(len(state.threads))
+        ):
+            raise ValueError("its screws are not those of this scene")
+        sensed = (state.sensed.time, state.sensed.gap, *state.sensed.q, *state.sensed.qd)
+        if len(sensed) != 14 or not np.isfinite(sensed).all():
+            raise ValueError("its sensors read what they cannot")
 
     def _advance(self, *, tool: float, braked: bool) -> None:
         self._threads.before(tool)

@@ -77,10 +77,18 @@ class Threads:
         self._spin = int(model.joint("spindle").dofadr[0])
         self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
         self._head_bits = (int(model.geom_contype[self._head[0]]), int(model.geom_conaffinity[self._head[0]]))
-        self._turning: int | None = None
         model.geom_contype[self._head] = 0  # heads of empty holes meet nothing
         model.geom_conaffinity[self._head] = 0
         data.ctrl[model.actuator("magnet").id] = 1.0  # permanent
+
+    @property
+    def driven(self) -> int:
+        """The hole whose carrier the motor is coupled to."""
+        return self._site.index(int(self._model.actuator_trnid[self._drive, 0]))
+
+    @driven.setter
+    def driven(self, hole: int) -> None:
+        self._model.actuator_trnid[self._drive, 0] = self._site[hole]
 
     @property
     def torque(self) -> float:
@@ -175,7 +183,7 @@ class Threads:
         model.actuator_biasprm[self._drive, 2] = -gain
         data.ctrl[self._drive] = -speed
         if hole is not None:
-            model.actuator_trnid[self._drive, 0] = self._site[hole]
+            self.driven = hole
             self._rub(hole)
 
     def _under_bit(self) -> int | None:

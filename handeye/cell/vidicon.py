@@ -33,7 +33,8 @@ class Vidicon:
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
-        self._gain: float | None = None
+        self.gain: float | None = None
+        """The target voltage of the last picture; None before the first."""
 
     def expose(self, light: Luminance, *, disc: float = 0.0, hold_target: bool = False) -> Picture:
         """Digitise a scene.
@@ -45,10 +46,10 @@ class Vidicon:
         image = _defocused(light, disc) if disc > 0.5 else light
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), sigmaX=BLUR[0], sigmaY=BLUR[1]), np.float32)
         signal = np.clip(image * _shading(), 0, None) ** GAMMA
-        if self._gain is None or not hold_target:
-            self._gain = PEAK / max(float(np.percentile(_middle(signal), BRIGHT)), 1e-3)
+        if self.gain is None or not hold_target:
+            self.gain = PEAK / max(float(np.percentile(_middle(signal), BRIGHT)), 1e-3)
         noise = self._rng.normal(0.0, NOISE, signal.shape)
-        return np.asarray(np.clip(np.rint(signal * self._gain + noise), 0, 15), dtype=np.uint8)
+        return np.asarray(np.clip(np.rint(signal * self.gain + noise), 0, 15), dtype=np.uint8)
 
 
 def blur_disc(focal_length: float, focused: float, distance: float) -> float:

@@ -2,6 +2,7 @@
 script did to the arm. What is read is checked before anything uses it.
 """
 
+import hashlib
 import json
 from pathlib import Path
 from typing import Any
@@ -92,3 +93,8 @@ def read_plan(path: Path) -> Plan:
 def write_plan(path: Path, plan: Plan) -> None:
     """Write a plan, whole or not at all."""
     write_whole(path, encode(plan).encode())
+
+
+def plan_digest(plan: Plan) -> str:
+    """Sixteen hexadecimal digits that stand for a plan: of the bytes that `write_plan` writes."""
+    return hashlib.sha256(encode(plan).encode()).hexdigest()[:16]

@@ -19,6 +19,8 @@ class WorldModel:
     parts: dict[str, Part]
     positions: dict[str, Position]
     measured: dict[str, Pose] = field(default_factory=dict)
+    moved: dict[str, Position] = field(default_factory=dict)
+    """Positions that somebody has put elsewhere for an experiment."""
 
     @classmethod
     def of(cls, program: Program) -> "WorldModel":
@@ -38,7 +40,7 @@ class WorldModel:
 
     def position(self, name: str) -> Pose:
         """`X_WT` of a hand position, by the measured pose of the part it belongs to."""
-        position = self.positions[name]
+        position = self.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
 

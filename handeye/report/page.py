@@ -6,7 +6,13 @@ from rich.text import Text
 
 from handeye.report.result import PERIOD, Result
 
-_MARK = {"done": ("✓", "green"), "stopped": ("✗", "red"), "not reached": ("·", "dim")}
+_MARK = {
+    "done": ("✓", "green"),
+    "under way": ("▸", "yellow"),
+    "skipped": ("–", "yellow"),
+    "stopped": ("✗", "red"),
+    "not reached": ("·", "dim"),
+}
 
 
 def page(result: Result) -> RenderableType:
@@ -14,6 +20,7 @@ def page(result: Result) -> RenderableType:
     parts: list[RenderableType] = [stages(result), Text(), timing(result), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
+    parts += [Text(f"by hand: {sentence}", "yellow") for sentence in result.interventions]
     return Group(*parts, Text(), verdict(result))
 
 
@@ -91,6 +98,8 @@ def referee(result: Result) -> Table:
 
 def verdict(result: Result) -> Text:
     """The last word."""
+    if result.paused:
+        return Text(f"The run stands still: {result.message}.", "bold")
     if not result.completed:
         where = f" in step “{result.stopped_at}”" if result.stopped_at else ""
         number = f" (error {result.error})" if result.error is not None else ""

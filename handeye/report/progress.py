@@ -1,5 +1,7 @@
 """A progress bar with the current step, on standard error."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
@@ -9,11 +11,12 @@ from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
 
 from handeye.plan.plan import Plan
-from handeye.work.events import ErrorRaised, Event, RunStarted, StageStarted, StepStarted
+from handeye.stepping.observer import Observer
+from handeye.work.events import AnyEvent, ErrorRaised, RunStarted, StageStarted, StepStarted
 
 
-class Progress:
-    """Listens to events; shows the stage, the statement being executed and the cell's clock.
+class Progress(Observer):
+    """Shows the stage, the statement being executed and the cell's clock.
 
     Without a terminal it prints one line a stage.
     """
@@ -32,7 +35,7 @@ class Progress:
             disable=not console.is_terminal,
         )
         self._task = self._bar.add_task(
-            "calibrating the camera", total=len(plan.program.stages), text="", clock=""
+            "setting up the cell", total=len(plan.program.stages), text="", clock=""
         )  # fmt: skip
 
     def __enter__(self) -> Self:
@@ -44,7 +47,17 @@ class Progress:
     ) -> None:
         self._bar.__exit__(kind, value, trace)
 
-    def __call__(self, event: Event) -> None:
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """While somebody is asked: the bar is out of the way."""
+        self._bar.stop()
+        try:
+            yield
+        finally:
+            if self._console.is_terminal:
+                self._bar.start()
+
+    def event(self, event: AnyEvent) -> None:
         clock = f"{event.time:.1f} s"
         if isinstance(event, StageStarted):
             number = self._plan.program.stages.index(event.stage)

@@ -61,9 +61,13 @@ class Result(Record, frozen=True, kw_only=True):
     """The referee's word; None if nobody was asked."""
     completed: bool
     """The program's."""
+    paused: bool
+    """The run stands still because that was asked for."""
     stopped_at: str | None
     error: int | None
     message: str
+    interventions: tuple[str, ...]
+    """What somebody did to the run, a sentence each."""
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
@@ -74,11 +78,14 @@ class Result(Record, frozen=True, kw_only=True):
     @property
     def exit_code(self) -> int:
         """0 assembled, 1 the operator was called, 3 the program said done and the referee disagrees."""
+        if self.paused:
+            return 0
         if not self.completed:
             return 1
         return 3 if self.assembled is False else 0
 
 
-def to_json(result: Result) -> bytes:
-    """The result as one JSON object with a final newline."""
-    return msgspec.json.format(msgspec.json.encode(result), indent=1) + b"\n"
+def to_json(result: Result, *, line: bool = False) -> bytes:
+    """The result as one JSON object, laid out for people or on one `line`, with a final newline."""
+    encoded = msgspec.json.encode(result)
+    return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"

@@ -5,7 +5,7 @@ arm believes of its own place enters here, and the same arm grasps later, so wha
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -75,13 +75,18 @@ LAST_LENS: Final = LOOKS[-1].lens
 """The lens that calibration leaves in the turret."""
 
 
-def calibrate_camera(cell: Workcell, arm: ArmModel, drawing: CameraModel) -> Calibration:
+def calibrate_camera(
+    cell: Workcell, arm: ArmModel, drawing: CameraModel, halt: Callable[[], bool] = lambda: False
+) -> Calibration:
     """Show the lamp to the camera, and fit the camera to where the arm says the lamp was.
+
+    `halt`: the panic button.
 
     Raises:
         CalibrationFailed: the lamp was seen too few times.
+        Halted: the panic button was hit.
     """
-    drive = ArmDrive(cell=cell, arm=arm)
+    drive = ArmDrive(cell=cell, arm=arm, halt=halt)
     home = drive.q.copy()
     sightings = [sighting for look in LOOKS for sighting in _sightings(drive, drawing, look)]
     for lens in {look.lens for look in LOOKS}:

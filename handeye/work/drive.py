@@ -32,6 +32,10 @@ PRESS_TICKS = 600
 """Periods after which a pressing motion ends that neither gets on nor meets its guard: ten seconds."""
 
 
+class Halted(Exception):
+    """The panic button was hit: drives are off and brakes set since this servo period."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
     """How a motion ended."""
@@ -62,8 +66,10 @@ class ArmDrive:
 
     cell: Workcell
     arm: ArmModel
-    watch: Callable[[Sensed], None] = lambda _: None
-    """Called after every servo period."""
+    watch: Callable[[Sensed, Array], None] = lambda _, __: None
+    """Called after every servo period with what is sensed and the torques put out, shape (6,)."""
+    halt: Callable[[], bool] = lambda: False
+    """The panic button, asked at every servo period."""
     q: Array = field(init=False)
     """Set-point the arm holds."""
     gap: float = field(init=False)
@@ -201,12 +207,18 @@ class ArmDrive:
             self.wrench = np.linalg.solve(here.J.T, unexplained) - self.tare
 
     def _tick(self, tau: Array, brakes: bool = False) -> None:
+        """One servo period. Raises Halted after it, if the panic button is down."""
+        halted = self.halt()
+        if halted:
+            brakes, tau, self.tool = True, np.zeros(6), 0.0
         self.cell.tick(
             Drive(torque=tau, brakes=brakes, gap=self.gap, grip=self.grip, tool=self.tool, lamp=self.lamp)
         )
         self.sensed = self.cell.sense()
         self.cut = self.sensed.braked and not brakes
-        self.watch(self.sensed)
+        self.watch(self.sensed, tau)
+        if halted:
+            raise Halted
 
     # -- stopping -----------------------------------------------------------------------------------
 

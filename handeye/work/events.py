@@ -14,10 +14,18 @@ class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
 
 
 class RunStarted(Event, frozen=True, kw_only=True):
-    """The working phase begins."""
+    """The working phase begins; all that the events after it depend on, but for what the operator does."""
 
     program: str
     steps: int
+    plan: str
+    """Digest of the plan."""
+    arm: str
+    arm_digest: str
+    seed: int
+    camera: str
+    """How pictures are made."""
+    versions: dict[str, str]
 
 
 class StageStarted(Event, frozen=True, kw_only=True):
@@ -30,7 +38,7 @@ class StageFinished(Event, frozen=True, kw_only=True):
     """A stage ended."""
 
     stage: str
-    status: Literal["done", "stopped"]
+    status: Literal["done", "stopped", "skipped"]
 
 
 class StepStarted(Event, frozen=True, kw_only=True):
@@ -46,6 +54,8 @@ class StepFinished(Event, frozen=True, kw_only=True):
 
     step: int
     hand: tuple[float, float, float]
+    planned: tuple[float, float, float] | None
+    """Where a motion was planned to end (m); a guard or a measured world ends it elsewhere."""
     gap: float
 
 
@@ -138,11 +148,43 @@ class OperatorCalled(Event, frozen=True, kw_only=True):
     error: int | None
 
 
+class OperatorAnswered(Event, frozen=True, kw_only=True):
+    """What the operator chose after a stop, and the step the program goes on with (None: it ends)."""
+
+    choice: Literal["proceed", "retry", "skip"]
+    step: int | None
+
+
+class ExperimentMade(Event, frozen=True, kw_only=True):
+    """Somebody at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
+
+    what: Literal["saved", "position"]
+    name: str
+    value: tuple[float, ...]
+
+
+class PanicStopped(Event, frozen=True, kw_only=True):
+    """The operator hit the panic button: drives off, brakes set, at this servo period."""
+
+
+class WentBack(Event, frozen=True, kw_only=True):
+    """Everything after the first `events` events is undone. In a journal only; a trace leaves out what is undone."""
+
+    events: int
+    why: Literal["back", "resumed"]
+
+
 class RunFinished(Event, frozen=True, kw_only=True):
     """The working phase ended."""
 
     completed: bool
 
+
+AnyEvent = (
+    RunStarted | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted | GuardTripped
+    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | Restored | PictureTaken | PartSeen | PartInspected
+    | CameraBusy | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack | RunFinished
+)  # fmt: skip
 
 _encoder = msgspec.json.Encoder()
 

@@ -1,18 +1,21 @@
 """The executor: follows the graph of a plan, step by step, and lets the program test what went wrong."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+import numpy as np
 
 from handeye import errors
+from handeye.arm.kinematics import forward
 from handeye.plan import program as op
 from handeye.work import acting, looking
 from handeye.work.events import (
     ErrorRaised,
     ErrorTested,
+    OperatorAnswered,
     OperatorCalled,
     RunFinished,
-    RunStarted,
     Saved,
     SearchAdvanced,
     StageFinished,
@@ -24,6 +27,9 @@ from handeye.work.run import Fault, Run, SearchState, vector
 
 IDLE_LIMIT: Final = 10_000
 """Steps without time passing after which a program is taken to run in a circle."""
+
+Choice = Literal["proceed", "retry", "skip"]
+"""What an operator can do about a stop: go on behind it, do the stage again, or leave out the rest of the stage."""
 
 _ACTIONS: Final[dict[type, Callable[[Run, Any], Fault | None]]] = {
     op.Change: acting.change,
@@ -43,52 +49,64 @@ _ACTIONS: Final[dict[type, Callable[[Run, Any], Fault | None]]] = {
 
 @dataclass(slots=True, kw_only=True)
 class Executor:
-    """Carries out a plan on a cell. `step` does one step; `run` does all that are left."""
+    """Carries out a plan on a cell, a step at a time."""
 
     state: Run
     at: int | None = 0
     """The step to do next; None when the program has ended or the operator was called."""
     pending: Fault | None = None
-    """An error raised and not yet tested."""
+    """An error raised, which the next step tests."""
     stage: int | None = None
+    """The stage under way; None between two stages."""
     stopped: OperatorCalled | None = None
+    onward: int | None = None
+    """After a stop: the step that would have been next."""
     idle: int = 0
-    _time: float = field(default=-1.0)
+    """Steps since time last passed."""
+    clock: float = -1.0
+    """When the last step ended, s."""
 
-    def run(self) -> bool:
-        """Do all steps that are left; True when the program came to its end."""
-        run = self.state
-        program = run.plan.program
-        run.emit(RunStarted(time=run.time, program=program.name, steps=len(program.steps)))
-        while self.at is not None:
-            self.step()
-        if self.stage is not None:
-            stage = program.stages[self.stage]
-            run.emit(StageFinished(time=run.time, stage=stage, status="stopped" if self.stopped else "done"))
-        run.emit(RunFinished(time=run.time, completed=self.stopped is None))
-        return self.stopped is None
+    @property
+    def between_stages(self) -> bool:
+        """No stage is under way, and one is to come."""
+        return self.stage is None and self.at is not None
 
     def step(self) -> None:
-        """Do one step."""
+        """Do one step; the operator is called if it raises an error that the next one does not test."""
         assert self.at is not None
-        run = self.state
-        step = run.plan.program.steps[self.at]
-        if self.pending is not None and not isinstance(step.operation, op.Test):
-            self._call_operator(self.pending)
-            return
+        run, here = self.state, self.at
+        step = run.plan.program.steps[here]
         self._enter(step.stage)
-        run.emit(StepStarted(time=run.time, step=self.at, line=step.line, text=step.text))
-        here = self.at
-        following = self._perform(here, step)
-        hand = run.drive.hand()[:3, 3]
-        run.emit(
-            StepFinished(time=run.time, step=here, hand=vector(hand), gap=round(run.drive.sensed.gap, 6))
-        )
-        if self.at is not None:
-            self.at = following
-        if self.at is None and self.pending is not None:
+        run.emit(StepStarted(time=run.time, step=here, line=step.line, text=step.text))
+        self.at = self._perform(here, step)
+        run.emit(self._finished(here))
+        if isinstance(step.operation, op.Wait):
+            self._stop(step.operation.message, None)
+        elif self.pending is not None and not self._tests(self.at):
             self._call_operator(self.pending)
-        self._watch_for_circles()
+        else:
+            self._watch_for_circles()
+        self._leave()
+
+    def answer(self, choice: Choice) -> None:
+        """Go on after the operator was called."""
+        assert self.stopped is not None
+        assert self.stage is not None
+        run, stage = self.state, self.stage
+        going_on = {"proceed": self.onward, "retry": self._first(stage), "skip": self._first(stage + 1)}
+        self.at, self.stopped, self.onward, self.idle = going_on[choice], None, None, 0
+        run.emit(OperatorAnswered(time=run.time, choice=choice, step=self.at))
+        self._leave("skipped" if choice == "skip" else "done")
+
+    def finish(self) -> bool:
+        """Close the account of the run; True when the program came to its end."""
+        run = self.state
+        if self.stage is not None:
+            stage = run.plan.program.stages[self.stage]
+            run.emit(StageFinished(time=run.time, stage=stage, status="stopped"))
+        completed = self.at is None and self.stopped is None
+        run.emit(RunFinished(time=run.time, completed=completed))
+        return completed
 
     def _perform(self, number: int, step: op.Step) -> int | None:
         """Do the operation; the number of the step that follows."""
@@ -111,9 +129,7 @@ class Executor:
             run.drive.load = operation.weight
         elif isinstance(operation, op.Tool):
             run.drive.tool = operation.speed
-        elif isinstance(operation, op.Wait):
-            self._stop(operation.message, None)
-        elif not isinstance(operation, op.Jump):
+        elif not isinstance(operation, op.Jump | op.Wait):
             self._raise(_ACTIONS[type(operation)](run, operation))
         return step.next
 
@@ -131,6 +147,10 @@ class Executor:
             self.pending = None
             return operation.raised
         return step.next
+
+    def _tests(self, number: int | None) -> bool:
+        """Whether a step tests for an error."""
+        return number is not None and isinstance(self.state.plan.program.steps[number].operation, op.Test)
 
     def _advance(self) -> Fault | None:
         run = self.state
@@ -152,16 +172,35 @@ class Executor:
         run.saved[operation.name] = difference
         run.emit(Saved(time=run.time, name=operation.name, difference=vector(difference)))
 
-    def _enter(self, stage: int) -> None:
-        """Tell of the stage when it changes."""
+    def _finished(self, number: int) -> StepFinished:
+        """The account of a step that is done."""
         run = self.state
-        if stage == self.stage:
+        motion = run.plan.motions.get(number)
+        planned = None if motion is None else vector(forward(run.arm, np.array(motion.knots[-1]))[:3, 3])
+        hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
+        return StepFinished(time=run.time, step=number, hand=hand, planned=planned, gap=gap)
+
+    def _first(self, stage: int) -> int | None:
+        """The first step of a stage, or of the next that has any; None behind the last."""
+        steps = self.state.plan.program.steps
+        return next((number for number, step in enumerate(steps) if step.stage >= stage), None)
+
+    def _enter(self, stage: int) -> None:
+        """Tell of a stage when it begins."""
+        if self.stage is None:
+            run = self.state
+            self.stage = stage
+            run.emit(StageStarted(time=run.time, stage=run.plan.program.stages[stage]))
+
+    def _leave(self, status: Literal["done", "skipped"] = "done") -> None:
+        """Tell of a stage when the program goes on outside it, or has ended."""
+        run = self.state
+        program = run.plan.program
+        if self.stage is None or self.stopped is not None:
             return
-        names = run.plan.program.stages
-        if self.stage is not None:
-            run.emit(StageFinished(time=run.time, stage=names[self.stage], status="done"))
-        self.stage = stage
-        run.emit(StageStarted(time=run.time, stage=names[stage]))
+        if self.at is None or program.steps[self.at].stage != self.stage:
+            run.emit(StageFinished(time=run.time, stage=program.stages[self.stage], status=status))
+            self.stage = None
 
     def _call_operator(self, fault: Fault) -> None:
         sentence = errors.ERRORS.get(fault.number, "an error")
@@ -174,13 +213,13 @@ class Executor:
         run.drive.brake(0.1)
         self.stopped = OperatorCalled(time=run.time, message=message, error=error)
         run.emit(self.stopped)
-        self.at = None
+        self.at, self.onward = None, self.at
         self.pending = None
 
     def _watch_for_circles(self) -> None:
         run = self.state
-        self.idle = 0 if run.time > self._time else self.idle + 1
-        self._time = run.time
+        self.idle = 0 if run.time > self.clock else self.idle + 1
+        self.clock = run.time
         if self.idle > IDLE_LIMIT and self.at is not None:
             line = run.plan.program.steps[self.at].line
             self._stop(f"the program runs in a circle at line {line} without anything moving", None)

@@ -15,7 +15,7 @@ from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.camera import CameraModel, View
 from handeye.vision.gasket import Inspection
 from handeye.work.drive import ArmDrive
-from handeye.work.events import Event
+from handeye.work.events import AnyEvent
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +74,7 @@ class Run:
     cell: Workcell
     camera: CameraModel
     """The calibrated camera."""
-    emit: Callable[[Event], None]
+    emit: Callable[[AnyEvent], None]
     stopwatch: Callable[[], float] = lambda: 0.0
     """Processor time for the timing table; the working phase itself never reads a clock of the host."""
     drive: ArmDrive = field(init=False)

@@ -10,7 +10,8 @@ def result(
     *, completed: bool, assembled: bool | None, message: str = "", checks: dict[str, Check] | None = None
 ) -> Result:
     return Result(
-        assembled=assembled, completed=completed, stopped_at=None if completed else "check the gasket",
+        assembled=assembled, completed=completed, paused=False, interventions=(),
+        stopped_at=None if completed else "check the gasket",
         error=None if completed else 32, message=message, stages=(), referee=checks or {}, seed=0, versions={},
         timing=Timing(
             planning_wall_s=0, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1, real_time_factor=1

@@ -56,8 +56,8 @@ def whole() -> Whole:
     assert program is not None
     plan, _ = make_plan(program, STANFORD)
     assert plan is not None
-    events: list[Event] = []
-    return Whole(finished=run_plan(plan, seed=1, listeners=(events.append,)), events=tuple(events))
+    finished = run_plan(plan, seed=1)
+    return Whole(finished=finished, events=tuple(finished.runner.events))
 
 
 def count(events: list[Event], kind: type[Event]) -> int:
@@ -135,7 +135,7 @@ def test_the_referee_agrees_with_the_program(whole: Whole) -> None:
 
 
 def test_the_referee_says_the_same_again(whole: Whole) -> None:
-    findings = judge(whole.finished.cell.truth)
+    findings = judge(whole.finished.runner.cell.truth)
     assert {name: f.value for name, f in findings.items()} == {
         name: check.value for name, check in whole.finished.result.referee.items()
     }

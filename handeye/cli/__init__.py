@@ -1,0 +1,39 @@
+"""The command line: parses arguments, wires concrete things together, prints."""
+
+import os
+import sys
+from typing import NoReturn
+
+from cyclopts import App, CycloptsError
+
+from handeye import __version__
+from handeye.cli import measuring, runs, scripts, traces
+from handeye.cli.common import notes
+from handeye.errors import HandeyeError
+
+app = App(
+    name="handeye",
+    version=__version__,
+    help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.",
+    suppress_keyboard_interrupt=False,
+)
+for commands in (runs, scripts, traces, measuring):
+    commands.register(app)
+
+
+def main() -> NoReturn:
+    """Run the command line; the exit code says how it went."""
+    try:
+        code = app(result_action="return_value", exit_on_error=False)
+    except CycloptsError:
+        sys.exit(2)
+    except HandeyeError as error:
+        notes.print(f"handeye: {error}", style="red", markup=False, soft_wrap=True)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        notes.print("\nhandeye: interrupted", markup=False)
+        sys.exit(130)
+    except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(141)
+    sys.exit(code if isinstance(code, int) else 0)

@@ -1,0 +1,77 @@
+"""What the commands share: consoles, options, scripts and their diagnostics."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+from rich.console import Console
+
+from handeye.al import compile_text
+from handeye.diagnostics import Diagnostic, as_json
+from handeye.diagnostics import render as render_diagnostic
+from handeye.errors import InvalidInput
+from handeye.plan.plan import Plan
+from handeye.plan.taught import Taught, load_taught
+from handeye.source import Source, read_source
+
+CameraKind = Literal["auto", "gl", "ray"]
+Seed = Annotated[int, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
+Camera = Annotated[
+    CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")
+]
+Json = Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")]
+Out = Annotated[
+    Path | None,
+    Parameter(help="Folder for plan, events, trace, checkpoints, pictures and result."),
+]
+
+screen = Console(highlight=False, emoji=False)
+notes = Console(stderr=True, highlight=False, emoji=False)
+
+
+def world(seed: int) -> int:
+    """A seed that can be used.
+
+    Raises:
+        InvalidInput: it is negative.
+    """
+    if seed < 0:
+        raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
+    return seed
+
+
+def compiled(file: Path) -> Plan:
+    """The plan of a script, or its diagnostics and the end.
+
+    Raises:
+        InvalidInput: the script has errors; they have been shown.
+    """
+    from handeye.arm.stanford import STANFORD
+    from handeye.plan.planner import make_plan
+
+    source = read_source(file)
+    program, diagnostics = compile_text(source, taught(file))
+    if program is not None:
+        made, problems = make_plan(program, STANFORD)
+        diagnostics = [*diagnostics, *problems]
+        if made is not None:
+            show(diagnostics, source, json=False)
+            return made
+    show(diagnostics, source, json=False)
+    errors = sum(d.severity == "error" for d in diagnostics)
+    raise InvalidInput(f"{file} has {errors} error{'s' if errors != 1 else ''}; there is no plan")
+
+
+def taught(file: Path) -> Taught:
+    """Positions and parts taught for a script, from the file beside it; a script may do without."""
+    beside = file.with_suffix(".toml")
+    return load_taught(beside) if beside.exists() else Taught()
+
+
+def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
+    """Print diagnostics: as JSON on standard output, or for people on standard error."""
+    if json:
+        screen.print_json(data=[as_json(d, source) for d in diagnostics])
+        return
+    for diagnostic in diagnostics:
+        notes.print(render_diagnostic(diagnostic, source), markup=False, soft_wrap=True, end="\n\n")

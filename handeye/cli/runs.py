@@ -1,0 +1,222 @@
+"""Commands that move the arm: assemble, run, resume."""
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Camera, Json, Out, Seed, compiled, notes, world
+from handeye.errors import InvalidInput
+from handeye.plan.plan import Plan
+from handeye.plan.store import read_plan
+from handeye.resources import plans
+
+if TYPE_CHECKING:
+    from handeye.stepping.advance import Stop
+    from handeye.stepping.snapshot import Checkpoint
+
+To = Annotated[str | None, Parameter(help="Stop when this stage has ended.")]
+Until = Annotated[str | None, Parameter(help="Stop before this step, by its number in `handeye stages`.")]
+Break = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--break", negative="", consume_multiple=False,
+        help="Stop at a label, a stage, a line or an instruction word, or behind `error:N`; may be repeated.",
+    ),
+]  # fmt: skip
+Step = Annotated[
+    bool, Parameter(help="Ask before every step; without a terminal, commands come from standard input.")
+]
+OnStop = Annotated[
+    str | None,
+    Parameter(
+        help="When the operator is called: `abort`, `retry:N` (each stage again, N times at most) or `ask`. "
+        "By default asks on a terminal and aborts elsewhere."
+    ),
+]
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    for command in (assemble, run, resume):
+        app.command(command)
+
+
+def assemble(
+    *, seed: Seed = 0, json: Json = False, out: Out = None, camera: Camera = "auto", on_stop: OnStop = None
+) -> int:
+    """Assemble the water pump: plan, work, judge.
+
+    Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program said done but the
+    referee disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.cli.working import Job, work
+    from handeye.stepping.snapshot import Checkpoint, Setup
+
+    started = time.process_time()
+    plan = compiled(plans() / "water_pump.al")
+    planning = time.process_time() - started
+    setup = Setup(plan=plan, seed=world(seed), camera=camera)
+    return work(
+        Job(
+            start=Checkpoint(setup=setup),
+            out=out,
+            on_stop=on_stop,
+            json=json,
+            referee=True,
+            planning=planning,
+        )
+    )
+
+
+def run(
+    file: Path,
+    *,
+    seed: Seed = 0,
+    judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = False,
+    json: Json = False,
+    out: Out = None,
+    camera: Camera = "auto",
+    first: Annotated[str | None, Parameter(name="--from", help="Begin with this stage.")] = None,
+    to: To = None,
+    stage: Annotated[str | None, Parameter(help="Carry out this stage alone.")] = None,
+    until: Until = None,
+    breaks: Break = None,
+    step: Step = False,
+    checkpoints: Annotated[
+        Path | None,
+        Parameter(help="Folder of checkpoints, or of a run, that --from and --stage begin at and add to."),
+    ] = None,
+    on_stop: OnStop = None,
+) -> int:
+    """Carry out a plan in the work cell, or stages of it, or step by step.
+
+    Stages are given by name, by a beginning of it, or by number. A stage that is not the first begins at its
+    checkpoint; if there is none, the stages before it are carried out first.
+
+    Exit code 0: the program came to its end, or stopped where it was told to; 1: it stopped and called the
+    operator; 3: the referee, if asked, disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.cli.working import Job, work
+    from handeye.stepping.snapshot import Checkpoint, Setup
+
+    plan = read_plan(file)
+    if stage is not None and (first is not None or to is not None):
+        raise InvalidInput("--stage says it all; --from and --to do not go with it")
+    start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera))
+    kept = _checkpoint_folder(checkpoints, out)
+    if stage or first:
+        start = _at_stage(start, stage or first or "", kept, out)
+    stops = _stops(plan, to=stage or to, until=until, breaks=breaks or [])
+    return work(
+        Job(
+            start=start,
+            out=out,
+            checkpoints=None if checkpoints is None else kept,
+            stops=stops,
+            breaks=breaks or (),
+            step=step,
+            on_stop=on_stop,
+            json=json,
+            referee=judge,
+        )
+    )
+
+
+def resume(
+    path: Path,
+    *,
+    judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = True,
+    json: Json = False,
+    out: Annotated[Path | None, Parameter(help="Folder to keep the run in, for a checkpoint file.")] = None,
+    to: To = None,
+    until: Until = None,
+    breaks: Break = None,
+    step: Step = False,
+    on_stop: OnStop = None,
+) -> int:
+    """Go on with a run that was broken off.
+
+    Exit codes are those of `run`.
+
+    Parameters
+    ----------
+    path
+        A checkpoint, or the folder of a run, which is gone on with from its newest sound checkpoint.
+    """
+    from handeye.cli.working import Job, work
+    from handeye.stepping.checkpoint_file import read_checkpoint
+    from handeye.stepping.folder import open_again
+
+    folder = None
+    if path.is_dir():
+        if out is not None:
+            raise InvalidInput(f"{path} is the folder of a run and is gone on with; --out goes with a file")
+        folder, start = open_again(path)
+        for fault in folder.kept.damaged():
+            notes.print(f"left out: {fault}", markup=False, soft_wrap=True)
+    else:
+        start = read_checkpoint(path)
+    stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
+    notes.print(f"going on from step {max(start.position, 0)}: {stage}", markup=False, soft_wrap=True)
+    stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
+    return work(
+        Job(
+            start=start,
+            folder=folder,
+            out=out,
+            stops=stops,
+            breaks=breaks or (),
+            step=step,
+            on_stop=on_stop,
+            json=json,
+            referee=judge,
+        )
+    )
+
+
+def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) -> list["Stop"]:
+    """Where a run ends; breaks are only looked at, so that a wrong one is told before anything moves."""
+    from handeye.stepping.breakpoints import ToStage, UntilStep, breakpoint, stage_number, step_number
+
+    for text in breaks:
+        breakpoint(text, plan)
+    stops: list[Stop] = []
+    if to is not None:
+        stops.append(ToStage(stage_number(to, plan)))
+    if until is not None:
+        stops.append(UntilStep(step_number(until, plan)))
+    return stops
+
+
+def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
+    """Where checkpoints are looked for: a folder of them, or one inside the folder of a run."""
+    from handeye.stepping.folder import CHECKPOINTS
+
+    folder = checkpoints or out
+    if folder is not None and (checkpoints is None or (folder / CHECKPOINTS).is_dir()):
+        return folder / CHECKPOINTS
+    return folder
+
+
+def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
+    """The checkpoint from which a stage is reached soonest."""
+    from handeye.stepping.breakpoints import stage_number
+    from handeye.stepping.folder import EVENTS
+    from handeye.stepping.kept import Kept
+
+    if out is not None and (out / EVENTS).exists():
+        raise InvalidInput(f"{out} holds a run; name it by --checkpoints, and another folder by --out")
+    plan = start.setup.plan
+    number = stage_number(name, plan)
+    wanted = plan.program.stages[number]
+    found = None if kept is None else Kept(kept).for_stage(start.setup, number)
+    if number > 0 and (found is None or found.stage != wanted):
+        reached = "the beginning" if found is None else f"“{found.stage}”"
+        notes.print(
+            f"no checkpoint of “{wanted}” with this plan and seed: carrying out what comes before it, from {reached}",
+            markup=False,
+            soft_wrap=True,
+        )
+    return found or start

@@ -1,0 +1,70 @@
+"""Commands on scripts and plans; nothing moves."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import msgspec
+from cyclopts import App, Parameter
+
+from handeye.al import compile_text
+from handeye.cli.common import compiled, screen, show, taught
+from handeye.diagnostics import has_errors
+from handeye.plan.store import read_plan, write_plan
+from handeye.source import read_source
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    for command in (check, plan, stages):
+        app.command(command)
+
+
+def check(file: Path, *, json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False) -> int:
+    """Check a script and its taught positions, the arm's reach included; nothing moves."""
+    from handeye.arm.stanford import STANFORD
+    from handeye.plan.planner import make_plan
+
+    source = read_source(file)
+    program, diagnostics = compile_text(source, taught(file))
+    if program is not None:
+        diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
+    show(diagnostics, source, json=json)
+    if has_errors(diagnostics):
+        return 2
+    if not json:
+        screen.print(f"{file}: no errors", markup=False)
+    return 0
+
+
+def plan(file: Path, *, output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None) -> int:
+    """Compile a script into a plan.
+
+    Parameters
+    ----------
+    output
+        Where the plan goes; by default beside the script, with the ending .plan.json.
+    """
+    target = output or file.with_suffix(".plan.json")
+    made = compiled(file)
+    write_plan(target, made)
+    counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
+    said = ", ".join(f"{len(items)} {name}{'' if len(items) == 1 else 's'}" for name, items in counts.items())
+    screen.print(f"{target}: {said}", markup=False)
+    return 0
+
+
+def stages(
+    file: Path, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
+) -> int:
+    """List the stages of a plan and their steps, with lines of the source."""
+    from handeye.stepping.listing import listing, listing_text
+
+    made = read_plan(file)
+    if json:
+        sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(listing(made)), indent=1) + b"\n")
+        sys.stdout.flush()
+    else:
+        for line in listing_text(made):
+            screen.print(line, markup=False, soft_wrap=True)
+    return 0

@@ -1,0 +1,101 @@
+"""Commands on the traces of runs."""
+
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import msgspec
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Json, notes, screen
+from handeye.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from handeye.trace.reading import Trace
+    from handeye.work.events import AnyEvent
+
+File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    trace = App(name="trace", help="Read the traces that runs leave.")
+    for command in (show, stats, verify):
+        trace.command(command)
+    app.command(trace)
+
+
+def show(file: File, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
+    """Tell what happened in a run, and why."""
+    from handeye.trace.account import account
+    from handeye.work.events import to_line
+
+    _, events = _read(file)
+    if json:
+        sys.stdout.buffer.write(b"".join(map(to_line, events)))
+        sys.stdout.flush()
+        return 0
+    for line in account(events):
+        screen.print(line, markup=False, soft_wrap=True)
+    return 0
+
+
+def stats(file: File, *, json: Json = False) -> int:
+    """Count and time what happened in a run, stage by stage."""
+    from handeye.trace.stats import statistics, statistics_table
+
+    trace, events = _read(file)
+    figures = statistics(events, {} if trace is None else trace.counts)
+    if json:
+        sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(figures), indent=1) + b"\n")
+        sys.stdout.flush()
+    else:
+        screen.print(statistics_table(figures))
+    return 0
+
+
+def verify(file: File) -> int:
+    """Carry out a recorded run again and compare.
+
+    What operators and experimenters did is done again; a run that was interrupted is compared up to its last whole
+    step.
+
+    Exit code 0: it comes out the same; 1: it does not; 2: bad input.
+    """
+    from handeye.stepping.verify import difference
+
+    trace, events = _read(file)
+    if trace is None:
+        raise InvalidInput(
+            f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too"
+        )
+    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("carrying it out again"):
+        found = difference(trace, Path(folder) / "run")
+    if found is not None:
+        screen.print(f"{file} does not come out the same: {found}", markup=False, soft_wrap=True)
+        return 1
+    screen.print(f"{file}: the same {len(events)} events, to the byte", markup=False, soft_wrap=True)
+    return 0
+
+
+def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
+    """The trace in a file or folder, and the events that count."""
+    from handeye.stepping.folder import EVENTS, TRACE
+    from handeye.trace.eventlist import effective, read_events
+    from handeye.trace.reading import read_trace
+    from handeye.trace.recorder import part
+
+    if file.is_dir():
+        growing = part(file / TRACE)
+        if (file / TRACE).exists():
+            file = file / TRACE
+        elif growing.exists():
+            notes.print(f"the run in {file} was broken off; this is what its trace holds", markup=False)
+            file = growing
+        else:
+            file = file / EVENTS
+    if file.suffix == ".jsonl":
+        return None, effective(read_events(file))
+    trace = read_trace(file, lenient=file.suffix == ".part")
+    return trace, list(trace.events)

@@ -1,0 +1,236 @@
+"""What the commands that move the arm have in common: build, carry out, keep, judge, print."""
+
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from handeye.cli.common import notes, screen
+from handeye.cli.panic import PanicButton
+from handeye.files import write_whole
+from handeye.judge.referee import judge
+from handeye.report.page import page
+from handeye.report.pictures import keep_pictures
+from handeye.report.progress import Progress
+from handeye.report.result import Result, to_json
+from handeye.report.summary import summary
+from handeye.stepping.advance import Pause, Stop
+from handeye.stepping.breakpoints import breakpoint
+from handeye.stepping.checkpoint_file import write_checkpoint
+from handeye.stepping.folder import RESULT, RunFolder, open_new
+from handeye.stepping.kept import Kept, file_name
+from handeye.stepping.observer import Observer
+from handeye.stepping.operator import Abort, Ask, Operator, attend, parse_policy
+from handeye.stepping.runner import Runner
+from handeye.stepping.snapshot import Checkpoint
+from handeye.stepping.stepper import Stepper, interact
+from handeye.versions import versions
+from handeye.work.drive import Halted
+from handeye.work.events import RunStarted
+
+PANIC = Pause(kind="panic", sentence="stopped by hand; the brakes are set")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Job:
+    """A run to be begun or gone on with, and what is wanted of it."""
+
+    start: Checkpoint
+    folder: RunFolder | None = None
+    """The folder of a run that is gone on with."""
+    out: Path | None = None
+    """Folder for a run that is begun."""
+    checkpoints: Path | None = None
+    """Where states at the beginning of stages are kept besides."""
+    stops: Sequence[Stop] = ()
+    """Where it ends, for now."""
+    breaks: Sequence[str] = ()
+    """Where it stops besides, as after --break."""
+    step: bool = False
+    """Ask before every step."""
+    on_stop: str | None = None
+    json: bool = False
+    referee: bool = False
+    planning: float = 0.0
+    """Seconds of the processor for the planning phase."""
+
+
+class _KeepStages(Observer):
+    """Keeps the states at the beginning of stages in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self._kept = Kept(folder)
+
+    def checkpoint(self, checkpoint: Checkpoint) -> None:
+        if checkpoint.between_stages:
+            self._kept.save(checkpoint)
+
+
+class _Work:
+    """One job under way."""
+
+    def __init__(self, job: Job, panic: PanicButton) -> None:
+        self.job = job
+        self.panic = panic
+        self.begun = time.perf_counter()
+        self.folder = job.folder or (open_new(job.out, job.start) if job.out is not None else None)
+        self.progress = Progress(job.start.setup.plan, notes)
+
+    def do(self) -> int:
+        """All of it; the exit code."""
+        runner = self._built()
+        if runner is None:
+            return self._interrupted(None)
+        try:
+            pause = self._stepped(runner) if self.job.step else self._attended(runner)
+        except KeyboardInterrupt:
+            pause = PANIC
+            self._keep(runner.checkpoint())
+        if pause.kind == "panic":
+            return self._interrupted(runner)
+        return self._finished(runner, pause)
+
+    def _built(self) -> Runner | None:
+        """The cell, ready for its first step; None if the panic button was hit meanwhile."""
+        try:
+            with self.progress:
+                runner = Runner(self.job.start, halt=self.panic, observers=self._observers)
+        except Halted:
+            return None
+        except BaseException:
+            if self.folder is not None and self.job.folder is None:
+                self.folder.discard()
+            raise
+        _warn(runner)
+        return runner
+
+    def _observers(self, runner: Runner) -> list[Observer]:
+        looking: list[Observer] = [] if self.job.step else [self.progress]
+        if self.folder is not None:
+            looking.append(self.folder.watch(runner, self.job.start, again=self.job.folder is not None))
+        if self.job.checkpoints is not None:
+            looking.append(_KeepStages(self.job.checkpoints))
+        return looking
+
+    # -- carrying out ---------------------------------------------------------------------------------
+
+    def _attended(self, runner: Runner) -> Pause:
+        with self.progress:
+            breaks = [breakpoint(text, runner.setup.plan) for text in self.job.breaks]
+            return attend(runner, self._operator(), [*breaks, *self.job.stops], self._kept)
+
+    def _operator(self) -> Operator:
+        policy = self.job.on_stop
+        if policy is None:
+            policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
+        if policy != "ask":
+            return parse_policy(policy) or Abort()
+        return Ask(self._lines("> "), _note)
+
+    def _stepped(self, runner: Runner) -> Pause:
+        pictures = self.folder.path / "pictures" if self.folder is not None else Path()
+        stepper = Stepper(
+            runner,
+            breaks=self.job.breaks,
+            stops=self.job.stops,
+            kept=self._kept,
+            keep=self._keep,
+            pictures=pictures,
+        )
+        terminal = sys.stdin.isatty()
+        return interact(stepper, self._lines("handeye> "), _say, json=self.job.json, prompt=terminal)
+
+    def _lines(self, prompt: str) -> Iterator[str]:
+        """What a person types, or what is piped in, line by line."""
+        if sys.stdin.isatty():
+            with suppress(ImportError):  # history and editing where the platform has them
+                import readline  # noqa: F401
+        while True:
+            with self.panic.aside(), self.progress.aside():
+                try:
+                    line = input(prompt) if sys.stdin.isatty() else sys.stdin.readline()
+                except EOFError:
+                    return
+            if not line and not sys.stdin.isatty():
+                return
+            yield line.rstrip("\n")
+
+    def _kept(self, position: int) -> Checkpoint | None:
+        return None if self.folder is None else self.folder.kept.at_or_before(position)
+
+    def _keep(self, checkpoint: Checkpoint) -> Path:
+        if self.folder is not None:
+            return self.folder.kept.save(checkpoint)
+        path = Path(f"{checkpoint.setup.plan.program.name}-{file_name(checkpoint)}")
+        write_checkpoint(path, checkpoint)
+        return path
+
+    # -- ending ---------------------------------------------------------------------------------------
+
+    def _interrupted(self, runner: Runner | None) -> int:
+        where = "while the cell was set up" if runner is None else f"at {runner.run.time:.1f} s"
+        _note(f"interrupted {where}; the brakes are set")
+        if self.folder is not None:
+            _note(f"go on with: handeye resume {self.folder.path}")
+        return 130
+
+    def _finished(self, runner: Runner, pause: Pause) -> int:
+        job = self.job
+        if pause.kind != "break":
+            runner.finish()
+        findings = None
+        if job.referee and pause.kind != "break":
+            findings = judge(runner.cell.truth) if pause.kind == "end" else {}
+        wall = time.perf_counter() - self.begun
+        result = summary(runner, pause, findings=findings, wall=wall, planning=job.planning)
+        if self.folder is not None:
+            self.folder.close()
+            keep_pictures(self.folder.path / "pictures", runner)
+            write_whole(self.folder.path / RESULT, to_json(result))
+        self._print(result)
+        return result.exit_code
+
+    def _print(self, result: Result) -> None:
+        if self.job.json:
+            sys.stdout.buffer.write(to_json(result, line=self.job.step))
+            sys.stdout.flush()
+        else:
+            screen.print(page(result))
+
+
+def work(job: Job) -> int:
+    """Do a job; the exit code.
+
+    Raises:
+        InvalidInput: something it needs cannot be used, or a file cannot be written.
+    """
+    with PanicButton() as panic, ExitStack() as closing:
+        under_way = _Work(job, panic)
+        if under_way.folder is not None:
+            closing.callback(under_way.folder.close)
+        return under_way.do()
+
+
+def _warn(runner: Runner) -> None:
+    """Tell if a run that is gone on with need not come out as it would have."""
+    begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
+    if begun is None:
+        return
+    if begun.camera != runner.cell.camera.renderer:
+        _note(
+            f"the run was begun with pictures by {begun.camera}; now they are by {runner.cell.camera.renderer}"
+        )
+    changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
+    if changed:
+        _note(f"the run was begun with other versions of {', '.join(changed)}; it need not come out the same")
+
+
+def _say(text: str) -> None:
+    screen.print(text, markup=False, soft_wrap=True)
+
+
+def _note(text: str) -> None:
+    notes.print(text, markup=False, soft_wrap=True)

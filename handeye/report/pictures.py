@@ -1,0 +1,43 @@
+"""The pictures that a run leaves: those the program took, with what it found in them, and the end."""
+
+from pathlib import Path
+from typing import Final
+
+import cv2
+
+from handeye.cell.photograph import photograph_png
+from handeye.files import write_whole
+from handeye.stepping.runner import Runner
+from handeye.vision.drawing import annotate
+from handeye.work.run import Found, Run
+
+PHOTOGRAPHS: Final = ("studio", "pump")
+"""Cameras of the scene whose view of the end is kept."""
+
+
+def annotated_png(run: Run, name: str) -> bytes:
+    """A picture the program took, with what it found in it, as a PNG file."""
+    found = run.found.get(name, Found())
+    image = annotate(
+        run.shots[name].picture,
+        general=found.general,
+        specific=found.specific,
+        inspection=found.inspection,
+    )
+    done, data = cv2.imencode(".png", image)
+    assert done
+    return data.tobytes()
+
+
+def keep_pictures(folder: Path, runner: Runner) -> None:
+    """Write the program's pictures, and photographs of the cell as it is where there is OpenGL.
+
+    Raises:
+        InvalidInput: the folder cannot be written to.
+    """
+    for name in runner.run.shots:
+        write_whole(folder / f"{name.lower()}.png", annotated_png(runner.run, name))
+    if runner.cell.camera.renderer.startswith("OpenGL"):
+        for camera in PHOTOGRAPHS:
+            png = photograph_png(runner.cell.truth, camera, 1280, 960)
+            write_whole(folder / f"end_{camera}.png", png)

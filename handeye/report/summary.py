@@ -1,0 +1,109 @@
+"""The result of a run, from what happened in it."""
+
+from collections.abc import Iterable
+
+from handeye.judge.finding import Finding
+from handeye.judge.referee import assembled
+from handeye.report.result import CameraReport, Check, Result, Stage, Timing
+from handeye.stepping.advance import Pause
+from handeye.stepping.runner import Runner
+from handeye.units import INCH
+from handeye.versions import versions
+from handeye.work.events import (
+    AnyEvent,
+    CameraBusy,
+    ExperimentMade,
+    OperatorAnswered,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+)
+
+
+def summary(
+    runner: Runner, pause: Pause, *, findings: dict[str, Finding] | None, wall: float, planning: float
+) -> Result:
+    """What a run has come to.
+
+    Args:
+        findings: the referee's; None if nobody was asked.
+        wall: seconds of this computer's clock since the run was begun or taken up.
+        planning: seconds of its processor for the planning phase.
+    """
+    completed = pause.kind == "end"
+    executor, names = runner.executor, runner.setup.plan.program.stages
+    stopped = executor.stopped
+    checks = {
+        name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
+        for name, f in (findings or {}).items()
+    }
+    return Result(
+        assembled=None if findings is None else completed and assembled(findings),
+        completed=completed,
+        paused=pause.kind == "break",
+        stopped_at=names[executor.stage] if not completed and executor.stage is not None else None,
+        error=stopped.error if stopped else None,
+        message=pause.sentence,
+        interventions=tuple(interventions(runner.events)),
+        stages=stage_times(names, runner.events),
+        timing=_timing(runner, wall, planning),
+        referee=checks,
+        seed=runner.setup.seed,
+        camera=_camera(runner),
+        versions=versions(),
+    )
+
+
+def interventions(events: Iterable[AnyEvent]) -> Iterable[str]:
+    """What somebody did to the run, a sentence each."""
+    for event in events:
+        if isinstance(event, OperatorAnswered):
+            yield f"at {event.time:.1f} s the operator chose: {event.choice}"
+        elif isinstance(event, ExperimentMade):
+            yield f"at {event.time:.1f} s {event.what} {event.name} was set by hand"
+
+
+def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
+    """Status and arm time of each stage: simulated seconds without those of the camera's mechanism."""
+    seconds = dict.fromkeys(names, 0.0)
+    status = dict.fromkeys(names, "not reached")
+    here, begun, busy, now = "", 0.0, 0.0, 0.0
+    for event in events:
+        now = event.time
+        if isinstance(event, StageStarted):
+            here, begun, busy = event.stage, event.time, 0.0
+            status[here] = "under way"
+        elif isinstance(event, CameraBusy):
+            busy += event.seconds
+        elif isinstance(event, StageFinished):
+            seconds[here] += event.time - begun - busy
+            status[here] = event.status
+            here = ""
+    if here:
+        seconds[here] += now - begun - busy
+    return tuple(Stage(name=name, status=status[name], arm_s=round(seconds[name], 3)) for name in names)
+
+
+def _timing(runner: Runner, wall: float, planning: float) -> Timing:
+    run = runner.run
+    begun = next((e.time for e in runner.events if isinstance(e, RunStarted)), run.time)
+    simulated, lens, vision = run.time - begun, run.clockwork.lens, run.clockwork.vision
+    return Timing(
+        planning_wall_s=planning,
+        manipulation_s=round(simulated - lens, 3),
+        lens_s=round(lens, 3),
+        vision_wall_s=vision,
+        total_s=round(simulated + vision, 3),
+        wall_s=wall,
+        real_time_factor=(run.time - runner.started) / wall if wall > 0 else 0.0,
+    )
+
+
+def _camera(runner: Runner) -> CameraReport:
+    renderer, calibration = runner.cell.camera.renderer, runner.calibration
+    if calibration is None:
+        return CameraReport(renderer=renderer, sightings_rms_px={}, residual_in=None)
+    residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}
+    return CameraReport(
+        renderer=renderer, sightings_rms_px=residuals, residual_in=calibration.residual_m / INCH
+    )

@@ -1,0 +1,202 @@
+"""Checkpoints on disk: one line that says what it is, one of JSON for people, then the compressed state.
+
+The first line carries a digest of all that follows it, so that a file that is cut short, or in which any bit is
+wrong, is refused before anything in it is used.
+"""
+
+import hashlib
+import zlib
+from pathlib import Path
+from typing import Any, Final
+
+import msgspec
+import numpy as np
+
+from handeye.errors import InvalidInput
+from handeye.files import write_whole
+from handeye.plan.program import Record
+from handeye.plan.store import decode as decode_plan
+from handeye.plan.store import encode as encode_plan
+from handeye.plan.store import plan_digest
+from handeye.stepping.snapshot import Checkpoint, Setup, Snapshot, arm_of
+from handeye.versions import versions
+from handeye.vision.calibration import Calibration
+from handeye.work.events import AnyEvent
+
+MAGIC: Final = "handeye-checkpoint"
+VERSION: Final = 1
+ENDING: Final = ".checkpoint"
+LARGEST: Final = 1 << 28
+"""Bytes of a state, decompressed: a hundred times what a run of the water pump needs."""
+_KINDS: Final = ("<f8", "|u1")
+"""Arrays of a state: figures and pictures."""
+
+
+class Head(Record, frozen=True, kw_only=True):
+    """What a checkpoint is of, for people and for finding the right one."""
+
+    program: str
+    plan: str
+    """Digest of the plan."""
+    arm: str
+    arm_digest: str
+    seed: int
+    camera: str
+    versions: dict[str, str]
+    position: int
+    """Steps done; -1: not begun."""
+    stage: str | None
+    between_stages: bool
+    """The next step begins the stage."""
+    time: float | None
+    """s on the cell's clock."""
+    touched: bool
+    """Somebody had interfered with the run: it is not what the plan alone makes of it."""
+
+
+class _Body(Record, frozen=True, kw_only=True):
+    plan: str
+    calibration: Calibration | None
+    snapshot: Snapshot | None
+    events: tuple[AnyEvent, ...]
+
+
+def head_of(checkpoint: Checkpoint) -> Head:
+    """What there is to say about a checkpoint in a line."""
+    setup, snapshot = checkpoint.setup, checkpoint.snapshot
+    return Head(
+        program=setup.plan.program.name,
+        plan=plan_digest(setup.plan),
+        arm=setup.plan.arm,
+        arm_digest=setup.plan.arm_digest,
+        seed=setup.seed,
+        camera=setup.camera,
+        versions=versions(),
+        position=checkpoint.position,
+        stage=checkpoint.stage,
+        between_stages=checkpoint.between_stages,
+        time=None if snapshot is None else round(snapshot.cell.sensed.time, 6),
+        touched=checkpoint.touched,
+    )
+
+
+def encode(checkpoint: Checkpoint) -> bytes:
+    """A checkpoint as bytes."""
+    body = _Body(
+        plan=encode_plan(checkpoint.setup.plan),
+        calibration=checkpoint.calibration,
+        snapshot=checkpoint.snapshot,
+        events=checkpoint.events,
+    )
+    head = msgspec.json.encode(head_of(checkpoint))
+    packed = zlib.compress(msgspec.msgpack.encode(body, enc_hook=_plain), 1)
+    rest = head + b"\n" + packed
+    return f"{MAGIC} {VERSION} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
+
+
+def decode(data: bytes, name: str) -> Checkpoint:
+    """The checkpoint in some bytes.
+
+    Raises:
+        InvalidInput: not a checkpoint, not whole, of a newer version, or for another arm.
+    """
+    head, packed = _opened(data, name)
+    try:
+        body = msgspec.msgpack.decode(_inflated(packed), type=_Body, dec_hook=_array)
+    except (zlib.error, msgspec.DecodeError, ValueError, TypeError) as error:
+        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+    plan = decode_plan(body.plan, f"the plan in {name}")
+    try:
+        arm_of(plan)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name} cannot be used: {error}") from None
+    if body.snapshot is not None and body.snapshot.happened != len(body.events):
+        raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
+    return Checkpoint(
+        setup=Setup(plan=plan, seed=head.seed, camera=head.camera),
+        calibration=body.calibration,
+        snapshot=body.snapshot,
+        events=body.events,
+    )
+
+
+def decode_head(data: bytes, name: str) -> Head:
+    """What a checkpoint is of; all of it is checked for damage.
+
+    Raises:
+        InvalidInput: as `decode`.
+    """
+    return _opened(data, name)[0]
+
+
+def read_checkpoint(path: Path) -> Checkpoint:
+    """The checkpoint in a file.
+
+    Raises:
+        InvalidInput: as `decode`, or the file cannot be read.
+    """
+    return decode(_bytes(path), str(path))
+
+
+def read_head(path: Path) -> Head:
+    """What the checkpoint in a file is of.
+
+    Raises:
+        InvalidInput: as `decode`, or the file cannot be read.
+    """
+    return decode_head(_bytes(path), str(path))
+
+
+def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
+    """Write a checkpoint, whole or not at all."""
+    write_whole(path, encode(checkpoint))
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
+
+
+def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
+    """The head and the packed body, if they are undamaged."""
+    first, _, rest = data.partition(b"\n")
+    words = first.decode("ascii", errors="replace").split(" ")
+    if len(words) != 3 or words[0] != MAGIC or not words[1].isdecimal():
+        raise InvalidInput(f"{name} is not a checkpoint of handeye")
+    if int(words[1]) > VERSION:
+        raise InvalidInput(
+            f"{name} has checkpoint format version {words[1]}; this handeye reads up to version {VERSION}"
+        )
+    if words[2] != hashlib.sha256(rest).hexdigest():
+        raise InvalidInput(f"{name} is damaged or cut short: its checksum is wrong")
+    line, _, packed = rest.partition(b"\n")
+    try:
+        return msgspec.json.decode(line, type=Head), packed
+    except msgspec.DecodeError as error:
+        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+
+
+def _inflated(packed: bytes) -> bytes:
+    """Raises ValueError for what would fill the memory."""
+    inflater = zlib.decompressobj()
+    data = inflater.decompress(packed, LARGEST)
+    if inflater.unconsumed_tail or not inflater.eof:
+        raise ValueError("its state is too large, or not whole")
+    return data
+
+
+def _plain(value: Any) -> Any:
+    """An array as something MessagePack knows."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.str, value.shape, value.tobytes()
+    raise TypeError(f"no {type(value).__name__} belongs in a checkpoint")
+
+
+def _array(kind: type, value: Any) -> Any:
+    """The array that `_plain` made plain."""
+    dtype, shape, data = value
+    if dtype not in _KINDS:
+        raise ValueError(f"no array of {dtype!r} belongs in a checkpoint")
+    return np.frombuffer(data, dtype).reshape(shape)

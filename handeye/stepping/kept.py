@@ -1,0 +1,112 @@
+"""Checkpoints of one run in a folder: found, written, and removed when the run goes back behind them."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from handeye.errors import InvalidInput
+from handeye.plan.store import plan_digest
+from handeye.stepping.checkpoint_file import ENDING, Head, read_checkpoint, read_head, write_checkpoint
+from handeye.stepping.snapshot import Checkpoint, Setup
+
+
+class Kept:
+    """The checkpoints in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def save(self, checkpoint: Checkpoint) -> Path:
+        """Write a checkpoint under a name that sorts by how far the run had come.
+
+        Raises:
+            InvalidInput: the folder cannot be written to.
+        """
+        path = self.folder / file_name(checkpoint)
+        write_checkpoint(path, checkpoint)
+        return path
+
+    def heads(self) -> Iterator[tuple[Path, Head]]:
+        """Sound checkpoints, the newest first."""
+        for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
+            try:
+                yield path, read_head(path)
+            except InvalidInput:
+                continue
+
+    def damaged(self) -> list[str]:
+        """What is wrong with those that are not sound, a sentence each."""
+        faults = []
+        for path in sorted(self.folder.glob(f"*{ENDING}")):
+            try:
+                read_head(path)
+            except InvalidInput as fault:
+                faults.append(str(fault))
+        return faults
+
+    def check(self, setup: Setup) -> None:
+        """Make sure that checkpoints of a run with this setup belong here.
+
+        Raises:
+            InvalidInput: there are those of another run.
+        """
+        for path, head in self.heads():
+            if head.plan != plan_digest(setup.plan):
+                raise InvalidInput(f"{path} is of another plan ({head.program}, {head.plan})")
+            if (head.seed, head.camera) != (setup.seed, setup.camera):
+                raise InvalidInput(
+                    f"{path} is of another run (seed {head.seed}, camera {head.camera}); choose another folder"
+                )
+
+    def newest(self) -> Checkpoint | None:
+        """The sound checkpoint that is farthest on."""
+        for path, _ in self.heads():
+            try:
+                return read_checkpoint(path)
+            except InvalidInput:
+                continue
+        return None
+
+    def at_or_before(self, position: int) -> Checkpoint | None:
+        """The newest that is not farther on than `position` steps, of a run that had begun."""
+        for path, head in self.heads():
+            if 0 <= head.position <= position:
+                return read_checkpoint(path)
+        return None
+
+    def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
+        """The checkpoint from which the fewest steps lead to a stage (by number) of a run with this setup.
+
+        Checkpoints from after somebody interfered do not count.
+
+        Raises:
+            InvalidInput: the checkpoints here are of another run.
+        """
+        self.check(setup)
+        stages = setup.plan.program.stages
+        for path, head in self.heads():
+            if head.touched or head.stage is None or not head.between_stages:
+                continue
+            if stages.index(head.stage) <= number:
+                return read_checkpoint(path)
+        return None
+
+    def drop_after(self, position: int) -> None:
+        """Remove those that are farther on than `position` steps."""
+        for path in self.folder.glob(f"*{ENDING}"):
+            if _position(path) > position:
+                path.unlink(missing_ok=True)
+
+
+def _position(path: Path) -> int:
+    """Steps done, by the name of a checkpoint's file; -1 for the one from before the run."""
+    number = re.match(r"(\d+)-", path.name)
+    return -1 if number is None else int(number[1])
+
+
+def file_name(checkpoint: Checkpoint) -> str:
+    """`0036-insert-the-aligning-pins.checkpoint`: steps done, and the stage under way or to come."""
+    if checkpoint.snapshot is None:
+        return f"start{ENDING}"
+    words = re.sub(r"[^a-z0-9]+", "-", (checkpoint.stage or "end").lower()).strip("-")
+    return f"{checkpoint.position:04}-{words}{ENDING}"

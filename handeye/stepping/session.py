@@ -1,0 +1,150 @@
+"""A run in somebody's hands: the runner, the breaks that are set, and where states are kept."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
+
+from handeye.errors import HandeyeError, InvalidInput
+from handeye.plan.program import Program
+from handeye.stepping.advance import Pause, Stop, advance
+from handeye.stepping.breakpoints import breakpoint
+from handeye.stepping.listing import SourceLine, excerpt
+from handeye.stepping.operator import beginnings
+from handeye.stepping.reply import Break
+from handeye.stepping.runner import Runner
+from handeye.stepping.snapshot import Checkpoint
+from handeye.work.drive import Halted
+from handeye.work.events import StepStarted
+
+AROUND: Final = 2
+"""Lines of the script that are told before and behind the one where the run stands."""
+
+
+class Session:
+    """What the commands of the stepper act on."""
+
+    def __init__(
+        self,
+        runner: Runner,
+        *,
+        stops: Sequence[Stop] = (),
+        kept: Callable[[int], Checkpoint | None],
+        keep: Callable[[Checkpoint], Path | None],
+        pictures: Path,
+    ) -> None:
+        """Take a run in hand.
+
+        Args:
+            stops: reasons to stop besides breaks.
+            kept: the newest checkpoint on disk at a position or before it.
+            keep: writes a checkpoint to where the run's are kept; None: they are kept nowhere.
+            pictures: folder for pictures somebody wants to see.
+        """
+        self.runner = runner
+        self.stops = stops
+        self.kept = kept
+        self.keep = keep
+        self.pictures = pictures
+        self.breaks: dict[int, Stop] = {}
+        """By their numbers, which are never used twice."""
+        self.over = False
+        self._set = 0
+
+    @property
+    def program(self) -> Program:
+        """What is carried out."""
+        return self.runner.setup.plan.program
+
+    # -- breaks ---------------------------------------------------------------------------------------
+
+    def add_break(self, text: str) -> Break:
+        """Stop there from now on.
+
+        Raises:
+            InvalidInput: there is no such place.
+        """
+        stop = breakpoint(text, self.runner.setup.plan)
+        self._set += 1
+        self.breaks[self._set] = stop
+        return Break(number=self._set, at=str(stop))
+
+    # -- going ----------------------------------------------------------------------------------------
+
+    def go(self, stops: Sequence[Stop] = (), steps: int | None = None) -> Pause:
+        """Go on to the next of these stops or a break, or so many steps.
+
+        A step that is broken off, by the panic button or because something cannot be written, is undone.
+
+        Raises:
+            InvalidInput: the run cannot go on.
+        """
+        refusal = self.at_its_end()
+        if refusal is not None:
+            raise InvalidInput(refusal)
+        try:
+            pause = advance(self.runner, [*self.stops, *self.breaks.values(), *stops], steps)
+        except HandeyeError:
+            self.runner.undo()
+            raise
+        if pause.kind == "panic":
+            self.runner.undo()
+        return pause
+
+    @property
+    def pause(self) -> Pause:
+        """Why the run stands still now."""
+        if self.runner.ended:
+            return advance(self.runner)  # which then does nothing but say why
+        return Pause(kind="break", sentence="left by hand")
+
+    def at_its_end(self) -> str | None:
+        """Why the run cannot go on by itself; None if it can."""
+        runner = self.runner
+        if not runner.ended:
+            return None
+        if runner.trouble is not None:
+            return f"the run cannot go on from here, only back: {runner.trouble}"
+        if runner.called:
+            return "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
+        return "the program has come to its end: `back` goes back from here, `quit` leaves"
+
+    def back_to(self, position: int) -> None:
+        """Be again where so many steps were done.
+
+        Raises:
+            InvalidInput: no state from so far back was kept, or the panic button was hit while steps were done
+                again on the way there.
+        """
+        try:
+            self.runner.back_to(position, self.kept)
+        except Halted:
+            self.runner.undo()
+            done = self.runner.position
+            raise InvalidInput(
+                f"stopped by hand on the way to step {position}; step {done} is reached"
+            ) from None
+
+    def stage_began(self) -> int | None:
+        """Where the stage began that is under way or, between two stages, the one before; None before the first."""
+        return next(reversed(beginnings(self.runner).values()), None)
+
+    # -- where it stands ------------------------------------------------------------------------------
+
+    @property
+    def stage(self) -> int | None:
+        """The stage under way or about to begin, by index; None behind the last."""
+        step = self.runner.next
+        present = self.runner.executor.stage
+        return present if present is not None or step is None else step.stage
+
+    @property
+    def line(self) -> int:
+        """The line that comes next; at an end, the last that was begun."""
+        step, events = self.runner.next, reversed(self.runner.events)
+        if step is not None:
+            return step.line
+        return next((event.line for event in events if isinstance(event, StepStarted)), 1)
+
+    def source(self, line: int | None = None, around: int = AROUND) -> tuple[SourceLine, ...]:
+        """The script around a line, by default around where the run stands."""
+        return excerpt(self.program, self.line if line is None else line, self.line, around)

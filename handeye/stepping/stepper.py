@@ -1,0 +1,127 @@
+"""The interactive stepper: a line is a command, its answer a record; a loop gives the answers a face."""
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+
+from handeye.errors import HandeyeError
+from handeye.stepping.advance import Pause, Stop
+from handeye.stepping.commands import find
+from handeye.stepping.faces import as_json, as_text
+from handeye.stepping.reply import Reply, Told
+from handeye.stepping.runner import Runner
+from handeye.stepping.session import Session
+from handeye.stepping.snapshot import Checkpoint
+from handeye.stepping.telling import deeds
+
+
+class Stepper:
+    """Carries out commands on a run."""
+
+    def __init__(
+        self,
+        runner: Runner,
+        *,
+        breaks: Sequence[str] = (),
+        stops: Sequence[Stop] = (),
+        kept: Callable[[int], Checkpoint | None] = lambda _: None,
+        keep: Callable[[Checkpoint], Path | None] = lambda _: None,
+        pictures: Path,
+    ) -> None:
+        """Take a run in hand.
+
+        Args:
+            breaks: places to stop, as after `break`.
+            stops: other reasons to stop.
+            kept: the newest checkpoint on disk at a position or before it, for going far back.
+            keep: writes a checkpoint to where those of the run are kept; None: they are kept nowhere.
+            pictures: folder for pictures somebody wants to see.
+
+        Raises:
+            InvalidInput: there is no such place to stop.
+        """
+        self.session = Session(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
+        for text in breaks:
+            self.session.add_break(text)
+        self.repeated: str | None = None
+        """What an empty line on a terminal says again."""
+
+    @property
+    def over(self) -> bool:
+        """Somebody has left, or ended the run."""
+        return self.session.over
+
+    @property
+    def pause(self) -> Pause:
+        """Why the run stands still now."""
+        return self.session.pause
+
+    def do(self, line: str) -> Reply:
+        """Carry out a command; one that is wrong changes nothing."""
+        line = line.strip()
+        happened = len(self.session.runner.events)
+        try:
+            command, rest = find(line)
+            self.repeated = line if command.repeats else None
+            told = command.act(self.session, rest)
+        except HandeyeError as error:
+            return self._reply(line, Told(), happened, error=str(error))
+        return self._reply(line, told, happened)
+
+    def standing(self) -> Reply:
+        """Where the run stands, before anything is said."""
+        runner = self.session.runner
+        said = f"{self.session.program.name}, {len(self.session.program.steps)} steps; `help` tells what can be said"
+        refusal = self.session.at_its_end()
+        told = Told(source=self.session.source(), said=refusal or said)
+        return self._reply("", told, len(runner.events))
+
+    def _reply(self, line: str, told: Told, happened: int, error: str | None = None) -> Reply:
+        """The answer, with what has happened behind the first `happened` events."""
+        session = self.session
+        runner, step, stage = session.runner, session.runner.next, session.stage
+        events = runner.events[happened:]
+        return Reply(
+            command=line,
+            position=runner.position,
+            time=runner.run.time,
+            stage=None if stage is None else session.program.stages[stage],
+            stage_number=None if stage is None else stage + 1,
+            step=runner.executor.at,
+            line=None if step is None else step.line,
+            text=None if step is None else step.text,
+            did=deeds(events, session.program),
+            events=tuple(events),
+            error=error,
+            **{name: getattr(told, name) for name in Told.__struct_fields__},
+        )
+
+
+def interact(
+    stepper: Stepper,
+    lines: Iterator[str],
+    write: Callable[[str], None],
+    *,
+    json: bool = False,
+    prompt: bool = False,
+) -> Pause:
+    """Carry out a command a line until somebody leaves; the end of the lines is taken for `quit`.
+
+    Args:
+        write: puts out lines of text; the end of the last one is not in them.
+        json: answer each command with one JSON object on one line, and say nothing else.
+        prompt: somebody is asked for each line: an empty one says again what last made the run go.
+
+    Returns:
+        Why the run stands still.
+    """
+    face = as_json if json else as_text
+    if not json:
+        write(face(stepper.standing()))
+    while not stepper.over:
+        line = next(lines, "quit")
+        if not line.strip():
+            if not prompt or stepper.repeated is None:
+                continue
+            line = stepper.repeated
+        write(face(stepper.do(line)))
+    return stepper.pause

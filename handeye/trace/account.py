@@ -1,0 +1,113 @@
+"""A readable account of what happened in a run, and why, for people who know the arm language."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from handeye.pose import Array
+from handeye.trace.sentences import inches, sentence
+from handeye.units import INCH
+from handeye.work import events as happened
+from handeye.work.events import AnyEvent
+
+ASTRAY: Final = 0.02 * INCH
+"""A motion that ends farther than this from where it was to end is worth a word; free ones end nearer."""
+_BENEATH: Final = " " * 20
+"""Before what came of a step."""
+
+
+def account(events: Sequence[AnyEvent]) -> list[str]:
+    """The account, line by line: a heading for each stage; the clock, the line and the text of each step in the
+    source; and beneath it what came of it."""
+    teller = _Teller()
+    for event in events:
+        teller.tell(event)
+    return teller.lines
+
+
+@dataclass(slots=True)
+class _Teller:
+    """Writes the account as the events come."""
+
+    lines: list[str] = field(default_factory=list)
+    _heading: int = 0
+    """The line with the heading of the stage under way."""
+    _begun: float = 0.0
+    """When that stage began, s."""
+    _camera: float = 0.0
+    """What the camera's mechanism took of it, s."""
+    _shift: Array | None = None
+    """By how much the goal of the step under way is off its planned place."""
+    _off: Array = field(default_factory=lambda: np.zeros(3))
+    """How far from its planned end the last motion ended; a straight one begins from there."""
+    _tested: str | None = None
+    """The answer to a test, until it is known where the program goes on."""
+
+    def tell(self, event: AnyEvent) -> None:
+        """Tell one event."""
+        match event:
+            case happened.RunStarted():
+                self.lines += [f"{sentence(event)}", _versions(event)]
+            case happened.StageStarted():
+                self._begun, self._camera, self._heading = event.time, 0.0, len(self.lines) + 1
+                self.lines += ["", event.stage.upper()]
+            case happened.StageFinished():
+                self._lead_on("and the stage ends")
+                self.lines[self._heading] = f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
+            case happened.StepStarted():
+                self._lead_on(f"on at line {event.line}")
+                self._shift = None
+                self.lines.append(f"{event.time:9.2f} {event.line:5}  {event.text}")
+            case happened.StepFinished():
+                self._ended(event)
+            case happened.ErrorTested():
+                self._tested = sentence(event)
+            case happened.Adjusted():
+                self._shift = np.array(event.shift)
+                self._beneath(sentence(event))
+            case happened.CameraBusy():
+                self._camera += event.seconds
+                self._beneath(sentence(event))
+            case happened.RunFinished():
+                self._lead_on("and the program ends")
+                self.lines += ["", f"{event.time:9.2f}  {sentence(event)}"]
+            case happened.OperatorCalled() | happened.PanicStopped() | happened.OperatorAnswered():
+                self._lead_on("and there it stops")
+                self.lines.append(f"{event.time:9.2f}  *** {sentence(event)}")
+            case happened.ExperimentMade() | happened.WentBack():
+                self.lines.append(f"{event.time:9.2f}  *** {sentence(event)}")
+            case _:
+                self._beneath(sentence(event))
+
+    def _beneath(self, text: str) -> None:
+        self.lines.append(f"{_BENEATH}{text}")
+
+    def _lead_on(self, where: str) -> None:
+        """Tell the answer to a test, now that it is known where it leads."""
+        if self._tested is not None:
+            self._beneath(f"{self._tested}: {where}")
+        self._tested = None
+
+    def _took(self, time: float) -> str:
+        """How long the stage took."""
+        camera = f", {self._camera:.1f} s of it for the camera" if self._camera else ""
+        return f"in {time - self._begun:.1f} s{camera}"
+
+    def _ended(self, event: happened.StepFinished) -> None:
+        """Tell where a motion ended, if not where its goal was, nor as far off as the last one."""
+        if event.planned is None:
+            return
+        off = np.subtract(event.hand, event.planned)
+        shift = np.zeros(3) if self._shift is None else self._shift
+        astray = min((off - shift, off - self._off), key=lambda v: float(np.linalg.norm(v)))
+        self._off = off
+        if np.linalg.norm(astray) > ASTRAY:
+            away = f"{np.linalg.norm(astray) / INCH:.2f} in from where it was to end"
+            self._beneath(f"the hand is at {inches(event.hand)}, {away}")
+
+
+def _versions(event: happened.RunStarted) -> str:
+    made = ", ".join(f"{name} {version}" for name, version in event.versions.items())
+    return f"plan {event.plan}; {made}"

@@ -1,0 +1,96 @@
+"""The channels of a trace: what stands on each, and the schema it is declared with.
+
+The typed ones are those robotics tools show by themselves; `/events` is the lossless copy of each event, for us.
+"""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+import msgspec
+from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
+from foxglove_schemas_protobuf.Log_pb2 import Log
+from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
+from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
+from google.protobuf.descriptor_pb2 import FileDescriptorSet
+from google.protobuf.message import Message
+
+from handeye.work.events import AnyEvent
+
+FORMAT: Final = "handeye trace"
+VERSION: Final = 1
+"""Version of the format; a reader reads up to its own."""
+METADATA: Final = "handeye"
+"""Name of the metadata record that says what the file is and what the run depended on."""
+PLAN: Final = "plan.json"
+"""Name of the attachment with the plan."""
+
+JOINTS: Final = "/joint_states"
+FRAMES: Final = "/tf"
+PICTURE: Final = "/camera/picture"
+LOG: Final = "/log"
+SCENE: Final = "/scene"
+EVENTS: Final = "/events"
+
+WORLD: Final = "world"
+"""Name of the frame W, parent of all others."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Channel:
+    """A channel and the schema of its messages."""
+
+    topic: str
+    encoding: str
+    schema_name: str
+    schema_encoding: str
+    schema: bytes
+
+
+def _typed(topic: str, kind: type[Message]) -> Channel:
+    """A channel of protobuf messages, described together with all that they are made of."""
+    files: dict[str, Any] = {}
+
+    def add(file: Any) -> None:
+        for needed in file.dependencies:
+            add(needed)
+        files.setdefault(file.name, file)
+
+    add(kind.DESCRIPTOR.file)
+    described = FileDescriptorSet()
+    for file in files.values():
+        file.CopyToProto(described.file.add())
+    return Channel(
+        topic=topic,
+        encoding="protobuf",
+        schema_name=kind.DESCRIPTOR.full_name,
+        schema_encoding="protobuf",
+        schema=described.SerializeToString(deterministic=True),
+    )
+
+
+CHANNELS: Final = (
+    _typed(JOINTS, JointStates),
+    _typed(FRAMES, FrameTransforms),
+    _typed(PICTURE, RawImage),
+    _typed(LOG, Log),
+    _typed(SCENE, SceneUpdate),
+    Channel(
+        topic=EVENTS,
+        encoding="json",
+        schema_name="handeye.Event",
+        schema_encoding="jsonschema",
+        schema=msgspec.json.encode(msgspec.json.schema(AnyEvent), order="sorted"),
+    ),
+)
+"""All channels, in the order of their numbers in the file, which begin with 1."""
+
+NUMBERS: Final = {channel.topic: number for number, channel in enumerate(CHANNELS, 1)}
+
+
+def nanoseconds(time: float) -> int:
+    """A simulated time (s) as the traces count it.
+
+    To the microsecond: the cell's clock is a sum of many steps, the events' is rounded, and both must agree.
+    """
+    return round(time * 1e6) * 1000

@@ -1,0 +1,53 @@
+"""Where two traces part."""
+
+from itertools import zip_longest
+
+from handeye.trace.channels import EVENTS, LOG
+from handeye.trace.continuing import until
+from handeye.trace.records import RawMessage
+from handeye.trace.sentences import sentence
+from handeye.trace.trace import Trace
+from handeye.work.events import AnyEvent
+
+
+def first_difference(a: Trace, b: Trace, *, events: int | None = None) -> str | None:
+    """One sentence that names the first thing in which two traces differ; None if they say the same.
+
+    How the files are packed does not matter, only what is in them.
+
+    Args:
+        events: compare no more than so many events, and what came before and between them.
+    """
+    if a.plan != b.plan:
+        return "they are traces of two plans"
+    count = 0
+    for here, there in zip_longest(until(a.messages(), events), until(b.messages(), events)):
+        if here != there:
+            return _difference(a, b, here, there, count)
+        count += here.topic == EVENTS
+    return None
+
+
+def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, events: int) -> str:
+    """What differs in the first two messages that do, with so many equal events before them."""
+    last = a.events[events - 1] if events else None
+    after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"
+    if here is None or there is None:
+        short, long = (a, b) if here is None else (b, a)
+        return f"{short.name} ends and {long.name} goes on {after}"
+    if {here.topic, there.topic} <= {EVENTS, LOG}:  # a sentence stands before its event
+        return f"event {events + 1} differs: {_events(a.events[events], b.events[events])}"
+    if here.topic == there.topic and here.time == there.time:
+        return f"{here.topic} differs at {here.time / 1e9:.3f} s, {after}"
+    first, second = (f"{found.topic} at {found.time / 1e9:.3f} s" for found in (here, there))
+    return f"one goes on with {first}, the other with {second}, {after}"
+
+
+def _events(one: AnyEvent, other: AnyEvent) -> str:
+    """In what two events differ."""
+    kinds = type(one).__name__, type(other).__name__
+    if kinds[0] != kinds[1]:
+        return f"{kinds[0]} at {one.time:.3f} s in one, {kinds[1]} at {other.time:.3f} s in the other"
+    values = ((name, getattr(one, name), getattr(other, name)) for name in one.__struct_fields__)
+    name, first, second = next(found for found in values if found[1] != found[2])
+    return f"{name} of {kinds[0]} at {one.time:.3f} s is {first} in one, {second} in the other"

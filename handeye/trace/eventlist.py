@@ -1,0 +1,43 @@
+"""Event lists on disk (`events.jsonl`), and what of them counts."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.work.events import AnyEvent, WentBack
+
+_decode = msgspec.json.Decoder(AnyEvent).decode
+
+
+def read_events(path: Path) -> list[AnyEvent]:
+    """The events in a file, one JSON object a line, those undone later included.
+
+    Raises:
+        InvalidInput: it cannot be read, or one of its lines is cut short or not an event.
+    """
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
+    events = []
+    for number, line in enumerate(text.splitlines(keepends=True), 1):
+        if not line.endswith(b"\n"):
+            raise InvalidInput(f"line {number} of {path} is cut short")
+        try:
+            events.append(_decode(line))
+        except (msgspec.DecodeError, UnicodeDecodeError) as error:
+            raise InvalidInput(f"line {number} of {path} is not an event: {error}") from None
+    return events
+
+
+def effective(events: Iterable[AnyEvent]) -> list[AnyEvent]:
+    """The events that were not undone."""
+    left: list[AnyEvent] = []
+    for event in events:
+        if isinstance(event, WentBack):
+            del left[event.events :]
+        else:
+            left.append(event)
+    return left

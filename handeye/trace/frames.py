@@ -1,0 +1,42 @@
+"""Where everything in the simulated cell really is, for the trace: an observer that can change nothing."""
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.model import ArmModel
+from handeye.arm.stanford import STANFORD
+from handeye.cell.truth import Truth
+from handeye.trace.messages import Poses
+from handeye.trace.scene import LATENT, looks, scene
+
+Mask = NDArray[np.bool_]
+OUT_OF_SIGHT: Final = -1.0
+"""Height (m) below which parts are put away that have become something else; the floor is higher."""
+
+
+class Frames:
+    """The frames of a cell's bodies. They are those the simulator last computed, a physics step before the tick."""
+
+    def __init__(self, truth: Truth, arm: ArmModel = STANFORD) -> None:
+        self._truth = truth
+        bodies = range(1, truth.model.nbody)  # body 0 is the world
+        self.names = tuple(str(truth.model.body(number).name) for number in bodies)
+        self.joints = tuple(joint.name for joint in arm.joints)
+        """Names of the arm's joints, in order."""
+        self._looks = np.array([next(iter(looks(truth, number)), 0) for number in bodies])
+
+    def poses(self) -> Poses:
+        """Pose of each frame now."""
+        data = self._truth.data
+        return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
+
+    def in_sight(self, poses: Poses) -> Mask:
+        """Which frames belong to bodies that are there to be seen; shape (n,)."""
+        shown: Mask = self._truth.model.geom_group[self._looks] != LATENT
+        return shown & (poses[:, 2] > OUT_OF_SIGHT)
+
+    def scene(self, time: int) -> bytes:
+        """What the bodies look like, as a message; `time` in ns."""
+        return scene(self._truth, time)

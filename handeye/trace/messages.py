@@ -1,0 +1,93 @@
+"""The typed messages of a trace, as bytes. Times are in ns of the cell's clock."""
+
+from typing import Final
+
+import numpy as np
+from foxglove_schemas_protobuf.FrameTransform_pb2 import FrameTransform
+from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+from foxglove_schemas_protobuf.JointState_pb2 import JointState
+from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
+from foxglove_schemas_protobuf.Log_pb2 import Log
+from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
+from google.protobuf.timestamp_pb2 import Timestamp
+from numpy.typing import NDArray
+
+from handeye.cell.ports import Picture, Sensed
+from handeye.pose import Array
+from handeye.trace.channels import WORLD
+
+GAP: Final = "gap"
+"""Name of the fingers' opening among the joints, m."""
+CAMERA: Final = "camera"
+"""Frame that pictures are taken in."""
+LEVEL: Final = 255 // 15
+"""Grey level that one step of the camera's digitiser is shown as."""
+SECOND: Final = 10**9
+
+Poses = NDArray[np.float32]
+"""Poses in W, shape (n, 7): place (m), then a unit quaternion w, x, y, z. A ten-thousandth of a millimetre is enough
+for a view of the cell, and short figures make short files."""
+
+
+def stamp(time: int) -> Timestamp:
+    """A time as protobuf has it."""
+    return Timestamp(seconds=time // SECOND, nanos=time % SECOND)
+
+
+class JointMessage:
+    """Position and rate of each joint as the sensors read them, the torque put out (N m, joint 3 N), and the gap.
+
+    One message is filled in again and again: there are sixty a second.
+    """
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        joints = [JointState(name=name) for name in (*names, GAP)]
+        self._message = JointStates(timestamp=stamp(0), joints=joints)
+        *self._joints, self._gap = self._message.joints
+
+    def filled(self, time: int, sensed: Sensed, effort: Array) -> bytes:
+        """The message for a servo period."""
+        self._message.timestamp.seconds, self._message.timestamp.nanos = divmod(time, SECOND)
+        figures = zip(self._joints, sensed.q.tolist(), sensed.qd.tolist(), effort.tolist(), strict=True)
+        for joint, q, qd, tau in figures:
+            joint.position, joint.velocity, joint.effort = q, qd, tau
+        self._gap.position = sensed.gap
+        return self._message.SerializeToString()
+
+
+class FramesMessage:
+    """Poses of frames in W; filled in again and again like the joints' message."""
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        self._frames = [FrameTransform(parent_frame_id=WORLD, child_frame_id=name) for name in names]
+
+    def filled(self, time: int, which: list[int], poses: Poses) -> bytes:
+        """The message about some frames, by their numbers; their poses, shape (len(which), 7)."""
+        seconds, nanos = divmod(time, SECOND)
+        frames = [self._frames[number] for number in which]
+        for frame, pose in zip(frames, poses.tolist(), strict=True):
+            frame.timestamp.seconds, frame.timestamp.nanos = seconds, nanos
+            place, turn = frame.translation, frame.rotation
+            place.x, place.y, place.z, turn.w, turn.x, turn.y, turn.z = pose
+        return FrameTransforms(transforms=frames).SerializeToString()
+
+
+def picture(time: int, levels: Picture) -> bytes:
+    """A picture, its levels 0..15 spread over those of a byte."""
+    height, width = levels.shape
+    grey = (levels * np.uint8(LEVEL)).tobytes()
+    return RawImage(
+        timestamp=stamp(time),
+        frame_id=CAMERA,
+        width=width,
+        height=height,
+        encoding="mono8",
+        step=width,
+        data=grey,
+    ).SerializeToString()
+
+
+def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, line: int) -> bytes:
+    """A sentence for people. `name` is the program's, `line` the one it happened on (0: on none)."""
+    message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=name, line=line)
+    return message.SerializeToString()

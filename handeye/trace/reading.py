@@ -1,0 +1,83 @@
+"""Reads traces from disk. What is not whole, not sound, or not ours is refused with one sentence."""
+
+from collections import Counter
+from pathlib import Path
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.plan.store import decode, plan_digest
+from handeye.trace.channels import EVENTS, FORMAT, VERSION
+from handeye.trace.records import Unsound, check, front, is_mcap, read_messages
+from handeye.trace.trace import Trace
+from handeye.work.events import AnyEvent, RunStarted
+
+__all__ = ["Trace", "read_trace"]
+
+_decode = msgspec.json.Decoder(AnyEvent).decode
+
+
+def read_trace(path: Path, *, lenient: bool = False) -> Trace:
+    """The trace in a file.
+
+    Args:
+        lenient: read what is sound of a trace that was not written to its end.
+
+    Raises:
+        InvalidInput: it cannot be read; not a trace, of a newer version, cut short, damaged, or its plan is another's.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
+    try:
+        plan = _identify(path, data)
+        if not lenient:
+            check(data)
+        counts: Counter[str] = Counter()
+        events = []
+        for message in read_messages(data, lenient=lenient):
+            counts[message.topic] += 1
+            if message.topic == EVENTS:
+                events.append(_decode(message.data))
+    except Unsound as error:
+        raise InvalidInput(f"{path} {error}") from None
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
+    if not events or not isinstance(events[0], RunStarted):
+        raise InvalidInput(f"{path} is a trace without the start of a run")
+    if plan_digest(decode(plan, f"the plan in {path}")) != events[0].plan:
+        raise InvalidInput(f"the plan in {path} is not the one that was carried out")
+    return Trace(
+        name=str(path),
+        head=events[0],
+        plan=plan,
+        events=tuple(events),
+        counts=dict(counts),
+        data=data,
+        lenient=lenient,
+    )
+
+
+def _identify(path: Path, data: bytes) -> bytes:
+    """The plan in a file that says it is a trace this program can read.
+
+    Raises:
+        InvalidInput: it does not say so.
+        Unsound: it cannot be read so far.
+    """
+    if not is_mcap(data):
+        raise InvalidInput(f"{path} is not a trace: it is not an MCAP file")
+    start = front(data)
+    if start.metadata.get("format") != FORMAT:
+        raise InvalidInput(f"{path} is not a trace of this program: it does not say “{FORMAT}”")
+    version = start.metadata.get("version", "")
+    if not version.isascii() or not version.isdigit() or int(version) < 1:
+        raise InvalidInput(f"{path} does not say which version of the trace format it has")
+    if int(version) > VERSION:
+        raise InvalidInput(
+            f"{path} has trace format version {version}; this handeye reads up to version {VERSION}"
+        )
+    if start.plan is None:
+        raise Unsound("has no plan in it")
+    return start.plan

@@ -1,0 +1,196 @@
+"""Records a run as it happens: every event, and sixty times a second where everything is."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from handeye.cell.ports import Picture, Sensed
+from handeye.errors import InvalidInput
+from handeye.pose import Array
+from handeye.trace.continuing import known, until
+from handeye.trace.frames import Frames, Mask
+from handeye.trace.growing import GrowingFile
+from handeye.trace.messages import Poses
+from handeye.trace.records import read_messages
+from handeye.trace.writing import Writing
+from handeye.work.events import Event, PictureTaken, RunStarted, StepStarted, WentBack
+
+
+def part(path: Path) -> Path:
+    """Where a trace grows that will be at `path` when it is whole."""
+    return path.with_name(f"{path.name}.part")
+
+
+class Recorder:
+    """Writes the trace of a run: what is undone is taken out again, so that the file holds what counted.
+
+    A run that was broken off any number of times and went on leaves the same bytes as one that never was.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        frames: Frames,
+        picture: Callable[[str], Picture],
+        plan: bytes,
+        *,
+        old: bytes = b"",
+        prefix: Sequence[Event] = (),
+    ) -> None:
+        """Begin a trace; what another run left unfinished at its place is replaced.
+
+        Args:
+            picture: the picture of a name, as it was taken last.
+            plan: the bytes of `plan.json`.
+            old: a trace to go on with, whole or not, and the events it is to begin with; see `resumed`.
+            prefix: those events.
+
+        Raises:
+            InvalidInput: it cannot be written; what was there is still there.
+        """
+        self._path, self._frames, self._picture, self._plan = path, frames, picture, plan
+        self._waiting: list[tuple[Sensed, Array, Poses, Mask]] = []
+        head = next((event for event in prefix if isinstance(event, RunStarted)), None)
+        self._writing = self._copied(old, known(old, prefix), head)
+        for event in prefix[self._writing.events :]:
+            self._writing.event(event)
+
+    @classmethod
+    def resumed(
+        cls,
+        path: Path,
+        frames: Frames,
+        picture: Callable[[str], Picture],
+        plan: bytes,
+        events: int,
+        prefix: Sequence[Event],
+    ) -> "Recorder":
+        """Go on with the trace that a broken-off run left, behind its event number `events`.
+
+        Args:
+            prefix: the events so far. Those of them that the trace has lost are written again, without what happened
+                between them; if it is the trace of another run, or there is none, that is all of them.
+
+        Raises:
+            InvalidInput: it cannot be written; what was there is still there.
+        """
+        prefix = prefix[:events]
+        left = [_bytes(file) for file in (part(path), path) if file.exists()]
+        old = max(left, key=lambda data: known(data, prefix), default=b"")
+        recorder = cls(path, frames, picture, plan, old=old, prefix=prefix)
+        recorder.flush()
+        return recorder
+
+    # -- what happens -------------------------------------------------------------------------------
+
+    def event(self, event: Event) -> None:
+        """Write an event; the first is RunStarted. `WentBack` has no place in a trace: see `cut`.
+
+        Raises:
+            InvalidInput: it cannot be written; this is said once, and nothing more is written.
+        """
+        if isinstance(event, WentBack):
+            return
+        self._catch_up()
+        if isinstance(event, StepStarted):
+            poses = self._frames.poses()
+            self._writing.frames(event.time, poses, self._frames.in_sight(poses), anew=True)
+        if isinstance(event, PictureTaken):
+            self._writing.picture(event.time, self._picture(event.picture))
+        self._writing.event(event)
+
+    def tick(self, sensed: Sensed, effort: Array) -> None:
+        """Take down what was sensed after a servo period, the torques put out in it, and the frames.
+
+        It is written before the next event, together with the periods around it: the simulation between two periods
+        takes the processor's memory from the recorder, and writing each by itself takes twice as long.
+        """
+        if self._writing.head is None:  # what was before the run is no part of it
+            return
+        poses = self._frames.poses()
+        self._waiting.append((sensed, effort, poses, self._frames.in_sight(poses)))
+
+    def flush(self) -> None:
+        """Everything so far is on the disk.
+
+        Raises:
+            InvalidInput: as `event`.
+        """
+        self._catch_up()
+        self._writing.file.sync()
+
+    def cut(self, events: int) -> None:
+        """Take out everything after the first `events` events.
+
+        Raises:
+            InvalidInput: it cannot be written; the trace is as it was.
+        """
+        if not self._writing.file.broken:
+            self._rewrite(events)
+        self._waiting.clear()
+
+    def close(self) -> None:
+        """Put the trace in its place, whole. One that could not be written to its end stays where it grew.
+
+        Raises:
+            InvalidInput: it cannot be written, and this was not said before.
+        """
+        if self._writing.file.released:
+            return
+        try:
+            self._catch_up()
+            if self._writing.file.uneven and not self._writing.file.broken:
+                self._rewrite(None)
+            if self._writing.head is not None and not self._writing.file.broken:
+                self._writing.file.finish()
+                self._writing.file.move(self._path)
+        finally:
+            self._writing.file.release()
+        if self._writing.head is None:
+            part(self._path).unlink(missing_ok=True)
+
+    # -- how it is written --------------------------------------------------------------------------
+
+    def _catch_up(self) -> None:
+        """Write the servo periods taken down since the last event."""
+        waiting, self._waiting = self._waiting, []
+        for sensed, effort, poses, in_sight in waiting:
+            self._writing.joints(sensed, effort)
+            self._writing.frames(sensed.time, poses, in_sight)
+
+    def _rewrite(self, events: int | None) -> None:
+        """Replace the file by a new one with what it holds up to its event number `events`; None: with everything.
+
+        Raises:
+            InvalidInput: it cannot be written; nothing has changed.
+        """
+        old = self._writing
+        old.file.sync()
+        self._writing = self._copied(_bytes(old.file.file), events, old.head)
+        old.file.release()
+
+    def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> Writing:
+        """Begin a new file with what the bytes of an old one hold up to an event; it takes the old one's place.
+
+        Raises:
+            InvalidInput: it cannot be written; nothing has changed.
+        """
+        file = GrowingFile(self._path.with_name(f".{self._path.name}.new"))
+        writing = Writing(file, self._frames, self._plan)
+        try:
+            if head is not None and events != 0:
+                writing.begin(head)
+            for message in until(read_messages(old, lenient=True), events):
+                writing.copy(message)
+            file.move(part(self._path))
+        except InvalidInput:
+            file.release()
+            file.file.unlink(missing_ok=True)
+            raise
+        return writing
+
+
+def _bytes(file: Path) -> bytes:
+    try:
+        return file.read_bytes()
+    except OSError as error:
+        raise InvalidInput(f"{file} cannot be read: {error.strerror}") from None

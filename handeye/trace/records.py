@@ -1,0 +1,138 @@
+"""What stands in an MCAP file, and whether it is all there and as it was written.
+
+The MCAP reader checks some of a file's check sums. Here all of them are, so that no bit can change unnoticed.
+"""
+
+import struct
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Final, TypeVar
+
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Attachment, Channel, Chunk, Message, Metadata
+from mcap.stream_reader import breakup_chunk
+from mcap.writer import MCAP0_MAGIC
+from zstandard import ZstdError
+
+from handeye.trace.channels import METADATA, PLAN
+
+_HEAD: Final = struct.Struct("<BQ")
+"""Before every record: what it is, and its length."""
+_DATA_END: Final = _HEAD.size + 4
+_FOOTER: Final = _HEAD.size + 20
+_TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, MemoryError, OverflowError)
+"""What the MCAP library makes of records that are not as they should be."""
+
+Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
+
+
+class Unsound(Exception):
+    """A file is not as it was written; the words say what is the matter with it."""
+
+
+@dataclass(frozen=True, slots=True)
+class RawMessage:
+    """A message as it stands in the file; `time` in ns."""
+
+    topic: str
+    time: int
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Front:
+    """What stands in a trace before all messages."""
+
+    metadata: dict[str, str]
+    plan: bytes | None
+
+
+def is_mcap(data: bytes) -> bool:
+    """Whether a file begins as an MCAP file does."""
+    return data.startswith(MCAP0_MAGIC)
+
+
+def check(data: bytes) -> None:
+    """See that an MCAP file is whole, and every bit of it as it was written.
+
+    Two check sums cover everything: one the records up to that of the end of the data, one those of the summary.
+
+    Raises:
+        Unsound: it is not.
+    """
+    if not data.endswith(MCAP0_MAGIC) or len(data) < 2 * len(MCAP0_MAGIC) + _DATA_END + _FOOTER:
+        raise Unsound("is cut short")
+    footer = len(data) - len(MCAP0_MAGIC) - _FOOTER
+    summary, _, summary_crc = struct.unpack_from("<QQI", data, footer + _HEAD.size)
+    if zlib.crc32(data[min(summary, footer) : footer + _FOOTER - 4]) != summary_crc:
+        raise Unsound("is damaged")
+    end = summary - _DATA_END
+    if end < 0 or _HEAD.unpack_from(data, end) != (Opcode.DATA_END, 4):
+        raise Unsound("is damaged")
+    if struct.unpack_from("<I", data, end + _HEAD.size) != (zlib.crc32(data[:end]),):
+        raise Unsound("is damaged")
+
+
+def front(data: bytes) -> Front:
+    """The trace's own metadata, empty if it has none, and its plan."""
+    metadata: dict[str, str] = {}
+    plan = None
+    for opcode, body in _records(data):
+        if opcode == Opcode.METADATA and (found := _parsed(Metadata, body)).name == METADATA:
+            metadata = found.metadata
+        elif opcode == Opcode.ATTACHMENT and (attached := _parsed(Attachment, body)).name == PLAN:
+            plan = attached.data
+        elif opcode == Opcode.CHUNK:
+            break
+    return Front(metadata, plan)
+
+
+def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:
+    """The messages of a file, in the order they were written, as far as whole chunks go.
+
+    Args:
+        lenient: end before a damaged chunk, and before whatever follows it, without complaint.
+
+    Raises:
+        Unsound: a chunk is damaged.
+    """
+    topics: dict[int, str] = {}
+    for opcode, body in _records(data):
+        if opcode != Opcode.CHUNK:
+            continue
+        try:
+            content = breakup_chunk(_parsed(Chunk, body), validate_crc=True)
+        except (Unsound, *_TROUBLE):
+            if lenient:
+                return
+            raise Unsound("is damaged") from None
+        for record in content:
+            if isinstance(record, Channel):
+                topics[record.id] = record.topic
+            elif isinstance(record, Message):
+                yield RawMessage(topics.get(record.channel_id, ""), record.log_time, record.data)
+
+
+def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
+    """The records of a file, to its end or to where it breaks off."""
+    at = len(MCAP0_MAGIC)
+    while at + _HEAD.size <= len(data):
+        opcode, length = _HEAD.unpack_from(data, at)
+        at += _HEAD.size
+        if at + length > len(data):
+            return
+        yield opcode, data[at : at + length]
+        at += length
+
+
+def _parsed(kind: type[Kind], body: bytes) -> Kind:
+    """A record of a kind. Raises Unsound if it is none."""
+    try:
+        found: Kind = kind.read(ReadDataStream(BytesIO(body)))
+    except _TROUBLE:
+        raise Unsound("is damaged") from None
+    return found

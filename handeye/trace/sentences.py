@@ -1,0 +1,129 @@
+"""What an event says, in the units of the arm language: inches, ounces, degrees."""
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+from foxglove_schemas_protobuf.Log_pb2 import Log
+
+from handeye import errors
+from handeye.units import DEGREE, INCH, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
+from handeye.work import events as happened
+from handeye.work.events import Event
+
+LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
+    happened.RunStarted: Log.INFO,
+    happened.StageStarted: Log.INFO,
+    happened.StageFinished: Log.INFO,
+    happened.StepStarted: Log.DEBUG,
+    happened.GuardTripped: Log.INFO,
+    happened.ErrorRaised: Log.WARNING,
+    happened.SearchAdvanced: Log.INFO,
+    happened.PictureTaken: Log.INFO,
+    happened.PartSeen: Log.INFO,
+    happened.PartInspected: Log.INFO,
+    happened.OperatorCalled: Log.ERROR,
+    happened.OperatorAnswered: Log.INFO,
+    happened.ExperimentMade: Log.WARNING,
+    happened.PanicStopped: Log.ERROR,
+    happened.RunFinished: Log.INFO,
+}
+"""What a person would log, and how much it matters."""
+
+_CAMERA: Final = {
+    "lens": "turned its lenses",
+    "aim": "was aimed",
+    "focus": "was focused",
+    "digitise": "digitised the picture",
+}
+_CHOICES: Final = {
+    "proceed": "to go on",
+    "retry": "to try the stage again",
+    "skip": "to leave out the rest of the stage",
+}
+
+
+def inches(vector: Sequence[float], places: int = 2) -> str:
+    """A vector (m) as the language would write it."""
+    return "(" + ", ".join(f"{round(c / INCH, places) + 0.0:.{places}f}" for c in vector) + ") in"
+
+
+def sentence(event: Event) -> str:
+    """What happened, without the time."""
+    match event:
+        case happened.RunStarted():
+            world = f"the world of seed {event.seed}, pictures by {event.camera}"
+            return f"{event.program}: {event.steps} steps on the {event.arm} arm, {world}"
+        case happened.StageStarted():
+            return f"stage “{event.stage}”"
+        case happened.StageFinished():
+            return f"stage “{event.stage}” {event.status}"
+        case happened.StepStarted():
+            return event.text
+        case happened.StepFinished():
+            return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:.2f} in"
+        case happened.Adjusted():
+            return f"{event.goal} is {inches(event.shift, 3)} from where it was planned"
+        case happened.GuardTripped():
+            return _tripped(event)
+        case happened.ErrorRaised():
+            return f"error {event.number}: {_meaning(event)}"
+        case happened.ErrorTested():
+            return f"error {event.number} {'occurred' if event.occurred else 'did not occur'}"
+        case happened.SearchAdvanced():
+            return f"the search goes on to its place {event.count + 1}, {inches(event.offset)} from the first"
+        case happened.Saved():
+            return f"{event.name} is {inches(event.difference, 3)}"
+        case happened.Restored():
+            return f"{event.name} shifts {event.goal} by {inches(event.difference, 3)}"
+        case happened.PictureTaken():
+            return f"picture {event.picture}, {event.lens / MILLIMETRE:.0f} mm lens"
+        case happened.PartSeen():
+            return _seen(event)
+        case happened.PartInspected():
+            return f"{event.part}: {event.sentence}"
+        case happened.CameraBusy():
+            return f"the camera {_CAMERA.get(event.action, event.action)}: {event.seconds:g} s"
+        case happened.OperatorCalled():
+            number = "" if event.error is None else f" (error {event.error})"
+            return f"brakes set, the operator is called: {event.message}{number}"
+        case happened.OperatorAnswered():
+            return f"the operator chooses {_CHOICES[event.choice]}"
+        case happened.ExperimentMade():
+            return f"experiment: {event.what} {event.name} is set to {_value(event.value)}"
+        case happened.PanicStopped():
+            return "panic button: drives off, brakes set"
+        case happened.WentBack():
+            return f"back to event {event.events}: what came after it is undone"
+        case happened.RunFinished():
+            return (
+                "the program came to its end" if event.completed else "the run ended before the program did"
+            )
+    raise AssertionError(event)
+
+
+def _tripped(event: happened.GuardTripped) -> str:
+    if event.guard == "torque":
+        torque, limit = event.value / OUNCE_INCH, event.limit / OUNCE_INCH
+        return f"stopped: the driver holds {torque:.1f} ounce-inches, over {limit:.1f}"
+    force, limit = event.value / OUNCE_FORCE, event.limit / OUNCE_FORCE
+    what = "the hand meets" if event.guard == "against" else "the hand presses with"
+    return f"stopped: {what} {force:.1f} ounces, over {limit:.1f}"
+
+
+def _meaning(event: happened.ErrorRaised) -> str:
+    meaning = errors.ERRORS.get(event.number, "an error")
+    return f"{meaning} ({event.detail})" if event.detail else meaning
+
+
+def _seen(event: happened.PartSeen) -> str:
+    place = inches((event.x, event.y))
+    if event.yaw is None:
+        return f"{event.part} lies around {place}"
+    return f"{event.part} lies at {place}, turned {event.yaw / DEGREE:.1f} degrees"
+
+
+def _value(value: tuple[float, ...]) -> str:
+    """A difference or place, and after it the angles of a position."""
+    angles = "".join(f" {math.degrees(angle):.1f}" for angle in value[3:])
+    return inches(value[:3], 3) + (f", angles{angles}" if angles else "")

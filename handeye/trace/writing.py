@@ -1,0 +1,96 @@
+"""Turns what happens into the messages of a trace, in the order in which they stand in it."""
+
+from typing import Final
+
+import msgspec
+import numpy as np
+from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+
+from handeye.cell.ports import Picture, Sensed
+from handeye.pose import Array
+from handeye.trace import messages
+from handeye.trace.channels import EVENTS, FRAMES, JOINTS, LOG, PICTURE, SCENE, nanoseconds
+from handeye.trace.continuing import event_data
+from handeye.trace.frames import Frames, Mask
+from handeye.trace.growing import GrowingFile
+from handeye.trace.messages import Poses
+from handeye.trace.records import RawMessage
+from handeye.trace.sentences import LEVELS, sentence
+from handeye.work.events import AnyEvent, Event, RunStarted, StepStarted
+
+MOVED: Final = 1e-6
+"""Change of a pose (m, or of a component of its quaternion) that is worth writing down."""
+
+_decode = msgspec.json.Decoder(AnyEvent).decode
+
+
+class Writing:
+    """Writes messages to a file.
+
+    All it remembers can be read off the file: whoever copies the messages of one file to another can go on there. What
+    comes with an event (sentence, picture, frames) stands before it, so that a trace can be cut behind any event.
+    """
+
+    def __init__(self, file: GrowingFile, frames: Frames, plan: bytes) -> None:
+        self.file, self._frames, self._plan = file, frames, plan
+        self.events = 0
+        """How many have been written."""
+        self.head: RunStarted | None = None
+        self._line = 0  # of the program, of the step under way
+        self._sent: Poses = np.full(
+            (len(frames.names), 7), np.nan, dtype=np.float32
+        )  # as last written; NaN: never
+        self._joint_message = messages.JointMessage(frames.joints)
+        self._frames_message = messages.FramesMessage(frames.names)
+
+    def begin(self, head: RunStarted) -> None:
+        """Write what stands before all messages."""
+        self.head = head
+        self.file.begin(head, self._plan)
+
+    def event(self, event: Event) -> None:
+        """Write an event, and before it the sentence that tells of it."""
+        time = nanoseconds(event.time)
+        if isinstance(event, RunStarted) and self.head is None:
+            self.begin(event)
+            self.file.write(SCENE, time, self._frames.scene(time))
+        if isinstance(event, StepStarted):
+            self._line = event.line
+        assert self.head is not None
+        if type(event) in LEVELS:
+            level, name = LEVELS[type(event)], self.head.program
+            self.file.write(LOG, time, messages.log(time, level, sentence(event), name=name, line=self._line))
+        self.file.write(EVENTS, time, event_data(event))
+        self.events += 1
+
+    def picture(self, time: float, picture: Picture) -> None:
+        """Write a picture; its event follows."""
+        self.file.write(PICTURE, nanoseconds(time), messages.picture(nanoseconds(time), picture))
+
+    def joints(self, sensed: Sensed, effort: Array) -> None:
+        """Write what was sensed after a servo period, and the torques put out in it."""
+        time = nanoseconds(sensed.time)
+        self.file.write(JOINTS, time, self._joint_message.filled(time, sensed, effort))
+
+    def frames(self, time: float, poses: Poses, in_sight: Mask, *, anew: bool = False) -> None:
+        """Write the frames that moved since they were last written, and those that appeared; `anew`: all in sight."""
+        sent = self._sent
+        moved = (np.abs(poses - sent) > MOVED).any(axis=1)  # false for what was never written
+        which = np.flatnonzero(moved | (in_sight & (anew | np.isnan(sent[:, 0]))))
+        if which.size:
+            sent[which] = poses[which]
+            message = self._frames_message.filled(nanoseconds(time), which.tolist(), poses[which])
+            self.file.write(FRAMES, nanoseconds(time), message)
+
+    def copy(self, message: RawMessage) -> None:
+        """Write a message of another file."""
+        self.file.write(message.topic, message.time, message.data)
+        if message.topic == EVENTS:
+            self.events += 1
+            event = _decode(message.data)
+            self._line = event.line if isinstance(event, StepStarted) else self._line
+        elif message.topic == FRAMES:
+            for frame in FrameTransforms.FromString(message.data).transforms:
+                place, turn = frame.translation, frame.rotation
+                pose = (place.x, place.y, place.z, turn.w, turn.x, turn.y, turn.z)
+                self._sent[self._frames.names.index(frame.child_frame_id)] = pose

@@ -1,0 +1,227 @@
+"""Breaking runs off, again and again, and seeing whether what is gone on with comes out as if nothing had happened."""
+
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import msgspec
+import numpy as np
+
+from handeye.cell.ports import TICK
+from handeye.errors import HandeyeError
+from handeye.stepping.folder import CHECKPOINTS, EVENTS, TRACE
+from handeye.stepping.kept import Kept
+from handeye.stepping.snapshot import Snapshot
+from handeye.trace.eventlist import effective, read_events
+from handeye.trace.reading import read_trace
+from handeye.work.events import AnyEvent, PanicStopped, StageFinished, StageStarted
+
+POLL: Final = 0.002
+"""s between two looks at what a run has written."""
+LIMIT: Final = 900.0
+"""s after which a run is taken to hang."""
+
+
+class TrialFailed(HandeyeError):
+    """A run could not be made, so that nothing can be said about breaking it off."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Verdict:
+    """What came of one trial."""
+
+    name: str
+    faults: tuple[str, ...]
+    """What was not as it should be; none if all was well."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Whole:
+    """A run that nobody broke off, to compare with."""
+
+    folder: Path
+    seed: int
+    events: tuple[AnyEvent, ...]
+    stages: tuple[str, ...]
+
+    @property
+    def trace(self) -> bytes:
+        """The bytes of its trace."""
+        return (self.folder / TRACE).read_bytes()
+
+
+def whole_run(folder: Path, seed: int) -> Whole:
+    """Assemble a pump without a break.
+
+    Raises:
+        TrialFailed: it was not assembled.
+    """
+    done = _handeye("assemble", "--seed", str(seed), "--out", str(folder))
+    if done.returncode != 0:
+        raise TrialFailed(
+            f"seed {seed} is not assembled even when nobody breaks it off (exit {done.returncode})"
+        )
+    events = tuple(effective(read_events(folder / EVENTS)))
+    stages = tuple(event.stage for event in events if isinstance(event, StageStarted))
+    return Whole(folder=folder, seed=seed, events=events, stages=stages)
+
+
+def killed(whole: Whole, folder: Path, jobs: int) -> Iterator[Verdict]:
+    """Kill a run in the middle of each stage, go on with it, and compare the traces byte for byte."""
+
+    def one(number: int) -> Verdict:
+        stage, place = whole.stages[number], folder / f"killed-{number + 1}"
+        process = _begun(whole, place)
+        _wait_for(place / EVENTS, _middle(whole, stage), process)
+        process.kill()
+        process.wait()
+        return Verdict(name=stage, faults=tuple(_gone_on_with(whole, place)))
+
+    yield from _each(one, range(len(whole.stages)), jobs)
+
+
+def interrupted(whole: Whole, folder: Path, count: int, jobs: int) -> Iterator[Verdict]:
+    """Press Ctrl-C at random moments of the working phase; brakes, exit code, and what comes when it goes on."""
+    moments = random.Random(whole.seed)  # noqa: S311 - moments, not secrets
+    plans = [(n, moments.randrange(1, len(whole.events) - 4), moments.uniform(0, 0.1)) for n in range(count)]
+
+    def one(plan: tuple[int, int, float]) -> Verdict:
+        number, line, later = plan
+        place = folder / f"interrupted-{number + 1}"
+        process = _begun(whole, place)
+        _wait_for(place / EVENTS, line, process)
+        time.sleep(later)
+        process.send_signal(signal.SIGINT)
+        code = process.wait(LIMIT)
+        faults = [] if code == 130 else [f"exit code {code} instead of 130"]
+        faults += _brakes(place)
+        faults += _gone_on_with(whole, place)
+        return Verdict(name=f"after event {line}", faults=tuple(faults))
+
+    yield from _each(one, plans, jobs)
+
+
+def alone(whole: Whole, folder: Path, jobs: int) -> Iterator[Verdict]:
+    """Carry out each stage by itself from its checkpoint; its end must be that within the whole run."""
+
+    def one(number: int) -> Verdict:
+        place = folder / f"alone-{number + 1}"
+        done = _handeye(
+            "run", str(whole.folder / "plan.json"), "--seed", str(whole.seed),
+            "--stage", str(number + 1), "--checkpoints", str(whole.folder), "--out", str(place),
+        )  # fmt: skip
+        faults = [] if done.returncode == 0 else [f"exit code {done.returncode}"]
+        mine, theirs = (_end(f, whole.stages, number) for f in (place, whole.folder))
+        if mine is None or theirs is None:
+            faults.append("no checkpoint of its end")
+        elif not _same(mine, theirs):
+            faults.append("it ends in another state")
+        return Verdict(name=whole.stages[number], faults=tuple(faults))
+
+    yield from _each(one, range(len(whole.stages)), jobs)
+
+
+def _each(
+    one: Callable[..., Verdict], what: "range | list[tuple[int, int, float]]", jobs: int
+) -> Iterator[Verdict]:
+    with ThreadPoolExecutor(jobs) as pool:
+        for verdict in as_completed([pool.submit(one, item) for item in what]):
+            yield verdict.result()
+
+
+# -- breaking off -------------------------------------------------------------------------------------
+
+
+def _handeye(*words: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(  # noqa: S603 - our own program
+        [sys.executable, "-m", "handeye", *words],
+        stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=LIMIT, check=False,
+    )  # fmt: skip
+
+
+def _begun(whole: Whole, place: Path) -> "subprocess.Popen[bytes]":
+    return subprocess.Popen(  # noqa: S603
+        [sys.executable, "-m", "handeye", "assemble", "--seed", str(whole.seed), "--out", str(place)],
+        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+
+
+def _wait_for(journal: Path, lines: int, process: "subprocess.Popen[bytes]") -> None:
+    """Wait until a run has written so many events."""
+    end = time.monotonic() + LIMIT
+    while process.poll() is None:
+        if journal.exists() and journal.read_bytes().count(b"\n") >= lines:
+            return
+        if time.monotonic() > end:
+            process.kill()
+            break
+        time.sleep(POLL)
+    raise TrialFailed(f"the run ended before it could be broken off (exit {process.wait()})")
+
+
+def _middle(whole: Whole, stage: str) -> int:
+    """The number of the event in the middle of a stage."""
+    first = next(n for n, e in enumerate(whole.events) if isinstance(e, StageStarted) and e.stage == stage)
+    last = next(n for n, e in enumerate(whole.events) if isinstance(e, StageFinished) and e.stage == stage)
+    return (first + last) // 2
+
+
+# -- judging ------------------------------------------------------------------------------------------
+
+
+def _gone_on_with(whole: Whole, place: Path) -> list[str]:
+    """Go on with a run that was broken off; what is not as in the run that was not."""
+    done = _handeye("resume", str(place))
+    if done.returncode != 0:
+        return [f"resume ended with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"]
+    faults = []
+    if tuple(effective(read_events(place / EVENTS))) != whole.events:
+        faults.append("other events")
+    if (place / TRACE).read_bytes() != whole.trace:
+        faults.append("another trace")
+    return faults
+
+
+def _brakes(place: Path) -> list[str]:
+    """What is wrong with the way an interrupted run stopped, by its trace."""
+    trace = read_trace(place / TRACE)
+    last = trace.events[-1]
+    if not isinstance(last, PanicStopped):
+        return [f"its last event is {type(last).__name__}"]
+    before, end = list(trace.ticks())[-2:]
+    stopped = round((end.time - before.time) / TICK) == 1 and abs(last.time - end.time) < TICK / 2
+    return [] if stopped and not np.any(end.effort) else ["the brakes were not set at the next tick"]
+
+
+def _end(folder: Path, stages: tuple[str, ...], number: int) -> Snapshot | None:
+    """The state in which a stage ended."""
+    following = stages[number + 1] if number + 1 < len(stages) else None
+    for path, head in Kept(folder / CHECKPOINTS).heads():
+        if head.stage == following and (head.between_stages or following is None) and head.position > 0:
+            return _snapshot(path)
+    return None
+
+
+def _snapshot(path: Path) -> Snapshot | None:
+    from handeye.stepping.checkpoint_file import read_checkpoint
+
+    return read_checkpoint(path).snapshot
+
+
+def _same(one: Snapshot, other: Snapshot) -> bool:
+    """Whether two states are equal to the byte, but for the processor time that vision took."""
+
+    def plain(snapshot: Snapshot) -> bytes:
+        memory = msgspec.structs.replace(snapshot.memory, clockwork=one.memory.clockwork)
+        return msgspec.msgpack.encode(
+            msgspec.structs.replace(snapshot, memory=memory), enc_hook=lambda array: array.tobytes()
+        )
+
+    return plain(one) == plain(other)

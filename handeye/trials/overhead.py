@@ -1,0 +1,89 @@
+"""What it costs to trace a run and to keep checkpoints of it, as shares of one and the same run."""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from handeye.cell.ports import Sensed
+from handeye.pose import Array
+from handeye.stepping.advance import advance
+from handeye.stepping.folder import TRACE, RunFolder, open_new
+from handeye.stepping.observer import Observer
+from handeye.stepping.runner import Runner
+from handeye.stepping.snapshot import Checkpoint, Setup
+from handeye.work.events import AnyEvent
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Overhead:
+    """Seconds of this computer's clock, of one working phase."""
+
+    run: float
+    """All of it, without what is below."""
+    tracing: float
+    """Events and servo periods written down, and the trace closed."""
+    checkpoints: float
+    kept: int
+    """How many checkpoints that is."""
+    ticks: int
+    trace_bytes: int
+
+
+@dataclass(slots=True)
+class _Timed(Observer):
+    """Looks on through a folder, and at the clock."""
+
+    folder: RunFolder
+    tracing: float = 0.0
+    checkpoints: float = 0.0
+    kept: int = 0
+    ticks: int = 0
+    begun: float = field(default_factory=time.perf_counter)
+
+    def event(self, event: AnyEvent) -> None:
+        with self._traced():
+            self.folder.event(event)
+
+    def tick(self, sensed: Sensed, effort: Array) -> None:
+        self.ticks += 1
+        with self._traced():
+            self.folder.tick(sensed, effort)
+
+    def checkpoint(self, checkpoint: Checkpoint) -> None:
+        begun = time.perf_counter()
+        self.folder.checkpoint(checkpoint)
+        self.checkpoints += time.perf_counter() - begun
+        self.kept += 1
+
+    def close(self) -> None:
+        with self._traced():
+            self.folder.close()
+
+    @contextmanager
+    def _traced(self) -> Iterator[None]:
+        begun = time.perf_counter()
+        yield
+        self.tracing += time.perf_counter() - begun
+
+
+def measure(setup: Setup, folder: Path) -> Overhead:
+    """Carry out a plan once, traced and kept in `folder`; what each of these took."""
+    start = Checkpoint(setup=setup)
+    keeping = open_new(folder, start)
+    runner = Runner(start, observers=lambda runner: [_Timed(keeping.watch(runner, start, again=False))])
+    (timed,) = runner.observers
+    assert isinstance(timed, _Timed)
+    advance(runner)
+    runner.finish()
+    timed.close()
+    whole = time.perf_counter() - timed.begun
+    return Overhead(
+        run=whole - timed.tracing - timed.checkpoints,
+        tracing=timed.tracing,
+        checkpoints=timed.checkpoints,
+        kept=timed.kept,
+        ticks=timed.ticks,
+        trace_bytes=(folder / TRACE).stat().st_size,
+    )

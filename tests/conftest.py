@@ -1,0 +1,44 @@
+"""The command line as tests call it."""
+
+import io
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from handeye import cli
+
+Command = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Command:
+    """Runs `handeye` in an empty folder, `typed` into it: exit code, standard output, standard error."""
+    monkeypatch.chdir(tmp_path)
+    app = cli.app
+
+    def run(*words: str, typed: str = "") -> tuple[int, str, str]:
+        monkeypatch.setattr(cli, "app", partial(app, words))
+        monkeypatch.setattr("sys.stdin", io.StringIO(typed))
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        out, err = capsys.readouterr()
+        assert "Traceback" not in out + err
+        code = end.value.code
+        assert isinstance(code, int)
+        return code, out, err
+
+    return run
+
+
+@pytest.fixture
+def planned(command: Command) -> Callable[[str], str]:
+    """The plan file of a script."""
+
+    def plan(text: str) -> str:
+        Path("job.al").write_text(text, encoding="utf-8")
+        assert command("plan", "job.al")[0] == 0
+        return "job.plan.json"
+
+    return plan

@@ -1,0 +1,296 @@
+"""Stages, steps, breakpoints, interrupted runs and traces, as somebody at the command line meets them."""
+
+import json
+import resource
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Command
+
+from handeye.stepping.folder import open_again
+from handeye.trace.eventlist import effective, read_events
+from handeye.work.events import PanicStopped, StepStarted
+
+pytestmark = pytest.mark.slow
+
+Planned = Callable[[str], str]
+
+SCRIPT = """TRANS HERE_ [20 30 8 90 90 0]
+TRANS THERE [25 35 8 90 90 0]
+        STAGE   "to and fro"
+        OPEN    1
+TO:     MOVE    HERE_
+        MOVE    THERE
+        STAGE   "once more"
+        OPEN    2
+        MOVE    HERE_
+        STAGE   "feel"
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] .3
+        SKIPE   23
+        WAIT    "THERE IS SOMETHING"
+        OPEN    3
+"""
+
+
+def done(out: str) -> dict[str, str]:
+    """Status of each stage by the result on standard output."""
+    return {stage["name"]: stage["status"] for stage in json.loads(out)["stages"]}
+
+
+# -- stages -------------------------------------------------------------------------------------------
+
+
+def test_stages_are_listed_with_their_steps_and_lines(command: Command, planned: Planned) -> None:
+    code, out, _ = command("stages", planned(SCRIPT))
+    assert code == 0
+    assert [line.split() for line in out.splitlines() if "MOVE THERE" in line] == [
+        ["2", "line", "6", "MOVE", "THERE"]
+    ]
+
+
+def test_a_stage_alone_without_a_checkpoint_has_the_earlier_ones_carried_out_first_and_says_so(
+    command: Command, planned: Planned
+) -> None:
+    code, out, err = command("run", planned(SCRIPT), "--stage", "once", "--json")
+    assert (code, json.loads(out)["paused"]) == (0, True)
+    assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
+    assert "no checkpoint of “once more” with this plan and seed: carrying out what comes before it" in err
+
+
+def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    assert command("run", plan, "--out", "all")[0] == 0
+    code, out, err = command("run", plan, "--stage", "2", "--checkpoints", "all", "--out", "one", "--json")
+    assert (code, "no checkpoint" in err) == (0, False)
+    assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
+    alone, whole = (Path(place, "checkpoints", "0005-feel.checkpoint") for place in ("one", "all"))
+    assert alone.read_bytes() == whole.read_bytes()
+
+
+def test_checkpoints_made_on_the_way_are_there_the_next_time(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    assert "no checkpoint" in command("run", plan, "--stage", "3", "--checkpoints", "kept")[2]
+    assert "no checkpoint" not in command("run", plan, "--stage", "3", "--checkpoints", "kept")[2]
+
+
+def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    code, out, _ = command("run", plan, "--to", "to and fro", "--json")
+    assert (code, done(out)["once more"]) == (0, "not reached")
+    code, out, _ = command("run", plan, "--from", "feel", "--json")
+    assert (code, done(out)["feel"], json.loads(out)["completed"]) == (0, "done", True)
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("--stage", "onze"), "onze"),
+        (("--stage", "feel", "--to", "feel"), "--from and --to do not go with it"),
+        (("--until", "99"), "99"),
+        (("--break", "NOWHERE"), "NOWHERE"),
+        (("--break", "error:99"), "99"),
+        (("--on-stop", "sleep"), "sleep"),
+        (("--on-stop", "retry:x"), "retry:x"),
+    ],
+)
+def test_what_the_plan_does_not_have_ends_with_two(
+    command: Command, planned: Planned, words: tuple[str, ...], sentence: str
+) -> None:
+    code, out, err = command("run", planned(SCRIPT), *words)
+    assert (code, out) == (2, "")
+    assert sentence in err
+
+
+def test_checkpoints_of_another_plan_end_with_two(command: Command, planned: Planned) -> None:
+    assert command("run", planned(SCRIPT), "--out", "all")[0] == 0
+    other = planned(SCRIPT.replace("OPEN    3", "OPEN    4"))
+    code, _, err = command("run", other, "--stage", "2", "--checkpoints", "all")
+    assert code == 2
+    assert "is of another plan" in err
+
+
+# -- stopping and stepping ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [(("--until", "2"), 6), (("--break", "TO"), 5), (("--break", "8"), 8), (("--break", "once"), 8)],
+)
+def test_a_run_stops_where_it_is_told_to(
+    command: Command, planned: Planned, words: tuple[str, ...], line: int
+) -> None:
+    assert command("run", planned(SCRIPT), *words, "--out", "it")[0] == 0
+    started = [e.line for e in read_events(Path("it/events.jsonl")) if isinstance(e, StepStarted)]
+    assert max(started) < line
+    assert command("resume", "it", "--no-judge")[0] == 0
+    started = [e.line for e in effective(read_events(Path("it/events.jsonl"))) if isinstance(e, StepStarted)]
+    assert line in started
+
+
+def test_stepping_from_standard_input_answers_every_command(command: Command, planned: Planned) -> None:
+    code, out, _ = command("run", planned(SCRIPT), "--step", typed="step\nback\nwobble\ncontinue\nquit\n")
+    assert code == 0
+    assert "MOVE    HERE_" in out
+    assert "wobble" in out
+    assert "The program came to its end." in out
+
+
+def test_stepping_as_json_gives_one_object_a_line(command: Command, planned: Planned) -> None:
+    _, out, _ = command("run", planned(SCRIPT), "--step", "--json", typed="step\nshow\nstage\nquit\n")
+    replies = [json.loads(line) for line in out.splitlines()[:4]]
+    assert all(isinstance(reply, dict) for reply in replies)
+
+
+def test_a_stop_ends_with_one_and_can_be_tried_again(command: Command, planned: Planned) -> None:
+    plan = planned('STAGE "a"\nOPEN 1\nWAIT "HELP"\nOPEN 2\n')
+    assert command("run", plan, "--out", "it")[0] == 1
+    code, out, err = command("resume", "it", "--on-stop", "ask", "--no-judge", typed="p\n")
+    assert code == 0
+    assert "HELP" in out + err
+    assert "the operator chose: proceed" in out
+
+
+def test_each_stage_is_tried_again_as_often_as_told(command: Command, planned: Planned) -> None:
+    plan = planned('STAGE "a"\nOPEN 1\nWAIT "HELP"\nOPEN 2\n')
+    code, out, _ = command("run", plan, "--on-stop", "retry:2", "--json")
+    assert code == 1
+    assert len(json.loads(out)["interventions"]) == 2
+
+
+# -- breaking off -------------------------------------------------------------------------------------
+
+
+MANY = "        MOVE    HERE_\n        MOVE    THERE\n" * 4
+LONG = SCRIPT.replace('STAGE   "once more"', f'STAGE   "half way"\n{MANY}        STAGE   "once more"')
+"""Long enough to be broken off."""
+
+
+def started(plan: str, folder: str) -> "subprocess.Popen[str]":
+    """A run in a process of its own that has come half way."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "handeye", "run", plan, "--out", folder],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stderr is not None
+    for line in process.stderr:
+        if "half way" in line:
+            return process
+    raise AssertionError("it ended before it could be broken off")
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_a_run_broken_off_goes_on_as_if_nothing_had_happened(
+    command: Command, planned: Planned, number: signal.Signals
+) -> None:
+    plan = planned(LONG)
+    assert command("run", plan, "--out", "whole")[0] == 0
+    process = started(plan, "broken")
+    process.send_signal(number)
+    process.communicate()
+    assert process.returncode == (130 if number == signal.SIGINT else -signal.SIGKILL)
+    if number == signal.SIGINT:
+        assert isinstance(read_events(Path("broken/events.jsonl"))[-1], PanicStopped)
+    assert command("resume", "broken", "--no-judge")[0] == 0
+    assert Path("broken/trace.mcap").read_bytes() == Path("whole/trace.mcap").read_bytes()
+    assert effective(read_events(Path("broken/events.jsonl"))) == read_events(Path("whole/events.jsonl"))
+
+
+def test_a_disk_that_fills_up_loses_neither_checkpoints_nor_the_trace_so_far(
+    command: Command, planned: Planned
+) -> None:
+    """A limit on the size of files stands for the full disk."""
+    plan = planned(LONG)
+    assert command("run", plan, "--out", "whole")[0] == 0
+    room = Path("whole/trace.mcap").stat().st_size * 6 // 10
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "run", plan, "--out", "full"],
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, "Traceback" in done.stderr) == (2, False)
+    assert "trace.mcap.part cannot be written: File too large" in done.stderr
+    _, checkpoint = open_again(Path("full"))
+    assert checkpoint.snapshot is not None
+    code, out, err = command("trace", "show", "full")
+    assert code == 0
+    assert "was broken off" in err
+    assert "TO AND FRO" in out
+    assert command("resume", "full", "--no-judge")[0] == 0
+    assert Path("full/trace.mcap").read_bytes() == Path("whole/trace.mcap").read_bytes()
+
+
+DAMAGE: dict[str, Callable[[bytes], bytes]] = {
+    "cut short": lambda data: data[: len(data) // 2],
+    "empty": lambda _: b"",
+    "a bit flipped": lambda data: data[:-2000] + bytes([data[-2000] ^ 4]) + data[-1999:],
+    "something else": lambda _: b"hello",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a whole run."""
+    place = tmp_path_factory.mktemp("whole")
+    (place / "job.al").write_text(SCRIPT, encoding="utf-8")
+    for words in (("plan", "job.al"), ("run", "job.plan.json", "--out", "it")):
+        subprocess.run([sys.executable, "-m", "handeye", *words], cwd=place, capture_output=True, check=True)
+    return place / "it"
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+@pytest.mark.parametrize("name", ["trace.mcap", "0005-feel.checkpoint"])
+def test_a_damaged_file_ends_with_two_and_one_sentence(
+    command: Command, folder: Path, damage: str, name: str
+) -> None:
+    (whole,) = folder.rglob(name)
+    Path(name).write_bytes(DAMAGE[damage](whole.read_bytes()))
+    words = ("trace", "show", name) if name.endswith("mcap") else ("resume", name)
+    code, out, err = command(*words)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert [path.name for path in Path().iterdir()] == [name]
+
+
+# -- traces -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("what", ["", "trace.mcap", "events.jsonl"])
+def test_a_trace_tells_what_happened(command: Command, folder: Path, what: str) -> None:
+    code, out, _ = command("trace", "show", str(folder / what))
+    assert code == 0
+    assert "CHANGE  [0 0 -1] .3" in out
+    assert "error 23 occurred" in out
+
+
+def test_statistics_count_each_stage(command: Command, folder: Path) -> None:
+    code, out, _ = command("trace", "stats", str(folder), "--json")
+    stages = {stage["stage"]: stage for stage in json.loads(out)["stages"]}
+    assert code == 0
+    assert (stages["to and fro"]["motions"], stages["feel"]["errors"]) == (2, {"23": 1})
+
+
+def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
+    code, out, _ = command("trace", "verify", str(folder))
+    assert (code, "to the byte" in out) == (0, True)
+
+
+def test_a_run_with_experiments_and_an_operator_comes_out_the_same_again(
+    command: Command, planned: Planned
+) -> None:
+    plan = planned(
+        'TRANS T [20 30 8 90 90 0]\nSTAGE "a"\nMOVE T\nSAVE D\nWAIT "HELP"\nMOVE T\nRESTORE D\nSTAGE "b"\nOPEN 2\n'
+    )
+    typed = "step 2\nset saved D 0 0 -1\ncontinue\nproceed\ncontinue\nquit\n"
+    assert command("run", plan, "--step", "--out", "it", typed=typed)[0] == 0
+    code, out, _ = command("trace", "verify", "it")
+    assert (code, "to the byte" in out) == (0, True)

@@ -1,0 +1,101 @@
+"""The account says what happened and why, as somebody who knows the language would tell it."""
+
+from handeye.trace.account import account
+from handeye.work import events as happened
+from handeye.work.events import AnyEvent
+
+BEGUN = happened.RunStarted(
+    time=10.0, program="pins", steps=5, plan="0123456789abcdef", arm="Stanford", arm_digest="0" * 16,
+    seed=7, camera="ray casting", versions={"handeye": "0.1.0"},
+)  # fmt: skip
+
+
+def _step(time: float, line: int, text: str) -> AnyEvent:
+    return happened.StepStarted(time=time, step=line, line=line, text=text)
+
+
+def _ended(time: float, z: float, planned: float | None) -> AnyEvent:
+    goal = None if planned is None else (0.508, 0.254, planned)
+    return happened.StepFinished(time=time, step=0, hand=(0.508, 0.254, z), planned=goal, gap=0.0254)
+
+
+def test_an_account_of_a_stage() -> None:
+    events: list[AnyEvent] = [
+        BEGUN,
+        happened.StageStarted(time=10.0, stage="find the hole"),
+        _step(10.0, 12, "LOOK    WIDE"),
+        happened.CameraBusy(time=10.5, action="digitise", seconds=0.5),
+        happened.PictureTaken(time=10.5, picture="WIDE", lens=0.025),
+        _ended(10.5, 0.1, None),
+        _step(10.5, 14, "CHANGE  [0 0 -1] 0.6"),
+        happened.ErrorRaised(time=11.5, number=23, detail=""),
+        _ended(11.5, 0.08476, 0.08476),
+        _step(11.5, 15, "SKIPE   23"),
+        happened.ErrorTested(time=11.5, number=23, occurred=True),
+        _ended(11.5, 0.08476, None),
+        _step(11.5, 18, "CHANGE  [0 0 -1] 0.6"),
+        happened.GuardTripped(time=12.0, guard="force", value=17.8, limit=16.680831),
+        _ended(12.0, 0.0762, 0.06952),
+        happened.StageFinished(time=12.0, stage="find the hole", status="done"),
+        happened.RunFinished(time=12.0, completed=True),
+    ]
+    assert account(events) == [
+        "pins: 5 steps on the Stanford arm, the world of seed 7, pictures by ray casting",
+        "plan 0123456789abcdef; handeye 0.1.0",
+        "",
+        "FIND THE HOLE: done in 2.0 s, 0.5 s of it for the camera",
+        "    10.00    12  LOOK    WIDE",
+        "                    the camera digitised the picture: 0.5 s",
+        "                    picture WIDE, 25 mm lens",
+        "    10.50    14  CHANGE  [0 0 -1] 0.6",
+        "                    error 23: the motion ended without meeting the force it was to stop on",
+        "    11.50    15  SKIPE   23",
+        "                    error 23 occurred: on at line 18",
+        "    11.50    18  CHANGE  [0 0 -1] 0.6",
+        "                    stopped: the hand presses with 64.0 ounces, over 60.0",
+        "                    the hand is at (20.00, 10.00, 3.00) in, 0.26 in from where it was to end",
+        "",
+        "    12.00  the program came to its end",
+    ]
+
+
+def test_a_motion_to_a_goal_that_was_moved_is_measured_against_where_it_was_moved_to() -> None:
+    events: list[AnyEvent] = [
+        _step(10.0, 12, "MOVE    T"),
+        happened.Adjusted(time=10.0, goal="T", shift=(0.0, 0.0, 0.0127)),
+        _ended(11.0, 0.1127, 0.1),
+        _step(11.0, 13, "CHANGE  [0 0 1] 1"),
+        _ended(12.0, 0.1381, 0.1254),
+    ]
+    assert account(events) == [
+        "    10.00    12  MOVE    T",
+        "                    T is (0.000, 0.000, 0.500) in from where it was planned",
+        "    11.00    13  CHANGE  [0 0 1] 1",
+    ]
+
+
+def test_a_stop_and_what_the_operator_chose_stand_out() -> None:
+    events: list[AnyEvent] = [
+        happened.StageStarted(time=10.0, stage="find the hole"),
+        _step(10.0, 12, "CLOSE   .1"),
+        happened.ErrorRaised(time=11.0, number=2, detail="the gap is 0.02 in, the minimum 0.10 in"),
+        _ended(11.0, 0.1, None),
+        happened.OperatorCalled(time=11.1, message="nothing is held", error=2),
+        happened.OperatorAnswered(time=11.1, choice="retry", step=4),
+        happened.ExperimentMade(time=11.1, what="saved", name="H", value=(0.0254, 0.0, 0.0)),
+        happened.PanicStopped(time=11.2),
+        happened.StageFinished(time=11.2, stage="find the hole", status="stopped"),
+        happened.RunFinished(time=11.2, completed=False),
+    ]
+    assert account(events)[1:] == [
+        "FIND THE HOLE: stopped in 1.2 s",
+        "    10.00    12  CLOSE   .1",
+        "                    error 2: the fingers closed beyond the minimum gap: nothing, or too thin a thing, "
+        "is between them (the gap is 0.02 in, the minimum 0.10 in)",
+        "    11.10  *** brakes set, the operator is called: nothing is held (error 2)",
+        "    11.10  *** the operator chooses to try the stage again",
+        "    11.10  *** experiment: saved H is set to (1.000, 0.000, 0.000) in",
+        "    11.20  *** panic button: drives off, brakes set",
+        "",
+        "    11.20  the run ended before the program did",
+    ]

@@ -1,0 +1,70 @@
+"""Every event can be told in a sentence, in the units of the language."""
+
+import typing
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from handeye.trace.sentences import LEVELS, inches, sentence
+from handeye.work import events as happened
+from handeye.work.events import AnyEvent, Event
+
+KINDS = typing.get_args(AnyEvent)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@given(data=st.data())
+def test_every_event_has_a_sentence(kind: type[Event], data: st.DataObject) -> None:
+    assert isinstance(sentence(data.draw(st.from_type(kind))), str)
+
+
+def test_only_events_that_there_are_are_logged() -> None:
+    assert set(LEVELS) <= set(KINDS)
+
+
+@pytest.mark.parametrize(
+    ("event", "said"),
+    [
+        (
+            happened.GuardTripped(time=0.0, guard="force", value=17.8, limit=16.680831),
+            "stopped: the hand presses with 64.0 ounces, over 60.0",
+        ),
+        (
+            happened.GuardTripped(time=0.0, guard="against", value=17.8, limit=16.680831),
+            "stopped: the hand meets 64.0 ounces, over 60.0",
+        ),
+        (
+            happened.GuardTripped(time=0.0, guard="torque", value=0.372432, limit=0.296585),
+            "stopped: the driver holds 52.7 ounce-inches, over 42.0",
+        ),
+        (
+            happened.SearchAdvanced(time=0.0, count=2, offset=(0.001778, -0.001778)),
+            "the search goes on to its place 3, (0.07, -0.07) in from the first",
+        ),
+        (
+            happened.Restored(time=0.0, name="H", goal="T", difference=(0.0, 0.000127, -0.0000001)),
+            "H shifts T by (0.000, 0.005, 0.000) in",
+        ),
+        (
+            happened.PartSeen(time=0.0, part="BASE", x=1.0603406, y=0.7119221, yaw=1.2353517),
+            "BASE lies at (41.75, 28.03) in, turned 70.8 degrees",
+        ),
+        (
+            happened.ExperimentMade(
+                time=0.0, what="position", name="T", value=(0.0254, 0.0508, 0.0, 0.0, 1.5707963, 0.0)
+            ),
+            "experiment: position T is set to (1.000, 2.000, 0.000) in, angles 0.0 90.0 0.0",
+        ),
+        (
+            happened.WentBack(time=0.0, events=12, why="back"),
+            "back to event 12: what came after it is undone",
+        ),
+    ],
+)
+def test_a_sentence_speaks_the_units_of_the_language(event: Event, said: str) -> None:
+    assert sentence(event) == said
+
+
+def test_a_vector_has_no_negative_zero() -> None:
+    assert inches((-1e-9, 0.0254, -0.0254)) == "(0.00, 1.00, -1.00) in"

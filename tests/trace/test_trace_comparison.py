@@ -1,0 +1,75 @@
+"""Two traces are told apart by the first thing in which they differ."""
+
+from pathlib import Path
+
+import msgspec
+import pytest
+from recordings import EVENTS, Recording
+
+from handeye.trace.compare import first_difference
+from handeye.trace.reading import read_trace
+from handeye.trace.trace import Trace
+from handeye.work.events import Event
+
+
+def _changed(
+    path: Path, *, event: int = -1, tick: int = -1, last: int = len(EVENTS), **fields: object
+) -> Trace:
+    """A trace of the run in which fields of the event or servo period of that number are others."""
+    recording = Recording(path).begin()
+    events, ticks = iter(range(99)), iter(range(99))
+    write, sense = recording.recorder.event, recording.recorder.tick
+
+    def altered(happened: Event) -> None:
+        write(msgspec.structs.replace(happened, **fields) if next(events) == event else happened)
+
+    recording.recorder.event = altered  # type: ignore[method-assign]
+    recording.recorder.tick = lambda s, tau: sense(s, tau + (next(ticks) == tick))  # type: ignore[method-assign]
+    recording.play(last=last).close()
+    return read_trace(path)
+
+
+@pytest.fixture
+def whole(tmp_path: Path) -> Trace:
+    return _changed(tmp_path / "a.mcap")
+
+
+def test_a_trace_does_not_differ_from_one_of_the_same_run(tmp_path: Path, whole: Trace) -> None:
+    assert first_difference(whole, _changed(tmp_path / "b.mcap")) is None
+
+
+def test_how_a_trace_is_packed_makes_no_difference(
+    tmp_path: Path, whole: Trace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("handeye.trace.growing.CHUNK", 1000)
+    other = _changed(tmp_path / "b.mcap")
+    assert other.data != whole.data
+    assert first_difference(whole, other) is None
+
+
+def test_an_event_that_differs_is_named_with_what_is_different(tmp_path: Path, whole: Trace) -> None:
+    other = _changed(tmp_path / "b.mcap", event=3, value=9.5)
+    said = "event 4 differs: value of GuardTripped at 10.100 s is 9.0 in one, 9.5 in the other"
+    assert first_difference(whole, other) == said
+
+
+def test_a_servo_period_that_differs_is_named_with_what_happened_before(tmp_path: Path, whole: Trace) -> None:
+    other = _changed(tmp_path / "b.mcap", tick=7)
+    said = (
+        "/joint_states differs at 10.133 s, after event 4 "
+        "(stopped: the hand presses with 32.4 ounces, over 28.8)"
+    )
+    assert first_difference(whole, other) == said
+
+
+def test_a_trace_that_ends_before_the_other_is_named(tmp_path: Path, whole: Trace) -> None:
+    other = _changed(tmp_path / "b.mcap", last=5)
+    said = f"{other.name} ends and {whole.name} goes on after event 5 (the hand is at (3.94, 7.87, 11.81) in, open"
+    assert str(first_difference(whole, other)).startswith(said)
+    assert str(first_difference(other, whole)).startswith(said)
+
+
+def test_traces_can_be_compared_up_to_an_event(tmp_path: Path, whole: Trace) -> None:
+    other = _changed(tmp_path / "b.mcap", event=19, last=25, line=99)
+    assert first_difference(whole, other, events=19) is None
+    assert str(first_difference(whole, other, events=20)).startswith("event 20 differs: line of StepStarted")
