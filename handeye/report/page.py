@@ -16,8 +16,10 @@ _MARK = {
 
 
 def page(result: Result) -> RenderableType:
-    """Stages, timing table, findings of the referee, and the verdict."""
-    parts: list[RenderableType] = [stages(result), Text(), timing(result), camera(result)]
+    """Stages, timing table of a run that is over, findings of the referee, and the verdict."""
+    parts: list[RenderableType] = [stages(result)]
+    if not result.paused:
+        parts += [Text(), timing(result), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
     parts += [Text(f"by hand: {sentence}", "yellow") for sentence in result.interventions]

@@ -35,13 +35,13 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     """What there is to see.
 
     Args:
-        what: a topic, or the beginning of one; all but `positions` if empty.
+        what: topics, or their beginnings, one behind the other; all but `positions` if empty.
         pictures: folder that the last picture goes to as a file; None: nothing is written.
 
     Raises:
         InvalidInput: no such topic, or the picture cannot be written.
     """
-    names = [_topic(what)] if what else [name for name in TOPICS if name != "positions"]
+    names = [_topic(word) for word in what.split()] or [name for name in TOPICS if name != "positions"]
     fields: dict[str, Any] = {}
     for name in names:
         field, look = TOPICS[name]

@@ -112,22 +112,25 @@ def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
 
 
 def statistics_table(figures: Statistics) -> RenderableType:
-    """The figures for a terminal."""
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for name in ("stage", "status"):
-        table.add_column(name)
-    for name in ("time", "camera", "steps", "motions", "stops", "places", "pictures"):
-        table.add_column(name, justify="right")
-    table.add_column("errors")
+    """The figures for a terminal; times in simulated seconds."""
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
+    table.add_column("stage", no_wrap=True)
+    for name in ("time", "camera", "steps", "stops", "tries"):
+        table.add_column(name, justify="right", no_wrap=True)
+    table.add_column("errors", no_wrap=True)
     for stage in figures.stages:
-        table.add_row(stage.stage, stage.status, *_cells(stage))
-    table.add_row("all", "", *_cells(figures.total), style="bold")
+        ended = "" if stage.status == "done" else f" ({stage.status})"
+        table.add_row(stage.stage + ended, *_cells(stage))
+    table.add_row("all", *_cells(figures.total), style="bold")
     told = f"operator called: {figures.operator}; experiments: {figures.experiments}"
-    channels = ", ".join(f"{topic} {count}" for topic, count in sorted(figures.messages.items()))
-    return Group(table, Text(), Text(told), Text(f"messages: {channels}" if channels else ""))
+    parts: list[RenderableType] = [table, Text(), Text(told)]
+    if figures.messages:
+        channels = ", ".join(f"{topic} {count}" for topic, count in sorted(figures.messages.items()))
+        parts.append(Text(f"messages: {channels}"))
+    return Group(*parts)
 
 
 def _cells(figures: Figures) -> list[str]:
-    counts = (figures.steps, figures.motions, figures.guards, figures.places, figures.pictures)
+    counts = (figures.steps, figures.guards, figures.places)
     errors = ", ".join(f"{count} x {number}" for number, count in sorted(figures.errors.items()))
-    return [f"{figures.seconds:.1f} s", f"{figures.camera_s:.1f} s", *map(str, counts), errors]
+    return [f"{figures.seconds:.1f}", f"{figures.camera_s:.1f}", *map(str, counts), errors]
