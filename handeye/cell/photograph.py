@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.opengl import MOST_GEOMS, context
-from handeye.cell.truth import Truth
 from handeye.errors import InvalidInput
 
 LARGEST: Final = 4096
@@ -52,9 +51,9 @@ def photograph(
     return rgb[::-1]
 
 
-def photograph_png(truth: Truth, camera: str, width: int, height: int) -> bytes:
+def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
     """A photograph as PNG, drawn at twice the size and averaged. Raises as `photograph`."""
-    fine = photograph(truth.model, truth.data, camera=camera, width=2 * width, height=2 * height)
+    fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
     smooth = cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA)
     done, png = cv2.imencode(".png", smooth[:, :, ::-1])
     assert done

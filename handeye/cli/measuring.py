@@ -43,7 +43,7 @@ def render(
     from handeye.cell.simulated import SimulatedCell
 
     cell = SimulatedCell(World.sample(world(seed)), camera="ray")
-    write_whole(output, photograph_png(cell.truth, camera, width, height))
+    write_whole(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height))
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0
 

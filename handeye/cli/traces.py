@@ -10,6 +10,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, notes, screen
 from handeye.errors import InvalidInput
+from handeye.files import write_whole
 
 if TYPE_CHECKING:
     from handeye.trace.reading import Trace
@@ -21,7 +22,7 @@ File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the fol
 def register(app: App) -> None:
     """Add the commands to the command line."""
     trace = App(name="trace", help="Read the traces that runs leave.")
-    for command in (show, stats, verify):
+    for command in (show, stats, photograph, verify):
         trace.command(command)
     app.command(trace)
 
@@ -52,6 +53,34 @@ def stats(file: File, *, json: Json = False) -> int:
         sys.stdout.flush()
     else:
         screen.print(statistics_table(figures))
+    return 0
+
+
+def photograph(
+    file: File,
+    *,
+    at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` tells them.")],
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
+    camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
+    width: int = 1280,
+    height: int = 960,
+) -> int:
+    """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
+    from handeye.cell.imperfection import World
+    from handeye.cell.photograph import photograph_png
+    from handeye.cell.posed import posed
+    from handeye.trace.replay import Replay
+
+    trace, _ = _read(file)
+    if trace is None:
+        raise InvalidInput(
+            f"{file} is an event list, which does not say where things were; take the trace.mcap"
+        )
+    state = Replay(trace).seek(at)
+    model, data = posed(World.sample(trace.head.seed), state.poses)
+    write_whole(output, photograph_png(model, data, camera, width, height))
+    doing = "" if state.step is None else f", line {state.step.line}: {state.step.text}"
+    screen.print(f"{output}: {state.time:.2f} s{doing}", markup=False, soft_wrap=True)
     return 0
 
 
