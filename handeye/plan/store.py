@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.files import read_whole, write_whole
 from handeye.plan.plan import VERSION, Plan
 from handeye.plan.soundness import faults
 
@@ -83,11 +83,7 @@ def read_plan(path: Path) -> Plan:
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.
     """
-    try:
-        text = path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
-    return decode(text, str(path))
+    return decode(read_whole(path), str(path))
 
 
 def write_plan(path: Path, plan: Plan) -> None:
