@@ -19,7 +19,7 @@ Output = Annotated[
 
 def register(app: App) -> None:
     """Add the commands to the command line."""
-    for command in (inspect, schema):
+    for command in (inspect, diff, schema):
         app.command(command)
 
 
@@ -38,6 +38,23 @@ def inspect(file: Path, *, stage: StageName = None, json: Json = False) -> int:
         for line in inspection_text(inspection(plan), number):
             screen.print(line, markup=False, soft_wrap=True)
     return 0
+
+
+def diff(before: Path, after: Path, *, json: Json = False) -> int:
+    """Tell what a change in a script did: two plans are compared.
+
+    Exit code 0: both do the same; 1: they do not; 2: bad input.
+    """
+    from handeye.plan.difference import difference
+    from handeye.plan.difference_text import difference_text
+
+    found = difference(read_plan(before), read_plan(after))
+    if json:
+        _json(found)
+    else:
+        for line in difference_text(found):
+            screen.print(line, markup=False, soft_wrap=True)
+    return 0 if found.same else 1
 
 
 def schema(*, output: Output = None) -> int:
