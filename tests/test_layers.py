@@ -34,6 +34,8 @@ LAYERS = [
         "plan.difference",
         "plan.difference_text",
         "plan.flow",
+        "plan.columns",
+        "plan.layout",
         "plan.drawing",
         "work",
     },

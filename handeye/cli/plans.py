@@ -2,12 +2,13 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, screen
+from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.plan.store import read_plan
 
@@ -23,14 +24,28 @@ def register(app: App) -> None:
         app.command(command)
 
 
-def inspect(file: Path, *, stage: StageName = None, json: Json = False) -> int:
+def inspect(
+    file: Path,
+    *,
+    stage: StageName = None,
+    graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow instead.")] = None,
+    output: Output = None,
+    json: Json = False,
+) -> int:
     """Lay a plan open: stages, steps, times, guards, forces, and what each step depends on."""
+    from handeye.plan.drawing import flow_svg
+    from handeye.plan.flow import flow, flow_dot
     from handeye.plan.inspection import inspection, inspection_text
     from handeye.stepping.breakpoints import stage_number
 
     plan = read_plan(file)
     number = None if stage is None else stage_number(stage, plan) + 1
-    if json:
+    if graph is not None:
+        shown = flow(plan, number)
+        _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output)
+    elif output is not None:
+        raise InvalidInput("--output is for a drawing; say --graph svg or --graph dot")
+    elif json:
         found = inspection(plan)
         kept = tuple(s for s in found.stages if number in (None, s.number))
         _json(msgspec.structs.replace(found, stages=kept))
