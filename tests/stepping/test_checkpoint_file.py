@@ -186,5 +186,5 @@ def test_nothing_that_a_run_remembers_is_left_out() -> None:
 
 @pytest.mark.parametrize("path", ["/dev/zero", "/", "/nowhere"])
 def test_what_is_no_file_is_refused(path: str) -> None:
-    with pytest.raises(InvalidInput, match="is a device or a pipe|is a directory|there is no such file"):
+    with pytest.raises(InvalidInput, match=r"is a device or a pipe|is a directory|there is no such file"):
         read_checkpoint(Path(path))
