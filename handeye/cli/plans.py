@@ -38,6 +38,8 @@ def inspect(
     from handeye.plan.inspection import inspection, inspection_text
     from handeye.stepping.breakpoints import stage_number
 
+    if graph is not None and json:
+        raise InvalidInput("--graph and --json do not go together")
     plan = read_plan(file)
     number = None if stage is None else stage_number(stage, plan) + 1
     if graph is not None:

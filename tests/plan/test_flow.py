@@ -124,11 +124,11 @@ def test_inspect_draws_into_a_file_or_onto_standard_output(command: Command) -> 
     assert Path("pins.svg").read_text(encoding="utf-8").startswith("<svg ")
 
 
-def test_the_drawing_in_the_manual_is_the_one_that_is_made(pump: Plan) -> None:
-    drawn = Path(__file__).parents[2] / "docs/pictures/pins.svg"
-    assert drawn.read_text(encoding="utf-8") == flow_svg(flow(pump, 4))
-
-
 def test_an_output_without_a_drawing_is_refused(command: Command) -> None:
     code, _, err = command("inspect", PUMP, "-o", "x.txt")
     assert (code, err) == (2, "handeye: --output is for a drawing; say --graph svg or --graph dot\n")
+
+
+def test_a_drawing_as_json_is_refused(command: Command) -> None:
+    code, _, err = command("inspect", PUMP, "--graph", "svg", "--json")
+    assert (code, err) == (2, "handeye: --graph and --json do not go together\n")
