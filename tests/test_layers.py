@@ -13,6 +13,7 @@ LAYERS = [
         "plan.__init__",
         "plan.program",
         "plan.plan",
+        "plan.raises",
         "plan.soundness",
         "plan.store",
         "plan.world",

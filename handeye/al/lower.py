@@ -19,7 +19,17 @@ _WAY = {"FORCE": "press", "FREE": "give way"}
 """What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 
-def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[str, ...], tuple[Step, ...]]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lowered:
+    """What an expanded program has become."""
+
+    stages: tuple[str, ...]
+    steps: tuple[Step, ...]
+    origins: tuple[Statement, ...]
+    """The statement each step comes from."""
+
+
+def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
     """Stages and steps of an expanded program; worth something only if no error was reported."""
     lowering = _Lowering(report=report)
     for item in placed:
@@ -39,7 +49,8 @@ def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[st
         for draft, target in zip(drafts, targets, strict=True)
         if draft.operation is not None
     )
-    return tuple(lowering.stages), steps
+    origins = tuple(draft.statement for draft in drafts if draft.operation is not None)
+    return Lowered(stages=tuple(lowering.stages), steps=steps, origins=origins)
 
 
 @dataclass(slots=True)
