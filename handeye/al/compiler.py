@@ -9,6 +9,7 @@ from handeye.al.names import all_statements, check_names
 from handeye.al.operations import position
 from handeye.al.parser import parse
 from handeye.al.unused import check_unused
+from handeye.al.vectors import with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
 from handeye.plan.program import Program
 from handeye.plan.taught import Taught
@@ -25,7 +26,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if len(found) >= LIMIT:
         return None, arranged(found)
     found += check_names(script, taught)
-    lowered = lower(expand(script, found.append), source.text, found.append)
+    lowered = lower(expand(with_vectors(script), found.append), source.text, found.append)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to

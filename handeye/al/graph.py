@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
-from handeye.plan.program import Operation, Step, Test
+from handeye.plan.program import Countdown, Operation, Step, Test
 
 Condition = Callable[[Operation], bool]
 
@@ -64,6 +64,8 @@ class Graph:
 def _onward(step: Step) -> tuple[int | None, ...]:
     if isinstance(step.operation, Test):
         return step.next, step.operation.raised
+    if isinstance(step.operation, Countdown):
+        return step.next, step.operation.positive
     return (step.next,)
 
 

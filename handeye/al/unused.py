@@ -1,20 +1,25 @@
 """What is written and never used: labels, positions, macros."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from handeye.al.instructions import Refers
 from handeye.al.names import all_statements, pairs
 from handeye.al.syntax import Name, Script, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
 
-_PLACES = (Refers.POSITION, Refers.TARGET)
+_WRITTEN = {
+    "TRANS": ("position", (Refers.POSITION, Refers.TARGET)),
+    "VECT": ("vector", (Refers.VECTOR,)),
+}
+"""What an instruction declares, and as what it is used."""
 
 
 def check_unused(script: Script) -> Iterator[Diagnostic]:
     """A warning for each; of a script without mistakes. Taught positions may be there for another script."""
     statements = list(all_statements(script))
     yield from _labels(statements)
-    yield from _positions(statements)
+    for op, (what, refers) in _WRITTEN.items():
+        yield from _declared(statements, op, what, refers)
     called = {statement.word.text for statement in statements if statement.word is not None}
     for name, macro in script.macros.items():
         if name not in called:
@@ -30,15 +35,16 @@ def _labels(statements: list[Statement]) -> Iterator[Diagnostic]:
                 yield _unused("unused-label", label, message)
 
 
-def _positions(statements: list[Statement]) -> Iterator[Diagnostic]:
-    used = {name.text for name, refers in _named(statements) if refers in _PLACES}
+def _declared(
+    statements: list[Statement], op: str, what: str, as_: Collection[Refers]
+) -> Iterator[Diagnostic]:
+    used = {name.text for name, refers in _named(statements) if refers in as_}
     used |= {s.word.text for s in statements if s.word is not None and s.word.text == "PARK"}
     for statement in statements:
-        if statement.word is not None and statement.word.text == "TRANS":
+        if statement.word is not None and statement.word.text == op:
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in used:
-                message = f"position {quoted(name.text)} is written and never used"
-                yield _unused("unused-position", name, message)
+                yield _unused(f"unused-{what}", name, f"{what} {quoted(name.text)} is written and never used")
 
 
 def _named(statements: list[Statement]) -> Iterator[tuple[Name, Refers]]:

@@ -120,6 +120,23 @@ class Test(Operation, frozen=True, kw_only=True):
     raised: int | None
 
 
+class Assign(Operation, frozen=True, kw_only=True):
+    """Set a counter."""
+
+    counter: str
+    value: int
+
+
+class Countdown(Operation, frozen=True, kw_only=True):
+    """Subtract one from a counter (SOJG).
+
+    `positive`: next step while it is still positive (None ends the program); otherwise the step's `next`.
+    """
+
+    counter: str
+    positive: int | None
+
+
 class Jump(Operation, frozen=True, kw_only=True):
     """Go on elsewhere (the step's `next`)."""
 
@@ -202,8 +219,8 @@ class Inspect(Operation, frozen=True, kw_only=True):
 
 
 AnyOperation = (
-    Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Jump | Save | Wait | Load
-    | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
+    Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Assign | Countdown | Jump | Save
+    | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
 )  # fmt: skip
 
 ACTIONS = (

@@ -117,6 +117,12 @@ class Executor:
         if isinstance(operation, op.Save):
             self._save(operation)
             return step.next
+        if isinstance(operation, op.Assign):
+            run.counters[operation.counter] = operation.value
+            return step.next
+        if isinstance(operation, op.Countdown):
+            left = run.counters[operation.counter] = run.counters.get(operation.counter, 0) - 1
+            return operation.positive if left > 0 else step.next
         if isinstance(operation, op.ACTIONS) and not isinstance(operation, op.Travel):
             run.finger_line = None
         if isinstance(operation, op.Move):
