@@ -21,7 +21,7 @@ class Code:
     severity: Severity
     meaning: str
     example: str
-    phase: Literal["language", "planning"] = "language"
+    phase: Literal["language", "planning", "strict"] = "language"
 
 
 def _error(meaning: str, example: str) -> Code:
@@ -45,6 +45,12 @@ CODES: Final[dict[str, Code]] = {
     ),
     "error-never-raised": _warning(
         "a test asks for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
+    ),
+    "extension-used": Code(
+        severity="error",
+        meaning="a word or an operand is ours, and the language was to be that of the seventies",
+        example="LOAD 4",
+        phase="strict",
     ),
     "hand-through-table": _planning("part of the hand would be below the table top", "MOVE LOW"),
     "idle-loop": _warning("nothing leads out of a loop, and nothing moves in it", "PARK\nL: JUMP L"),
