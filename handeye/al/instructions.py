@@ -385,6 +385,9 @@ _TABLE = (
         operands=(_name("name", Refers.NEW),),
     ),
     Instruction(
+        op="WHERE", group=PLACES, help="tell where the hand is, as `TRANS` would write it: inches and degrees"
+    ),
+    Instruction(
         op="TRAVEL",
         group=PLACES,
         help="check how far (in) the last motion went; error 8 outside the range",

@@ -151,6 +151,10 @@ class Save(Operation, frozen=True, kw_only=True):
     name: str
 
 
+class Where(Operation, frozen=True, kw_only=True):
+    """Tell where the hand is."""
+
+
 class Wait(Operation, frozen=True, kw_only=True):
     """Stop, set the brakes, tell the operator."""
 
@@ -220,7 +224,7 @@ class Inspect(Operation, frozen=True, kw_only=True):
 
 AnyOperation = (
     Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Assign | Countdown | Jump | Save
-    | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
+    | Where | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
 )  # fmt: skip
 
 ACTIONS = (

@@ -1,10 +1,13 @@
 """The listing of 1977 carried out: counting its tries at the pin, feeling for the hole, placing."""
 
+import numpy as np
 import pytest
 from bench import SEATED, TAUGHT, at_standard, bench, shifted
 
 from handeye.errors import NO_FORCE, NOTHING_HELD
 from handeye.plan.program import Position
+from handeye.units import DEGREE, INCH
+from handeye.work.events import HandTold
 from handeye.work.memory import recall, remember
 
 pytestmark = pytest.mark.slow
@@ -56,6 +59,13 @@ def test_pin_that_is_not_there_is_tried_for_twice_and_the_operator_called() -> N
 def test_place_sets_the_hand_down_on_what_it_meets() -> None:
     run = bench("MOVE HOLE\nPLACE\nPARK", positions=picking(0.0), lay=at_standard()).to("PARK")
     assert run.errors == []
+
+
+def test_where_tells_what_trans_would_write() -> None:
+    run = bench("TRANS TILTED [25 38 6 90 60 20]\nMOVE TILTED\nWHERE").go()
+    (told,) = run.all(HandTold)
+    assert np.array(told.at[:3]) / INCH == pytest.approx((25, 38, 6), abs=0.1)
+    assert np.array(told.at[3:]) / DEGREE == pytest.approx((90, 60, 20), abs=1)
 
 
 def test_counters_are_remembered_with_the_rest() -> None:
