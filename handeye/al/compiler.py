@@ -30,7 +30,9 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
-        found += [*check_flow(lowered.steps, lowered.origins), *check_unused(script)]
+        found += check_flow(lowered.steps, lowered.origins)
+        lost = {source.position(d.primary.span.start)[0] for d in found if d.code == "unreachable-code"}
+        found += [d for d in check_unused(script) if source.position(d.primary.span.start)[0] not in lost]
     if has_errors(found):
         return None, arranged(found)
     written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]

@@ -335,7 +335,7 @@ _TABLE = (
         operands=(
             _name("counter", Refers.NEW),
             Operand(
-                name="n",
+                name="value",
                 takes=(Number,),
                 units=(ONE,),
                 low=0,

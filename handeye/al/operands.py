@@ -234,7 +234,8 @@ class _Reader:
         return Mistake("unterminated-string", "the string has no closing quote", start, "it begins here")
 
     def usage(self) -> str:
-        return f"usage: `{self.definition.usage}`"
+        counted = f" or `{self.definition.op} 2 X Y`" if self.definition.axes else ""
+        return f"usage: `{self.definition.usage}`{counted}"
 
 
 def _number(token: Token) -> float:

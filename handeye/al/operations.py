@@ -136,7 +136,7 @@ _STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
     "SKIPE": lambda o: p.Test(number=int(o.number("error")), raised=None),
     "SKIPN": lambda o: p.Test(number=int(o.number("error")), raised=None),
     "AOJ": lambda _: p.Advance(),
-    "ASSIGN": lambda o: p.Assign(counter=o.name("counter"), value=int(o.number("n"))),
+    "ASSIGN": lambda o: p.Assign(counter=o.name("counter"), value=int(o.number("value"))),
     "SOJG": lambda o: p.Countdown(counter=o.name("counter"), positive=None),
     "JUMP": lambda _: p.Jump(),
     "WAIT": lambda o: p.Wait(message=o.name("text")),

@@ -105,6 +105,10 @@ def test_code_nothing_leads_to_is_reported_once_a_stretch() -> None:
     assert codes("JUMP L\nOPEN 1\nSEARCH .1\nMOVE T\nSKIPE 2\nL: PARK") == ["unreachable-code"]
 
 
+def test_label_of_code_nothing_leads_to_is_not_told_as_well() -> None:
+    assert codes("JUMP B\nA: PARK\nB: OPEN 1") == ["unreachable-code"]
+
+
 def test_macro_is_at_fault_only_if_every_call_is() -> None:
     macro = "DEFINE SEEN\nSKIPE 2\nWAIT NO\n\n"
     assert codes(macro + "CLOSE .1\nSEEN\nPARK\nSEEN\nPARK") == []
