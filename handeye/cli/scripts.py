@@ -7,9 +7,9 @@ from typing import Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.al import compile_text
+from handeye.al import compile_text, extensions
 from handeye.cli.common import compiled, screen, show, taught
-from handeye.diagnostics import has_errors
+from handeye.diagnostics import arranged, has_errors
 from handeye.plan.store import read_plan, write_plan
 from handeye.source import read_source
 
@@ -20,7 +20,14 @@ def register(app: App) -> None:
         app.command(command)
 
 
-def check(file: Path, *, json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False) -> int:
+def check(
+    file: Path,
+    *,
+    json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
+    strict: Annotated[
+        bool, Parameter(name="--strict-1973", negative="", help="Refuse words and operands that are ours.")
+    ] = False,
+) -> int:
     """Check a script and its taught positions, the arm's reach included; nothing moves."""
     from handeye.arm.stanford import STANFORD
     from handeye.plan.planner import make_plan
@@ -29,6 +36,8 @@ def check(file: Path, *, json: Annotated[bool, Parameter(help="Diagnostics as JS
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
         diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
+    if strict:
+        diagnostics = arranged([*diagnostics, *extensions(source.text)])
     show(diagnostics, source, json=json)
     if has_errors(diagnostics):
         return 2
