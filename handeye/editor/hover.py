@@ -91,7 +91,9 @@ def _about_value(definition: Instruction, place: Place) -> str | None:
     vector = Vector in operand.takes and (Number not in operand.takes or place.component > 0)
     units = operand.units
     unit = units[place.component] if vector and place.component < len(units) else units[0] if units else None
-    return f"{operand.name}: {in_both_units(value, unit)}" if unit is not None else None
+    letters = operand.name.strip("[]").split() if operand.name.startswith("[") else [operand.name]
+    name = letters[place.component] if len(letters) == len(units) else operand.name
+    return f"{name}: {in_both_units(value, unit)}" if unit is not None else None
 
 
 def in_both_units(value: float, unit: Unit) -> str:

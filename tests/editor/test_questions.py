@@ -75,8 +75,8 @@ def test_an_instruction_tells_its_usage_and_what_it_does(op: str) -> None:
         ("TURN T |90", "angle: 90 degrees = 1.571 rad"),
         ("TOOL |60", "speed: 60 rpm = 6.283 rad/s"),
         ("LENS |25", "mm: 25 mm = 0.9843 in"),
-        ("TRANS X [1 2 3 0 |90 0]", "[x y z o a t]: 90 degrees = 1.571 rad"),
-        ("TRANS X [|1 2 3 0 90 0]", "[x y z o a t]: 1 in = 25.4 mm"),
+        ("TRANS X [1 2 3 0 |90 0]", "a: 90 degrees = 1.571 rad"),
+        ("TRANS X [|1 2 3 0 90 0]", "x: 1 in = 25.4 mm"),
     ],
 )
 def test_a_number_is_told_in_both_systems_of_units(marked: str, text: str) -> None:

@@ -21,8 +21,8 @@ FAR = { at = [200.0, 38.0, 4.0, 90, 90, 0] }
 SCRIPT = """\
         STAGE   "look 🔭"
         PARK
-L1:     MOVE    HOLE
         JUMP    L1
+L1:     MOVE    HOLE
 """
 
 
@@ -86,15 +86,15 @@ def folder(tmp_path: Path) -> Path:
 def test_diagnostics_come_as_one_types_and_the_planner_s_after_a_pause(folder: Path) -> None:
     async def conversation(client: Client) -> None:
         assert await client.open(SCRIPT) == []
-        assert [d.code for d in await client.type(2, 16, 20, "HOLLE")] == ["unknown-position"]
-        assert await client.type(2, 16, 21, "FAR") == []
+        assert [d.code for d in await client.type(3, 16, 20, "HOLLE")] == ["unknown-position"]
+        assert await client.type(3, 16, 21, "FAR") == []
         (far,) = await client.diagnostics()
         assert (far.code, far.range.start, far.range.end) == (
             "unreachable-position",
-            lsp.Position(2, 16),
-            lsp.Position(2, 19),
+            lsp.Position(3, 16),
+            lsp.Position(3, 19),
         )
-        assert await client.type(2, 16, 19, "HOLE") == []
+        assert await client.type(3, 16, 19, "HOLE") == []
 
     talk(folder, conversation)
 
@@ -117,7 +117,7 @@ def test_a_taught_file_that_cannot_be_used_is_one_diagnostic(folder: Path) -> No
 def test_every_question_an_editor_asks_is_answered(folder: Path) -> None:
     async def conversation(client: Client) -> None:
         await client.open(SCRIPT)
-        document, at = client.document, lsp.Position(2, 17)
+        document, at = client.document, lsp.Position(3, 17)
         hover = await client.text_document_hover_async(lsp.HoverParams(document, at))
         assert hover is not None
         assert "position `HOLE`" in str(hover.contents)
@@ -132,14 +132,14 @@ def test_every_question_an_editor_asks_is_answered(folder: Path) -> None:
             lsp.ReferenceParams(
                 context=lsp.ReferenceContext(include_declaration=False),
                 text_document=document,
-                position=lsp.Position(3, 16),
+                position=lsp.Position(2, 16),
             )
         )
-        assert list(used or ()) == [lsp.Location(document.uri, span(3, 16, 18))]
+        assert list(used or ()) == [lsp.Location(document.uri, span(2, 16, 18))]
         renamed = await client.text_document_rename_async(lsp.RenameParams(document, at, "BORE"))
         assert renamed is not None
         assert changes(renamed) == {
-            document.uri: [lsp.TextEdit(span(2, 16, 20), "BORE")],
+            document.uri: [lsp.TextEdit(span(3, 16, 20), "BORE")],
             client.taught.as_uri(): [lsp.TextEdit(span(2, 0, 4), "BORE")],
         }
         symbols = await client.text_document_document_symbol_async(lsp.DocumentSymbolParams(document))
