@@ -7,7 +7,7 @@ from typing import Final
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.diagnostics import quoted
 from handeye.editor.document import Document
-from handeye.editor.occurrences import LABEL, MACRO, PART, POSITION, Occurrence, same
+from handeye.editor.occurrences import LABEL, MACRO, PARK, PART, POSITION, Occurrence, same
 from handeye.errors import InvalidInput
 from handeye.source import Span
 
@@ -55,7 +55,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
     if name is None:
         raise InvalidInput("there is no name here")
     places = [occurrence for occurrence, _ in _all(document, name)]
-    if any(place.fixed for place in places):
+    if any(place.fixed for place in places) or (name.kind, name.name) == (POSITION, PARK):
         raise InvalidInput(f"{quoted(name.name)} is a word of the language")
     if not any(place.makes for place in places):
         where = "in the taught file" if _is_taught(document, name) else "anywhere"

@@ -1,6 +1,7 @@
 """The language server, driven over its standard input and output by a client."""
 
 import asyncio
+import subprocess
 import sys
 from collections.abc import Awaitable, Callable
 from pathlib import Path
@@ -52,7 +53,10 @@ class Client(LanguageClient):
         return await self.diagnostics()
 
     async def diagnostics(self) -> list[lsp.Diagnostic]:
-        return list((await self.published.get()).diagnostics)
+        """The next that are about the text as it is now."""
+        while (published := await self.published.get()).version != self.version:
+            pass
+        return list(published.diagnostics)
 
 
 def talk(folder: Path, conversation: Callable[[Client], Awaitable[None]]) -> None:
@@ -183,6 +187,14 @@ def test_a_word_of_the_language_cannot_be_renamed(folder: Path) -> None:
             await client.text_document_rename_async(rename)
 
     talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_the_server_ends_quietly_when_its_client_has_gone() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "lsp"], input=b"", capture_output=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
 
 
 def span(line: int, start: int, end: int) -> lsp.Range:
