@@ -1,5 +1,6 @@
 """What an editor asks, answered by the functions on a document."""
 
+import asyncio
 from collections.abc import Callable
 from typing import Any, Final
 
@@ -54,9 +55,8 @@ async def _changed(server: ArmServer, params: lsp.DidChangeTextDocumentParams) -
 
 
 async def _files_changed(server: ArmServer, _: lsp.DidChangeWatchedFilesParams) -> None:
-    for uri in list(server.workspace.text_documents):
-        if uri.endswith(".al"):
-            await server.check(uri)
+    scripts = [uri for uri in server.workspace.text_documents if uri.endswith(".al")]
+    await asyncio.gather(*map(server.check, scripts))
 
 
 def _closed(server: ArmServer, params: lsp.DidCloseTextDocumentParams) -> None:

@@ -6,6 +6,9 @@ from handeye.al.compiler import compile_text
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.diagnostics import CODES, Diagnostic, quoted, render, suggestion
 from handeye.editor.checking import planning
+from handeye.editor.document import Document
+from handeye.editor.fix import cured
+from handeye.editor.fixes import fixes
 from handeye.errors import ERRORS, InvalidInput
 from handeye.plan.program import Part, Position
 from handeye.plan.taught import Taught
@@ -76,6 +79,10 @@ def _code(code: str) -> str:
     source, diagnostic = example(code)
     if diagnostic is not None:
         out += ["gives", "", *(f"    {line}".rstrip() for line in render(diagnostic, source).split("\n")), ""]
+        cures = fixes(Document(source=source, taught=SAMPLE), diagnostic)
+        if cures:
+            becomes = cured(source.text, cures[0]).rstrip("\n").split("\n")
+            out += [f"cure: {cures[0].title}", "", *(f"    {line}".rstrip() for line in _shortened(becomes))]
     return "\n".join(out).rstrip()
 
 

@@ -20,6 +20,13 @@ class Fix:
     edits: tuple[Edit, ...]
 
 
+def cured(text: str, fix: Fix) -> str:
+    """The text of a script after a cure."""
+    for edit in sorted(fix.edits, key=lambda edit: edit.span, reverse=True):
+        text = text[: edit.span.start] + edit.text + text[edit.span.end :]
+    return text
+
+
 def replace(span: Span, text: str, title: str) -> Fix:
     """One place is written otherwise."""
     return Fix(title=title, edits=(Edit(span=span, text=text),))

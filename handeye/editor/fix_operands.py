@@ -37,9 +37,9 @@ def close_vector(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
         return
     numbers = [p for p in places(definition, tokens[1:]) if p.token.start > diagnostic.primary.span.start]
     operand = numbers[0].operand if numbers else None
-    if operand is not None:
-        inside = numbers[: len(operand.units)]
-        yield insert(inside[-1].token.end, "]", "close the vector")
+    if operand is not None and operand.units:
+        last = numbers[: len(operand.units)][-1]
+        yield insert(last.token.end, "]", "close the vector")
 
 
 def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

@@ -10,7 +10,7 @@ from conftest import Command
 from handeye.al import INSTRUCTIONS
 from handeye.cli.scripts import watched
 from handeye.diagnostics import CODES
-from handeye.editor.explain import example
+from handeye.editor.explain import example, explanation
 from handeye.errors import ERRORS, InvalidInput
 
 UNTIDY = "l1: open   1 ;wide\n"
@@ -74,6 +74,13 @@ def test_explain_tells_meaning_and_example_of_every_code(command: Command, code:
 def test_explain_shows_what_an_example_gets(code: str) -> None:
     _, diagnostic = example(code)
     assert diagnostic is not None
+
+
+def test_explain_shows_the_cure_and_what_the_example_becomes() -> None:
+    text = explanation("label-splits-modifier")
+    assert text.endswith(
+        "cure: put the label before `STOP`\n\n    L:\n    STOP 50\n       MOVE T\n    JUMP L"
+    )
 
 
 @pytest.mark.parametrize("number", ERRORS)

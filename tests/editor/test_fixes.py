@@ -80,3 +80,4 @@ def test_several_choices_are_offered_when_none_is_near() -> None:
 def test_what_has_no_known_cure_gets_none() -> None:
     assert cures("L: OPEN 1\nL: OPEN 2") == []
     assert cures("CHANGE [0 0 0] 1") == []
+    assert cures("SPECIFIC [ .5") == []
