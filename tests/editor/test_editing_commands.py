@@ -83,6 +83,12 @@ def test_explain_shows_the_cure_and_what_the_example_becomes() -> None:
     )
 
 
+def test_what_the_manual_shows_of_explain_is_what_it_says() -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "editors.md").read_text(encoding="utf-8")
+    command, shown = manual.split("```\n$ handeye explain ")[1].split("```")[0].split("\n", 1)
+    assert shown.rstrip("\n") == explanation(command)
+
+
 @pytest.mark.parametrize("number", ERRORS)
 def test_explain_tells_what_an_error_number_means(command: Command, number: int) -> None:
     assert command("explain", str(number)) == (0, f"error {number}: {ERRORS[number]}\n", "")
