@@ -1,10 +1,37 @@
-"""Files are written whole or not at all."""
+"""Files are read if they are files of a sensible size, and written whole or not at all."""
 
 import os
 import tempfile
 from pathlib import Path
+from typing import Final
 
 from handeye.errors import InvalidInput
+
+LARGEST: Final = 1 << 30
+"""Bytes: a hundred times what the trace of a whole run takes."""
+
+
+def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
+    """What is in a file.
+
+    Raises:
+        InvalidInput: no such file, a directory, a device, larger than `largest`, or unreadable.
+    """
+    file = Path(path)
+    try:
+        if not file.exists():
+            raise InvalidInput(f"{path}: there is no such file")
+        if file.is_dir():
+            raise InvalidInput(f"{path} is a directory, not a file")
+        if not file.is_file():
+            raise InvalidInput(f"{path} is a device or a pipe, not a file")
+        size = file.stat().st_size
+        if size > largest:
+            raise InvalidInput(f"{path} has {size} bytes; {largest} are the most that is read")
+        return file.read_bytes()
+    except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InvalidInput(f"{path} cannot be read: {reason}") from None
 
 
 def write_whole(path: Path, data: bytes) -> None:

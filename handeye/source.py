@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.errors import InvalidInput
+from handeye.files import read_whole
 
 LARGEST: Final = 4_000_000
 """Bytes of the largest file taken for a text; a program of the period has a few thousand."""
@@ -57,22 +58,11 @@ def read_source(path: str | Path) -> Source:
     Raises:
         InvalidInput: no such file, a directory, unreadable, too large, or not UTF-8 (with the byte's offset).
     """
-    file = Path(path)
+    data = read_whole(path, LARGEST)
     try:
-        if not file.exists():
-            raise InvalidInput(f"{path}: there is no such file")
-        if file.is_dir():
-            raise InvalidInput(f"{path} is a directory, not a file")
-        if not file.is_file():
-            raise InvalidInput(f"{path} is a device or a pipe, not a file")
-        if file.stat().st_size > LARGEST:
-            raise InvalidInput(f"{path} has {file.stat().st_size} bytes; a text has at most {LARGEST}")
-        return Source(name=str(path), text=file.read_bytes().decode("utf-8-sig"))
+        return Source(name=str(path), text=data.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         # `utf-8-sig` counts from behind a byte order mark, if there is one.
         byte = error.object[error.start]
-        offset = error.start + len(file.read_bytes()) - len(error.object)
+        offset = error.start + len(data) - len(error.object)
         raise InvalidInput(f"{path} is not UTF-8 text: byte {offset} is 0x{byte:02x}") from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InvalidInput(f"{path} cannot be read: {reason}") from None

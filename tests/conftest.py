@@ -1,4 +1,4 @@
-"""The command line as tests call it."""
+"""The command line as tests call it, and what property tests have in common."""
 
 import io
 from collections.abc import Callable
@@ -6,8 +6,12 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 from handeye import cli
+
+settings.register_profile("handeye", deadline=None)  # no claim here is about a clock
+settings.load_profile("handeye")
 
 Command = Callable[..., tuple[int, str, str]]
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from handeye.cli.common import notes, screen
 from handeye.cli.panic import PanicButton
+from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.judge.referee import judge
 from handeye.report.page import page
@@ -61,7 +62,10 @@ class _KeepStages(Observer):
     """Keeps the states at the beginning of stages in a folder."""
 
     def __init__(self, folder: Path) -> None:
-        folder.mkdir(parents=True, exist_ok=True)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
         self._kept = Kept(folder)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:

@@ -10,7 +10,8 @@ from typing import Any
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.files import read_whole, write_whole
+from handeye.plan.migrations import migrated, oldest
 from handeye.plan.plan import VERSION, Plan
 from handeye.plan.soundness import faults
 
@@ -50,7 +51,7 @@ def _separated(lines: list[str]) -> list[str]:
 
 
 def decode(text: str | bytes, name: str) -> Plan:
-    """The plan in a text.
+    """The plan in a text, brought to the present version if it is older.
 
     Raises:
         InvalidInput: not a plan, cut short, of a newer version, or not sound.
@@ -62,14 +63,18 @@ def decode(text: str | bytes, name: str) -> Plan:
     if not isinstance(head, dict) or head.get("format") != "handeye plan":
         raise InvalidInput(f'{name} is not a plan: it does not say "format": "handeye plan"')
     version = head.get("version")
-    if not isinstance(version, int) or version < 1:
+    if not isinstance(version, int) or version < oldest():
         raise InvalidInput(f"{name} does not say which version of the plan format it has")
     if version > VERSION:
         raise InvalidInput(
             f"{name} has plan format version {version}; this handeye reads up to version {VERSION}"
         )
     try:
-        plan = msgspec.json.decode(text, type=Plan)
+        plan = (
+            msgspec.json.decode(text, type=Plan)
+            if version == VERSION
+            else msgspec.convert(migrated(head, version, name), Plan, str_keys=True)
+        )
     except msgspec.DecodeError as error:
         raise InvalidInput(f"{name} is not a sound plan: {error}") from None
     for fault in faults(plan):
@@ -83,11 +88,7 @@ def read_plan(path: Path) -> Plan:
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.
     """
-    try:
-        text = path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
-    return decode(text, str(path))
+    return decode(read_whole(path), str(path))
 
 
 def write_plan(path: Path, plan: Plan) -> None:

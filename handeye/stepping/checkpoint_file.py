@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 
 from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.files import read_whole, write_whole
 from handeye.plan.program import Record
 from handeye.plan.store import decode as decode_plan
 from handeye.plan.store import encode as encode_plan
@@ -135,7 +135,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.
     """
-    return decode(_bytes(path), str(path))
+    return decode(read_whole(path), str(path))
 
 
 def read_head(path: Path) -> Head:
@@ -144,19 +144,12 @@ def read_head(path: Path) -> Head:
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.
     """
-    return decode_head(_bytes(path), str(path))
+    return decode_head(read_whole(path), str(path))
 
 
 def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
     """Write a checkpoint, whole or not at all."""
     write_whole(path, encode(checkpoint))
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
 
 
 def _opened(data: bytes, name: str) -> tuple[Head, bytes]:

@@ -101,7 +101,9 @@ class RunFolder(Observer):
             self._recorder.close()
 
     def discard(self) -> None:
-        """Remove what `open_new` has made, if it is still empty but for the plan and the start."""
+        """Remove what `open_new` has made, if the run has not begun."""
+        if self._runner is not None:
+            return
         for path in (self.path / PLAN, self.path / CHECKPOINTS / "start.checkpoint"):
             path.unlink(missing_ok=True)
         for folder in self._made:

@@ -6,6 +6,7 @@ from pathlib import Path
 import msgspec
 
 from handeye.errors import InvalidInput
+from handeye.files import read_whole
 from handeye.work.events import AnyEvent, WentBack
 
 _decode = msgspec.json.Decoder(AnyEvent).decode
@@ -17,10 +18,7 @@ def read_events(path: Path) -> list[AnyEvent]:
     Raises:
         InvalidInput: it cannot be read, or one of its lines is cut short or not an event.
     """
-    try:
-        text = path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
+    text = read_whole(path)
     events = []
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         if not line.endswith(b"\n"):

@@ -6,6 +6,7 @@ from pathlib import Path
 import msgspec
 
 from handeye.errors import InvalidInput
+from handeye.files import read_whole
 from handeye.plan.store import decode, plan_digest
 from handeye.trace.channels import EVENTS, FORMAT, VERSION
 from handeye.trace.records import Unsound, check, front, is_mcap, read_messages
@@ -26,10 +27,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
     Raises:
         InvalidInput: it cannot be read; not a trace, of a newer version, cut short, damaged, or its plan is another's.
     """
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{path} cannot be read: {error.strerror}") from None
+    data = read_whole(path)
     try:
         plan = _identify(path, data)
         if not lenient:

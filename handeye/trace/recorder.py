@@ -5,6 +5,7 @@ from pathlib import Path
 
 from handeye.cell.ports import Picture, Sensed
 from handeye.errors import InvalidInput
+from handeye.files import read_whole
 from handeye.pose import Array
 from handeye.trace.continuing import known, until
 from handeye.trace.frames import Frames, Mask
@@ -74,7 +75,7 @@ class Recorder:
             InvalidInput: it cannot be written; what was there is still there.
         """
         prefix = prefix[:events]
-        left = [_bytes(file) for file in (part(path), path) if file.exists()]
+        left = [read_whole(file) for file in (part(path), path) if file.exists()]
         old = max(left, key=lambda data: known(data, prefix), default=b"")
         recorder = cls(path, frames, picture, plan, old=old, prefix=prefix)
         recorder.flush()
@@ -165,7 +166,7 @@ class Recorder:
         """
         old = self._writing
         old.file.sync()
-        self._writing = self._copied(_bytes(old.file.file), events, old.head)
+        self._writing = self._copied(read_whole(old.file.file), events, old.head)
         old.file.release()
 
     def _copied(self, old: bytes, events: int | None, head: RunStarted | None) -> Writing:
@@ -187,10 +188,3 @@ class Recorder:
             file.file.unlink(missing_ok=True)
             raise
         return writing
-
-
-def _bytes(file: Path) -> bytes:
-    try:
-        return file.read_bytes()
-    except OSError as error:
-        raise InvalidInput(f"{file} cannot be read: {error.strerror}") from None

@@ -182,3 +182,9 @@ def test_nothing_that_a_run_remembers_is_left_out() -> None:
     run = {field.name for field in dataclasses.fields(Run)} - GIVEN - {"world", "drive"}
     executor = {field.name for field in dataclasses.fields(Executor)} - {"state"}
     assert remembered == run | executor | {"measured", "moved", "drive"}
+
+
+@pytest.mark.parametrize("path", ["/dev/zero", "/", "/nowhere"])
+def test_what_is_no_file_is_refused(path: str) -> None:
+    with pytest.raises(InvalidInput, match=r"is a device or a pipe|is a directory|there is no such file"):
+        read_checkpoint(Path(path))

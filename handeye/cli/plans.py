@@ -1,0 +1,93 @@
+"""Commands that look into plans; nothing moves."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, Literal
+
+import msgspec
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Json, screen
+from handeye.errors import InvalidInput
+from handeye.files import write_whole
+from handeye.plan.store import read_plan
+
+StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or the start of it.")]
+Output = Annotated[
+    Path | None, Parameter(name=["--output", "-o"], help="Where it goes; else standard output.")
+]
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    for command in (inspect, diff, schema):
+        app.command(command)
+
+
+def inspect(
+    file: Path,
+    *,
+    stage: StageName = None,
+    graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow instead.")] = None,
+    output: Output = None,
+    json: Json = False,
+) -> int:
+    """Lay a plan open: stages, steps, times, guards, forces, and what each step depends on."""
+    from handeye.plan.drawing import flow_svg
+    from handeye.plan.flow import flow, flow_dot
+    from handeye.plan.inspection import inspection, inspection_text
+    from handeye.stepping.breakpoints import stage_number
+
+    plan = read_plan(file)
+    number = None if stage is None else stage_number(stage, plan) + 1
+    if graph is not None:
+        shown = flow(plan, number)
+        _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output)
+    elif output is not None:
+        raise InvalidInput("--output is for a drawing; say --graph svg or --graph dot")
+    elif json:
+        found = inspection(plan)
+        kept = tuple(s for s in found.stages if number in (None, s.number))
+        _json(msgspec.structs.replace(found, stages=kept))
+    else:
+        for line in inspection_text(inspection(plan), number):
+            screen.print(line, markup=False, soft_wrap=True)
+    return 0
+
+
+def diff(before: Path, after: Path, *, json: Json = False) -> int:
+    """Tell what a change in a script did: two plans are compared.
+
+    Exit code 0: both do the same; 1: they do not; 2: bad input.
+    """
+    from handeye.plan.difference import difference
+    from handeye.plan.difference_text import difference_text
+
+    found = difference(read_plan(before), read_plan(after))
+    if json:
+        _json(found)
+    else:
+        for line in difference_text(found):
+            screen.print(line, markup=False, soft_wrap=True)
+    return 0 if found.same else 1
+
+
+def schema(*, output: Output = None) -> int:
+    """Print the JSON schema of the plan format."""
+    from handeye.plan.schema import plan_schema
+
+    _write(plan_schema(), output)
+    return 0
+
+
+def _json(record: msgspec.Struct) -> None:
+    sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n")
+    sys.stdout.flush()
+
+
+def _write(text: str, output: Path | None) -> None:
+    if output is not None:
+        write_whole(output, text.encode())
+        return
+    sys.stdout.buffer.write(text.encode())
+    sys.stdout.flush()

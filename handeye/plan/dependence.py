@@ -1,0 +1,97 @@
+"""What a step depends on that only the working phase knows: parts seen, differences saved, the place of a search.
+
+For each step it is worked out which measurements can be the newest when it is reached, over every way through the
+graph, loops and error edges included.
+"""
+
+from typing import Literal
+
+from handeye.plan import program as op
+
+Kind = Literal["part", "difference", "search"]
+Key = tuple[Kind, str]
+Newest = dict[Key, frozenset[int]]
+"""The steps that may have measured something last."""
+
+
+class Dependence(op.Record, frozen=True, kw_only=True):
+    """Something measured that a step is carried out by."""
+
+    kind: Kind
+    name: str
+    """Of the part or difference; empty for a search."""
+    level: bool = False
+    """Only its horizontal components count."""
+    steps: tuple[int, ...]
+    """Steps that may have measured it last. None: a part is where it is planned, a difference is zero."""
+    lines: tuple[int, ...]
+    """Their lines of the source."""
+
+
+def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
+    """What each step of a program depends on, in the order of the steps."""
+    newest = _newest(program)
+    return tuple(
+        tuple(
+            _dependence(program, key, level, newest[number].get(key, frozenset()))
+            for key, level in _uses(program, step.operation)
+        )
+        for number, step in enumerate(program.steps)
+    )
+
+
+def successors(step: op.Step) -> tuple[int, ...]:
+    """The steps that may follow a step."""
+    ways = (step.next, getattr(step.operation, "raised", None))
+    return tuple(dict.fromkeys(way for way in ways if way is not None))
+
+
+def _dependence(program: op.Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
+    lines = sorted({program.steps[number].line for number in steps})
+    return Dependence(
+        kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=tuple(lines)
+    )  # fmt: skip
+
+
+def _measures(operation: op.AnyOperation) -> Key | None:
+    """What an operation measures."""
+    if isinstance(operation, op.General | op.Specific):
+        return "part", operation.part
+    if isinstance(operation, op.Save):
+        return "difference", operation.name
+    return ("search", "") if isinstance(operation, op.Search) else None
+
+
+def _uses(program: op.Program, operation: op.AnyOperation) -> list[tuple[Key, bool]]:
+    """What an operation is carried out by, and whether only its horizontal components count."""
+    found: list[tuple[Key, bool]] = []
+    for field in ("goal", "centre", "target", "part"):
+        name = getattr(operation, field, None)
+        if name in program.positions:
+            name = program.positions[name].of
+        if name is not None and not isinstance(operation, op.General):
+            found.append((("part", name), False))
+    if isinstance(operation, op.Move):
+        found += [(("difference", restore.name), restore.level) for restore in operation.restore]
+        found += [(("search", ""), False)] if operation.searching else []
+    return found
+
+
+def _newest(program: op.Program) -> list[Newest]:
+    """The newest measurements before each step."""
+    before: list[Newest] = [{} for _ in program.steps]
+    waiting = list(range(len(program.steps)))[::-1]
+    while waiting:
+        number = waiting.pop()
+        key = _measures(program.steps[number].operation)
+        after = before[number] | ({} if key is None else {key: frozenset({number})})
+        for follower in successors(program.steps[number]):
+            merged = _merged(before[follower], after)
+            if merged != before[follower]:
+                before[follower] = merged
+                waiting.append(follower)
+    return before
+
+
+def _merged(one: Newest, other: Newest) -> Newest:
+    return one | {key: one.get(key, frozenset()) | steps for key, steps in other.items()}

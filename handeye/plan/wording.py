@@ -1,0 +1,81 @@
+"""Quantities of a plan in the units of the language: inches, degrees, ounces, ounce-inches."""
+
+import math
+
+from handeye.plan import program as op
+from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
+
+_ON_AXIS = 1e-9
+"""A direction whose other two components are below this share of it lies on an axis."""
+
+
+def figure(value: float) -> str:
+    """A number to three decimals, with no zeros to fill them."""
+    return f"{round(value, 3) + 0.0:g}"
+
+
+def inches(metres: float) -> str:
+    """`1.5 in`"""
+    return f"{figure(metres / INCH)} in"
+
+
+def degrees(radians: float) -> str:
+    """`60 deg`"""
+    return f"{figure(radians / DEGREE)} deg"
+
+
+def ounces(force: op.Vector) -> str:
+    """`30 oz along -z`"""
+    return f"{figure(math.hypot(*force) / OUNCE_FORCE)} oz along {direction(force)}"
+
+
+def direction(vector: op.Vector) -> str:
+    """`-z`, or `[0.6 0.8 0]`; table coordinates."""
+    size = math.hypot(*vector)
+    unit = [value / size for value in vector]
+    for name, value in zip("xyz", unit, strict=True):
+        if abs(value) > 1 - _ON_AXIS:
+            return name if value > 0 else f"-{name}"
+    return f"[{' '.join(map(figure, unit))}]"
+
+
+def stop(guard: op.Stop) -> str:
+    """What ends a guarded motion, and the error there is if it does not."""
+    if guard.force is not None:
+        return f"stops at {ounces(guard.force)}, else error 23"
+    if guard.against is not None:
+        return f"stops at {figure(guard.against / OUNCE_FORCE)} oz against it, else error 23"
+    assert guard.torque is not None
+    return f"stops at {figure(guard.torque / OUNCE_INCH)} oz-in of torque, else error 24"
+
+
+def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
+    """What guards an operation, and what it does with force; nothing for most."""
+    said = []
+    if isinstance(operation, op.Move | op.Change | op.Turn) and operation.stop is not None:
+        said.append(stop(operation.stop))
+    if isinstance(operation, op.Change):
+        if operation.press is not None:
+            said.append(f"presses with {ounces(operation.press)}")
+        if operation.free is not None:
+            said.append(
+                f"gives way along {' and '.join(a for a, f in zip('xyz', operation.free, strict=True) if f)}"
+            )
+    if isinstance(operation, op.Center) or (isinstance(operation, op.Close) and operation.minimum > 0):
+        said.append(f"holds {inches(operation.minimum)} or more, else error 2")
+    if isinstance(operation, op.Close) and operation.maximum is not None:
+        said.append(f"{inches(operation.maximum)} or less, else error 7")
+    if isinstance(operation, op.Travel):
+        said.append(f"went {inches(operation.minimum)} to {inches(operation.maximum)}, else error 8")
+    return tuple(said)
+
+
+def one_line(text: str) -> str:
+    """A statement without the blanks that put it in columns, printable throughout."""
+    line = " ".join(text.expandtabs().split())
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in line)
+
+
+def counted(number: int, noun: str) -> str:
+    """`1 step`, `2 steps`"""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
