@@ -61,7 +61,9 @@ class ArmLexer(RegexLexer):
         ],
         "jump": [
             (r"[ \t]+", Whitespace),
-            (rf"({_NAME})([ \t]*)(?=;|,|$)", bygroups(Name.Label, Whitespace), "#pop"),
+            (rf"({_NAME})(?=[ \t]*(?:;|$))", Name.Label, "#pop"),
+            (_NAME, Name.Variable),
+            (r",", Punctuation),
             default(("#pop", "operands")),
         ],
         "free": [

@@ -67,7 +67,7 @@ def _word(words: Iterable[str]) -> str:
 
 
 _STRING: Final[Rule] = {"name": "string.quoted.double.armal", "match": '"[^"]*"?'}
-_LABEL: Final[Rule] = _match(rf"\b({_NAME})\s*(?=;|,|$)", {"1": "entity.name.label.armal"})
+_LABEL: Final[Rule] = _match(rf"\b({_NAME})\s*(?=;|$)", {"1": "entity.name.label.armal"})
 _FREE_TEXT: Final[list[Rule]] = [_STRING, {"name": "string.unquoted.armal", "match": r'[^\s;"]+'}]
 
 

@@ -61,6 +61,14 @@ def test_labels_jumps_macros_and_messages_have_their_own_colours() -> None:
     assert coloured(text)[-2:] == [("pin", "string.unquoted"), (";help", "comment.line.semicolon")]
 
 
+def test_the_label_of_a_jump_is_the_last_name_of_its_line() -> None:
+    text = "AOJ TRIES,L1 ;on"
+    assert [kind for kind, _ in lexed(text)][1:4] == [Name.Variable, Token.Punctuation, Name.Label]
+    assert [scope for _, scope in coloured(text)][1:4] == [
+        "variable.other", "punctuation.section.vector", "entity.name.label",
+    ]  # fmt: skip
+
+
 def test_what_is_no_part_of_the_language_is_marked() -> None:
     assert (Error, "=") in lexed("OPEN = 1")
     assert ("=", "invalid.illegal") in coloured("OPEN = 1")
