@@ -21,7 +21,7 @@ class Code:
     severity: Severity
     meaning: str
     example: str
-    phase: Literal["language", "planning"] = "language"
+    phase: Literal["language", "planning", "strict"] = "language"
 
 
 def _error(meaning: str, example: str) -> Code:
@@ -37,8 +37,23 @@ def _planning(meaning: str, example: str) -> Code:
 
 
 CODES: Final[dict[str, Code]] = {
+    "aoj-without-search": _warning("no SEARCH comes before an AOJ on any way to it", "L: MOVE T\nAOJ L"),
+    "axis-count": _error("a FREE or SPIN has not as many axes as it says", "FREE 2 X\nCHANGE X 1"),
     "empty-program": _error("there is no instruction to carry out", "; nothing"),
+    "endless-loop": _warning(
+        "a loop moves the arm, and nothing but an untested error ends it", "L: MOVE T\nJUMP L"
+    ),
+    "error-never-raised": _warning(
+        "a test asks for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
+    ),
+    "extension-used": Code(
+        severity="error",
+        meaning="a word or an operand is ours, and the language was to be that of the seventies",
+        example="LOAD 4",
+        phase="strict",
+    ),
     "hand-through-table": _planning("part of the hand would be below the table top", "MOVE LOW"),
+    "idle-loop": _warning("nothing leads out of a loop, and nothing moves in it", "PARK\nL: JUMP L"),
     "label-splits-modifier": _error(
         "a label stands between a modifier and its motion, so that a jump would lose the modifier",
         "STOP 50\nL: MOVE T\nJUMP L",
@@ -47,6 +62,7 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
+    "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
     "modifier-misplaced": _error(
         "a modifier stands before a motion it cannot modify", "FORCE [0 0 -9]\nMOVE T"
@@ -64,15 +80,29 @@ CODES: Final[dict[str, Code]] = {
     ),
     "recursive-macro": _error("a macro uses itself", "DEFINE A\nOPEN 1\nA\n\nA"),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
+    "save-without-move": _warning("no MOVE comes before a SAVE on any way to it", "CLOSE\nSAVE H"),
+    "search-without-aoj": _warning("no AOJ comes after a SEARCH on any way from it", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
         "a skip would skip a modifier and not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
     ),
+    "specific-without-general": _warning(
+        "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
+    ),
+    "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
     ),
+    "test-without-action": _warning(
+        "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
+    ),
     "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
+    "travel-without-change": _warning(
+        "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
+    ),
     "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
+    "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
+    "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
     "unknown-error-number": _warning("an error is tested that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"),
     "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
@@ -81,11 +111,20 @@ CODES: Final[dict[str, Code]] = {
     "unknown-picture": _error("no LOOK takes a picture of that name", "GENERAL BASE VIEW"),
     "unknown-position": _error("a position is neither taught nor written with TRANS", "MOVE X9"),
     "unknown-target": _error("what the camera shall aim at is neither a position nor a part", "AIM X9"),
+    "unknown-vector": _error("a vector is neither an axis nor written with VECT", "CHANGE DOWN 1"),
+    "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
     "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
+    "unused-label": _warning("no instruction goes to a label", "L: PARK"),
+    "unused-macro": _warning("a macro is never used", "PARK\nDEFINE A\nOPEN 1\n\n"),
+    "unused-position": _warning("a position is written and never used", "TRANS A [1 2 3 0 0 0]\nPARK"),
+    "unused-vector": _warning("a vector is written and never used", "VECT D [0 0 1]\nPARK"),
     "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),
+    "vector-twice": _error(
+        "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
+    ),
     "wrong-operand": _error("an operand is of another kind than its place needs", "OPEN T"),
     "zero-vector": _error("a vector that gives a direction has no length", "CHANGE [0 0 0] 1"),
 }

@@ -15,6 +15,7 @@ LAYERS = [
         "plan.plan",
         "plan.migrations",
         "plan.schema",
+        "plan.raises",
         "plan.soundness",
         "plan.store",
         "plan.world",

@@ -1,7 +1,8 @@
 """The arm language: text to a checked program, and text to tidy text."""
 
 from handeye.al.compiler import compile_text
+from handeye.al.extensions import extensions
 from handeye.al.formatter import format_text
 from handeye.al.instructions import INSTRUCTIONS, manual
 
-__all__ = ["INSTRUCTIONS", "compile_text", "format_text", "manual"]
+__all__ = ["INSTRUCTIONS", "compile_text", "extensions", "format_text", "manual"]

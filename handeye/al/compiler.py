@@ -2,11 +2,14 @@
 
 from pathlib import PurePath
 
+from handeye.al.flow import check_flow
 from handeye.al.lower import lower
 from handeye.al.macros import expand
 from handeye.al.names import all_statements, check_names
 from handeye.al.operations import position
 from handeye.al.parser import parse
+from handeye.al.unused import check_unused
+from handeye.al.vectors import with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
 from handeye.plan.program import Program
 from handeye.plan.taught import Taught
@@ -23,9 +26,11 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if len(found) >= LIMIT:
         return None, arranged(found)
     found += check_names(script, taught)
-    stages, steps = lower(expand(script, found.append), source.text, found.append)
-    if not steps and not has_errors(found):
+    lowered = lower(expand(with_vectors(script), found.append), source.text, found.append)
+    if not lowered.steps and not has_errors(found):
         found.append(_empty())
+    if not has_errors(found):  # else a mistake would be told twice, as what it leads to
+        found += [*check_flow(lowered.steps, lowered.origins), *check_unused(script)]
     if has_errors(found):
         return None, arranged(found)
     written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]
@@ -33,8 +38,8 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         name=PurePath(source.name).stem,
         language="wave",
         source=source.text,
-        stages=stages,
-        steps=steps,
+        stages=lowered.stages,
+        steps=lowered.steps,
         positions={**taught.positions, **dict(map(position, written))},
         parts=dict(taught.parts),
     )

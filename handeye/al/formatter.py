@@ -45,6 +45,6 @@ def _column(text: str, column: int) -> str:
 def _operands(tokens: Sequence[Token]) -> str:
     text = ""
     for token in tokens:
-        tight = not text or text[-1] == "[" or token.text in ("]", ":")
+        tight = not text or text[-1] in "[," or token.text in ("]", ":", ",")
         text += token.text if tight else f" {token.text}"
     return text

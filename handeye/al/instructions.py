@@ -16,7 +16,11 @@ BIGGEST: Final = 1e6
 ANY: Final = "no number of a program is larger than a million"
 SMALLEST: Final = 0.001
 """Least size of what has to be larger than nothing, in its unit."""
+AXES: Final = ("X", "Y", "Z")
+"""Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
+MOST: Final = 1000
+"""What a counter can be set to."""
 LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
 
 
@@ -45,6 +49,8 @@ class Refers(Enum):
     PART = "part"
     TARGET = "position or part"
     PICTURE = "picture"
+    VECTOR = "vector"
+    COUNTER = "counter"
     SAVED = "saved difference"
     LABEL = "label"
     NEW = "new name"
@@ -63,6 +69,8 @@ class Operand:
     high: float = BIGGEST
     why: str = ANY
     whole: bool = False
+    nonzero: bool = False
+    """Not too near to nothing, on either side of it."""
     choices: tuple[float, ...] = ()
     free: bool = False
     """Words up to the end of the line, with or without quotes."""
@@ -104,6 +112,8 @@ class Instruction:
     help: str
     operands: tuple[Operand, ...] = ()
     role: Role = Role.STEP
+    axes: bool = False
+    """Its vector may be written as a number of axes and their letters."""
     fits: tuple[str, ...] = ()
     """Motions a modifier can modify."""
     ours: bool = False
@@ -138,16 +148,22 @@ def _vector(name: str, *components: Unit) -> Operand:
     return Operand(name=name, takes=(Vector,), units=components)
 
 
+def _named_vector(name: str, unit: Unit) -> Operand:
+    return Operand(name=name, takes=(Vector, Name), units=(unit,) * 3, refers=Refers.VECTOR)
+
+
 def _name(name: str, refers: Refers) -> Operand:
     return Operand(name=name, takes=(Name,), refers=refers)
 
 
-def _word(word: str) -> Operand:
-    return Operand(name="", takes=(), word=word, optional=True, ours=True)
+def _word(word: str, *, ours: bool = True) -> Operand:
+    return Operand(name="", takes=(), word=word, optional=True, ours=ours)
 
 
-_FORCE = _vector("[x y z]", OZ, OZ, OZ)
-_ERROR = Operand(
+_FORCE = _named_vector("[x y z]", OZ)
+_NIL = _word("NIL", ours=False)
+_COUNTER = Operand(name="counter", takes=(Name,), refers=Refers.COUNTER)
+ERROR: Final = Operand(
     name="error",
     takes=(Number,),
     units=(ONE,),
@@ -175,12 +191,29 @@ _TABLE = (
     Instruction(
         op="CHANGE",
         group=MOTIONS,
-        help="move straight from the present place: direction in table coordinates, inches, inches a second",
+        help="move straight from the present place: direction in table coordinates, inches, inches a second "
+        "(0: the usual speed)",
         operands=(
-            _vector("[x y z]", ONE, ONE, ONE),
-            _number("distance", IN, SMALLEST),
-            _number("speed", IN_PER_S, SMALLEST, optional=True, ours=True),
+            _named_vector("[x y z]", ONE),
+            Operand(name="distance", takes=(Number,), units=(IN,), nonzero=True),
+            _NIL,
+            _number("speed", IN_PER_S, 0.0, optional=True, ours=True),
+            Operand(
+                name="0",
+                takes=(Number,),
+                units=(ONE,),
+                low=0.0,
+                high=0.0,
+                why="what could stand here in 1977 is lost; only 0 is known to change nothing",
+                optional=True,
+            ),
         ),
+        role=Role.MOTION,
+    ),
+    Instruction(
+        op="PLACE",
+        group=MOTIONS,
+        help="lower the hand, at most 3 in, until it meets the least force that is surely felt; else error 23",
         role=Role.MOTION,
     ),
     Instruction(op="PARK", group=MOTIONS, help="go to the position called PARK", role=Role.MOTION),
@@ -200,11 +233,13 @@ _TABLE = (
         operands=(
             Operand(
                 name="force",
-                takes=(Vector, Number),
+                takes=(Vector, Number, Name),
                 units=(OZ, OZ, OZ),
                 low=SMALLEST,
                 why=f"it has to be at least {SMALLEST:g} oz",
+                refers=Refers.VECTOR,
             ),
+            _NIL,
         ),
         role=Role.MODIFIER,
         fits=_ALL,
@@ -220,8 +255,19 @@ _TABLE = (
     Instruction(
         op="FREE",
         group=MODIFIERS,
-        help="give way to force along these table axes (1 or 0 each) during the next CHANGE",
+        help="give way to force along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
         operands=(_vector("[x y z]", ONE, ONE, ONE),),
+        axes=True,
+        role=Role.MODIFIER,
+        fits=("CHANGE",),
+    ),
+    Instruction(
+        op="SPIN",
+        group=MODIFIERS,
+        help="let the hand be turned about these table axes during the next CHANGE, as `2 X Y`; understood, "
+        "and not carried out: the hand keeps its angles",
+        operands=(_vector("[x y z]", ONE, ONE, ONE),),
+        axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
     ),
@@ -260,14 +306,14 @@ _TABLE = (
         op="SKIPE",
         group=FLOW,
         help="skip the next instruction if the last action raised this error; clears it",
-        operands=(_ERROR,),
+        operands=(ERROR,),
         role=Role.SKIP,
     ),
     Instruction(
         op="SKIPN",
         group=FLOW,
         help="skip the next instruction if the last action did not raise this error; clears it",
-        operands=(_ERROR,),
+        operands=(ERROR,),
         role=Role.SKIP,
     ),
     Instruction(
@@ -281,6 +327,29 @@ _TABLE = (
         group=FLOW,
         help="go to the next place of the search (error 6: there is none) and jump back to the label",
         operands=(_LABEL,),
+    ),
+    Instruction(
+        op="ASSIGN",
+        group=FLOW,
+        help="set a counter",
+        operands=(
+            _name("counter", Refers.NEW),
+            Operand(
+                name="n",
+                takes=(Number,),
+                units=(ONE,),
+                low=0,
+                high=MOST,
+                why=f"a counter is set to 0 to {MOST}",
+                whole=True,
+            ),
+        ),
+    ),
+    Instruction(
+        op="SOJG",
+        group=FLOW,
+        help="subtract one from a counter, and jump to the label while it is still positive",
+        operands=(_COUNTER, _LABEL),
     ),
     Instruction(op="JUMP", group=FLOW, help="go on at the label", operands=(_LABEL,)),
     Instruction(
@@ -301,11 +370,22 @@ _TABLE = (
         role=Role.DECLARATION,
     ),
     Instruction(
+        op="VECT",
+        group=PLACES,
+        help="a vector that STOP, FORCE and CHANGE can name; in ounces or of no unit, as its place has it; "
+        "X, Y and Z are there already",
+        operands=(_name("name", Refers.NEW), _vector("[x y z]", ONE, ONE, ONE)),
+        role=Role.DECLARATION,
+    ),
+    Instruction(
         op="SAVE",
         group=PLACES,
         help="keep where the hand is, less where the last MOVE was to bring it; after CENTER only along the "
         "finger line",
         operands=(_name("name", Refers.NEW),),
+    ),
+    Instruction(
+        op="WHERE", group=PLACES, help="tell where the hand is, as `TRANS` would write it: inches and degrees"
     ),
     Instruction(
         op="TRAVEL",

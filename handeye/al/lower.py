@@ -11,15 +11,25 @@ from handeye.al.macros import Call, Placed
 from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.plan.program import AnyOperation, Move, Step, Test
+from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
-_WAY = {"FORCE": "press", "FREE": "give way"}
+_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned"}
 """What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 
-def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[str, ...], tuple[Step, ...]]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lowered:
+    """What an expanded program has become."""
+
+    stages: tuple[str, ...]
+    steps: tuple[Step, ...]
+    origins: tuple[Statement, ...]
+    """The statement each step comes from."""
+
+
+def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
     """Stages and steps of an expanded program; worth something only if no error was reported."""
     lowering = _Lowering(report=report)
     for item in placed:
@@ -39,7 +49,8 @@ def lower(placed: Sequence[Placed], text: str, report: Report) -> tuple[tuple[st
         for draft, target in zip(drafts, targets, strict=True)
         if draft.operation is not None
     )
-    return tuple(lowering.stages), steps
+    origins = tuple(draft.statement for draft in drafts if draft.operation is not None)
+    return Lowered(stages=tuple(lowering.stages), steps=steps, origins=origins)
 
 
 @dataclass(slots=True)
@@ -133,6 +144,11 @@ class _Lowering:
         if role is not Role.MOTION and self.pending:
             self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
         modifiers = [m for m in self.pending if self.fits(m, statement)]
+        for modifier in modifiers:
+            if _word(modifier).text == "SPIN":
+                help = "`FREE` lets it give way sideways"
+                message = "`SPIN` is not carried out: the hand keeps its angles"
+                self.problem("spin-stays-stiff", message, _word(modifier), help=help)
         self.draft(item, operation(statement, [m.statement for m in modifiers]))
         self.pending.clear()
         self.shiftable = self.drafts[-1].word == "MOVE"
@@ -183,6 +199,9 @@ class _Lowering:
             return following
         if draft.word in ("AOJ", "JUMP"):
             return self.jump(index)
+        if isinstance(draft.operation, Countdown):
+            draft.operation = msgspec.structs.replace(draft.operation, positive=self.jump(index))
+            return following
         if draft.word in ("SKIPE", "SKIPN"):
             assert isinstance(draft.operation, Test)
             skipped = self.skip(index)
@@ -196,7 +215,7 @@ class _Lowering:
 
     def jump(self, index: int) -> int | None:
         draft = self.drafts[index]
-        label = draft.statement.operands[0]
+        label = draft.statement.operands[-1]
         assert isinstance(label, Name)
         scopes = [draft.call[:depth] for depth in range(len(draft.call), -1, -1)]
         for scope in scopes:

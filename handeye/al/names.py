@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from handeye.al.instructions import INSTRUCTIONS, Operand, Refers
+from handeye.al.instructions import AXES, ERROR, INSTRUCTIONS, Operand, Refers
 from handeye.al.syntax import Name, Number, Script, Statement, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS
@@ -13,6 +13,8 @@ _CODES = {
     Refers.PART: "unknown-part",
     Refers.TARGET: "unknown-target",
     Refers.PICTURE: "unknown-picture",
+    Refers.VECTOR: "unknown-vector",
+    Refers.COUNTER: "unknown-counter",
     Refers.SAVED: "never-saved",
 }
 _MESSAGES = {
@@ -20,6 +22,8 @@ _MESSAGES = {
     Refers.PART: "there is no part {}",
     Refers.TARGET: "{} is neither a position nor a part",
     Refers.PICTURE: "no `LOOK` takes a picture {}",
+    Refers.VECTOR: "there is no vector {}",
+    Refers.COUNTER: "no `ASSIGN` sets a counter {}",
     Refers.SAVED: "no `SAVE` keeps a difference {}: the goal is not shifted",
 }
 
@@ -33,7 +37,7 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
     errors = [u for u in unknown if u[1] is not Refers.SAVED][:LIMIT]
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
     found = [_unknown(name, refers, known[refers]) for name, refers in errors + warnings]
-    return found + _error_numbers(statements) + _twice(statements, taught)
+    return found + _error_numbers(statements) + _twice(statements, taught) + _vectors_twice(statements)
 
 
 def _references(statements: list[Statement]) -> Iterator[tuple[Name, Refers]]:
@@ -51,7 +55,7 @@ def _error_numbers(statements: list[Statement]) -> list[Diagnostic]:
         _unknown_error(value)
         for statement in statements
         for operand, value in pairs(statement)
-        if isinstance(value, Number) and operand.whole and int(value.value) not in ERRORS
+        if isinstance(value, Number) and operand is ERROR and int(value.value) not in ERRORS
     ]
 
 
@@ -83,6 +87,8 @@ def _known(statements: list[Statement], taught: Taught) -> dict[Refers, set[str]
         Refers.PART: set(taught.parts),
         Refers.TARGET: positions | set(taught.parts),
         Refers.PICTURE: {name.text for name in _declared(statements, "LOOK")},
+        Refers.VECTOR: {name.text for name in _declared(statements, "VECT")} | set(AXES),
+        Refers.COUNTER: {name.text for name in _declared(statements, "ASSIGN")},
         Refers.SAVED: {name.text for name in _declared(statements, "SAVE")},
     }
 
@@ -109,6 +115,25 @@ def _twice(statements: list[Statement], taught: Taught) -> list[Diagnostic]:
                 notes=notes,
             )
         )
+    return found
+
+
+def _vectors_twice(statements: list[Statement]) -> list[Diagnostic]:
+    found = []
+    first: dict[str, Name] = {}
+    for name in _declared(statements, "VECT"):
+        before = first.setdefault(name.text, name)
+        axis = name.text in AXES
+        if axis or before is not name:
+            found.append(
+                Diagnostic(
+                    code="vector-twice",
+                    message=f"vector {quoted(name.text)} is defined twice",
+                    primary=Label(span=name.span),
+                    secondary=() if axis else (Label(span=before.span, text="first written here"),),
+                    notes=(f"{quoted(name.text)} is an axis of the table",) if axis else (),
+                )
+            )
     return found
 
 

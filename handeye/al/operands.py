@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from handeye.al.instructions import BIGGEST, Instruction, Operand
+from handeye.al.instructions import AXES, BIGGEST, SMALLEST, Instruction, Operand
 from handeye.al.scanner import Kind, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.diagnostics import Diagnostic, Label, quoted
@@ -30,6 +30,8 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
     Raises:
         Mistake: the operands do not fit the definition.
     """
+    if not any(operand.free for operand in definition.operands):
+        tokens = _separated(tokens)
     return _Reader(definition, head, tokens).read()
 
 
@@ -40,6 +42,17 @@ def free_text(tokens: Sequence[Token]) -> str:
         text += " " * (token.start - end) + token.text
         end = token.end
     return text
+
+
+def _separated(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Without the commas of the dialect of 1977, each of which stands between two values."""
+    for at, token in enumerate(tokens):
+        if token.text == ",":
+            if at == 0 or tokens[at - 1].text in (",", "["):
+                raise Mistake("misplaced-comma", "nothing stands before this comma", token.span)
+            if at + 1 == len(tokens) or tokens[at + 1].text == "]":
+                raise Mistake("misplaced-comma", "nothing stands behind this comma", token.span)
+    return [token for token in tokens if token.text != ","]
 
 
 def is_unterminated(token: Token) -> bool:
@@ -55,6 +68,8 @@ class _Reader:
         self.at = 0
 
     def read(self) -> tuple[Value | None, ...]:
+        if self.definition.axes and self.tokens and self.tokens[0].kind is Kind.NUMBER:
+            return (self.axes(),)
         values = tuple(self.operand(operand) for operand in self.definition.operands)
         if self.at < len(self.tokens):
             self.too_many()
@@ -106,6 +121,22 @@ class _Reader:
         if token.kind is Kind.NAME:
             return Name(token.text, token.span)
         raise _unexpected(token)
+
+    def axes(self) -> Vector:
+        """A number of axes and their letters, as `2 X Y`: 1 along each of them."""
+        count, *letters = self.tokens
+        for letter in letters:
+            if letter.text not in AXES:
+                message = f"{quoted(letter.text)} is no axis"
+                raise Mistake("unknown-axis", message, letter.span, help="the axes are `X`, `Y` and `Z`")
+        named = {letter.text for letter in letters}
+        if _number(count) != len(letters) or len(named) != len(letters) or not letters:
+            stand = f"{len(named)} {'stands' if len(named) == 1 else 'different ones stand'} here"
+            message = f"`{self.definition.op}` is to have {quoted(count.text)} axes; {stand}"
+            raise Mistake("axis-count", message, count.span, help=self.usage())
+        self.at = len(self.tokens)
+        span = Span(start=count.start, end=letters[-1].end)
+        return Vector(tuple(float(axis in named) for axis in AXES), span)
 
     def string(self, token: Token) -> Text:
         if is_unterminated(token):
@@ -166,6 +197,10 @@ class _Reader:
             size = "small" if value.value < operand.low else "large"
             message = f"{quoted(token.text)} is too {size} as {operand.plain} of `{self.definition.op}`"
             raise Mistake("number-out-of-range", message, value.span, operand.why)
+        if operand.nonzero and abs(value.value) < SMALLEST:
+            message = f"{quoted(token.text)} is too small as {operand.plain} of `{self.definition.op}`"
+            why = f"it has to be at least {SMALLEST:g} {operand.units[0].name}, one way or the other"
+            raise Mistake("number-out-of-range", message, value.span, why)
         if operand.whole and value.value != int(value.value):
             message = f"`{self.definition.op}` takes a whole number as {operand.plain}"
             raise Mistake("wrong-operand", message, value.span)
@@ -217,11 +252,4 @@ def _malformed(token: Token) -> Mistake:
 
 
 def _unexpected(token: Token) -> Mistake:
-    span, text, help = token.span, token.text, None
-    if text[0] == ",":
-        span, text, help = (
-            Span(start=token.start, end=token.start + 1),
-            ",",
-            "operands are separated by blanks",
-        )
-    return Mistake("unexpected-character", f"{quoted(text)} is no part of the language", span, help=help)
+    return Mistake("unexpected-character", f"{quoted(token.text)} is no part of the language", token.span)

@@ -8,6 +8,13 @@ from typing import Final
 from handeye.al.instructions import INSTRUCTIONS, Instruction
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
 from handeye.plan import program as p
+from handeye.units import INCH, OUNCE_FORCE
+
+PLACE_DEPTH: Final = 3.0 * INCH
+"""How far PLACE lowers the hand at most: the height of an approach."""
+PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
+"""What PLACE stops on. The least with which the pump script stops a motion; friction is felt as up to 0.2 N, and
+an arm that moves as some ten times that."""
 
 
 class Operands:
@@ -70,6 +77,8 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
             how = replace(how, press=operands.vector3("[x y z]"))
         elif word == "FREE":
             how = replace(how, free=operands.vector3("[x y z]"))
+        elif word == "SPIN":
+            continue  # checked, and said not to be carried out
         else:
             how = replace(how, stop=_stop(word, operands, modifier.operands[0]))
     motion = _MOTIONS.get(statement.word.text)
@@ -104,8 +113,12 @@ def _change(operands: Operands, how: _How) -> p.Change:
     x, y, z = operands.vector3("[x y z]")
     scale = operands.number("distance") / math.hypot(x, y, z)
     displacement = (x * scale, y * scale, z * scale)
-    speed = operands.number_or("speed")
+    speed = operands.number_or("speed") or None
     return p.Change(displacement=displacement, speed=speed, stop=how.stop, press=how.press, free=how.free)
+
+
+def _place(_: Operands, how: _How) -> p.Change:
+    return p.Change(displacement=(0.0, 0.0, -PLACE_DEPTH), stop=p.Stop(force=(0.0, 0.0, -PLACE_FORCE)))
 
 
 _MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
@@ -113,6 +126,7 @@ _MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
     "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop),
     "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=how.stop),
     "CHANGE": _change,
+    "PLACE": _place,
 }
 _STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
     "OPEN": lambda o: p.Open(gap=o.number("gap")),
@@ -122,9 +136,12 @@ _STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
     "SKIPE": lambda o: p.Test(number=int(o.number("error")), raised=None),
     "SKIPN": lambda o: p.Test(number=int(o.number("error")), raised=None),
     "AOJ": lambda _: p.Advance(),
+    "ASSIGN": lambda o: p.Assign(counter=o.name("counter"), value=int(o.number("n"))),
+    "SOJG": lambda o: p.Countdown(counter=o.name("counter"), positive=None),
     "JUMP": lambda _: p.Jump(),
     "WAIT": lambda o: p.Wait(message=o.name("text")),
     "SAVE": lambda o: p.Save(name=o.name("name")),
+    "WHERE": lambda _: p.Where(),
     "TRAVEL": lambda o: p.Travel(minimum=o.number("minimum"), maximum=o.number("maximum")),
     "TOOL": lambda o: p.Tool(speed=o.number("speed")),
     "LOAD": lambda o: p.Load(weight=o.number("weight")),

@@ -13,7 +13,7 @@ class Kind(Enum):
     NAME = "name"
     NUMBER = "number"  # or what starts like one
     STRING = "string"  # `"`, and perhaps no closing one
-    MARK = "mark"  # one of `[ ] :`
+    MARK = "mark"  # one of `[ ] : ,`
     JUNK = "junk"
 
 
@@ -63,10 +63,10 @@ _TOKEN = re.compile(
     r"""[ \t\r\f\v]* (?:
         (?P<NAME> [A-Za-z_]\w* )
       | (?P<NUMBER> [+-]? (?: \d | \.\d ) (?: [eE][+-] | [\w.] )* )
-      | (?P<MARK> [][:] )
+      | (?P<MARK> [][:,] )
       | (?P<COMMENT> ;.* )
       | (?P<STRING> "[^"]*"? )
-      | (?P<JUNK> [^][:;"\s]+ | . )
+      | (?P<JUNK> [^][:;,"\s]+ | . )
     )""",
     re.ASCII | re.VERBOSE | re.DOTALL,
 )

@@ -9,9 +9,9 @@ from typing import Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.al import compile_text
+from handeye.al import compile_text, extensions
 from handeye.cli.common import compiled, notes, screen, show, taught
-from handeye.diagnostics import has_errors
+from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.plan.store import read_plan, write_plan
 from handeye.source import read_source
@@ -27,14 +27,17 @@ def check(
     file: Path,
     *,
     json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
+    strict: Annotated[
+        bool, Parameter(name="--strict-1973", negative="", help="Refuse words and operands that are ours.")
+    ] = False,
     watch: Annotated[
         bool, Parameter(help="Check again whenever the script or what is taught changes.")
     ] = False,
 ) -> int:
     """Check a script and its taught positions, the arm's reach included; nothing moves."""
     if not watch:
-        return _check(file, json=json)
-    return watched(file, lambda: _check(file, json=json))
+        return _check(file, json=json, strict=strict)
+    return watched(file, lambda: _check(file, json=json, strict=strict))
 
 
 def _wait() -> None:
@@ -72,7 +75,7 @@ def _version(path: Path) -> tuple[int, int, int] | None:
     return status.st_mtime_ns, status.st_size, status.st_ino
 
 
-def _check(file: Path, *, json: bool) -> int:
+def _check(file: Path, *, json: bool, strict: bool) -> int:
     from handeye.arm.stanford import STANFORD
     from handeye.plan.planner import make_plan
 
@@ -80,6 +83,8 @@ def _check(file: Path, *, json: bool) -> int:
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
         diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
+    if strict:
+        diagnostics = arranged([*diagnostics, *extensions(source.text)])
     show(diagnostics, source, json=json)
     if has_errors(diagnostics):
         return 2

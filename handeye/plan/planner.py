@@ -4,6 +4,7 @@ The planner walks the program in the order of its text, each motion beginning wh
 to end. What cannot be reached, or would go through the table, is found here and not at run time.
 """
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -27,6 +28,12 @@ invented acceleration limits it makes the whole job take about the four minutes 
 5); one datum, so no evidence of how slow the real arm was."""
 HOME = "PARK"
 """The position a program starts from."""
+
+RIDDLE = (
+    "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
+    "60 it must have been, for at 600 the search would never end"
+)
+"""Reference D1."""
 
 
 def make_plan(
@@ -61,7 +68,7 @@ class _Walk:
             if isinstance(operation, Move):
                 self._move(number, step, operation)
             elif isinstance(operation, Change):
-                self._sampled(number, step, change_samples(self.arm, self.q, operation), operation.stop)
+                self._sampled(number, step, change_samples(self.arm, self.q, operation), _facing(operation))
             elif isinstance(operation, Turn):
                 centre = self.world.planned_position(operation.centre)
                 self._sampled(number, step, turn_samples(self.arm, self.q, centre, operation), operation.stop)
@@ -130,6 +137,7 @@ class _Walk:
             self._problem(
                 step, step.text.split()[0], "stop-beyond-arm",
                 f"the arm cannot press with {ounces:.0f} oz here, so the stop would never fire",
+                note=RIDDLE if round(ounces) == 600 else None,
                 help=f"{self.arm.joints[joint].name} gives out at {ounces * limit[joint] / torque[joint]:.0f} oz",
             )  # fmt: skip
 
@@ -155,6 +163,16 @@ class _Walk:
                 primary=Label(span=_span(self.program.source, step, word)),
             )
         )  # fmt: skip
+
+
+def _facing(operation: Change) -> Stop | None:
+    """The stop of a straight motion as a force along a vector, if it is one: a stop on whatever opposes it, too."""
+    stop = operation.stop
+    if stop is None or stop.against is None:
+        return stop
+    x, y, z = operation.displacement
+    scale = stop.against / math.hypot(x, y, z)
+    return Stop(force=(x * scale, y * scale, z * scale))
 
 
 def _span(text: str, step: Step, word: str) -> Span:

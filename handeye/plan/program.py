@@ -120,6 +120,23 @@ class Test(Operation, frozen=True, kw_only=True):
     raised: int | None
 
 
+class Assign(Operation, frozen=True, kw_only=True):
+    """Set a counter."""
+
+    counter: str
+    value: int
+
+
+class Countdown(Operation, frozen=True, kw_only=True):
+    """Subtract one from a counter (SOJG).
+
+    `positive`: next step while it is still positive (None ends the program); otherwise the step's `next`.
+    """
+
+    counter: str
+    positive: int | None
+
+
 class Jump(Operation, frozen=True, kw_only=True):
     """Go on elsewhere (the step's `next`)."""
 
@@ -132,6 +149,10 @@ class Save(Operation, frozen=True, kw_only=True):
     """
 
     name: str
+
+
+class Where(Operation, frozen=True, kw_only=True):
+    """Tell where the hand is."""
 
 
 class Wait(Operation, frozen=True, kw_only=True):
@@ -202,8 +223,8 @@ class Inspect(Operation, frozen=True, kw_only=True):
 
 
 AnyOperation = (
-    Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Jump | Save | Wait | Load
-    | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
+    Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Assign | Countdown | Jump | Save
+    | Where | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
 )  # fmt: skip
 
 ACTIONS = (

@@ -26,6 +26,7 @@ _BOUNDS: Final[dict[tuple[type, str], tuple[float, float]]] = {
     (op.Center, "minimum"): (0.0, 0.2),
     (op.Search, "step"): (1e-5, 0.5),
     (op.Search, "limit"): (1, 10_000),
+    (op.Assign, "value"): (0, 1000),
     (op.Load, "weight"): (-1e3, 1e3),
     (op.Tool, "speed"): (-1e3, 1e3),
     (op.Travel, "minimum"): (-10.0, 10.0),
@@ -61,7 +62,7 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
     """Steps, stages, positions, parts and pictures a step names."""
     program, operation = plan.program, step.operation
     count = len(program.steps)
-    for target in (step.next, getattr(operation, "raised", None)):
+    for target in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
         if target is not None and not 0 <= target < count:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
     if not 0 <= step.stage < len(program.stages):

@@ -19,6 +19,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.GuardTripped: Log.INFO,
     happened.ErrorRaised: Log.WARNING,
     happened.SearchAdvanced: Log.INFO,
+    happened.HandTold: Log.INFO,
     happened.PictureTaken: Log.INFO,
     happened.PartSeen: Log.INFO,
     happened.PartInspected: Log.INFO,
@@ -74,6 +75,8 @@ def sentence(event: Event) -> str:
             return f"the search goes on to its place {event.count + 1}, {inches(event.offset)} from the first"
         case happened.Saved():
             return f"{event.name} is {inches(event.difference, 3)}"
+        case happened.HandTold():
+            return f"the hand is at {_value(event.at)}"
         case happened.Restored():
             return f"{event.name} shifts {event.goal} by {inches(event.difference, 3)}"
         case happened.PictureTaken():

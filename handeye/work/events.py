@@ -102,6 +102,12 @@ class Saved(Event, frozen=True, kw_only=True):
     difference: tuple[float, float, float]
 
 
+class HandTold(Event, frozen=True, kw_only=True):
+    """WHERE: x, y, z (m) of the hand and its angles O, A, T (rad), by the arm's own sensors."""
+
+    at: tuple[float, float, float, float, float, float]
+
+
 class Restored(Event, frozen=True, kw_only=True):
     """A saved difference was added to a goal (m)."""
 
@@ -182,8 +188,9 @@ class RunFinished(Event, frozen=True, kw_only=True):
 
 AnyEvent = (
     RunStarted | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted | GuardTripped
-    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | Restored | PictureTaken | PartSeen | PartInspected
-    | CameraBusy | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack | RunFinished
+    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | Restored | PictureTaken | PartSeen
+    | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack
+    | RunFinished
 )  # fmt: skip
 
 _encoder = msgspec.json.Encoder()

@@ -9,10 +9,12 @@ import numpy as np
 from handeye import errors
 from handeye.arm.kinematics import forward
 from handeye.plan import program as op
+from handeye.pose import hand_angles
 from handeye.work import acting, looking
 from handeye.work.events import (
     ErrorRaised,
     ErrorTested,
+    HandTold,
     OperatorAnswered,
     OperatorCalled,
     RunFinished,
@@ -117,6 +119,12 @@ class Executor:
         if isinstance(operation, op.Save):
             self._save(operation)
             return step.next
+        if isinstance(operation, op.Assign):
+            run.counters[operation.counter] = operation.value
+            return step.next
+        if isinstance(operation, op.Countdown):
+            left = run.counters[operation.counter] = run.counters.get(operation.counter, 0) - 1
+            return operation.positive if left > 0 else step.next
         if isinstance(operation, op.ACTIONS) and not isinstance(operation, op.Travel):
             run.finger_line = None
         if isinstance(operation, op.Move):
@@ -129,6 +137,10 @@ class Executor:
             run.drive.load = operation.weight
         elif isinstance(operation, op.Tool):
             run.drive.tool = operation.speed
+        elif isinstance(operation, op.Where):
+            X_WT = run.drive.hand()
+            angles = vector(np.array(hand_angles(X_WT)))
+            run.emit(HandTold(time=run.time, at=(*vector(X_WT[:3, 3]), *angles)))
         elif not isinstance(operation, op.Jump | op.Wait):
             self._raise(_ACTIONS[type(operation)](run, operation))
         return step.next

@@ -20,7 +20,7 @@ Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 DRIVE: Final = ("q", "gap", "grip", "load", "tool", "lamp", "cut", "tare", "wrench")
 RUN: Final = ("goal", "travel", "finger_line", "lens")
-TABLES: Final = ("saved", "restored", "shots", "general", "found")
+TABLES: Final = ("saved", "counters", "restored", "shots", "general", "found")
 EXECUTOR: Final = ("at", "pending", "stage", "stopped", "onward", "idle", "clock")
 
 
@@ -53,6 +53,7 @@ class Memory(Record, frozen=True, kw_only=True):
     finger_line: Array | None
     lens: float
     saved: dict[str, Array]
+    counters: dict[str, int]
     restored: dict[str, Array]
     shots: dict[str, Shot]
     general: dict[str, GeneralLocation]

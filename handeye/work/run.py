@@ -80,6 +80,7 @@ class Run:
     drive: ArmDrive = field(init=False)
     world: WorldModel = field(init=False)
     saved: dict[str, Array] = field(default_factory=dict)
+    counters: dict[str, int] = field(default_factory=dict)
     search: SearchState | None = None
     restored: dict[str, Array] = field(default_factory=dict)
     """What RESTOREs added to the goal of the last Move."""

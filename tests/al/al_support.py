@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from handeye import al
 from handeye.diagnostics import Diagnostic
-from handeye.plan.program import ACTIONS, Move, Part, Position, Program, Test
+from handeye.plan.program import ACTIONS, Assign, Countdown, Move, Part, Position, Program, Test
 from handeye.plan.taught import Taught
 from handeye.source import Source
 
@@ -61,6 +61,7 @@ def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[s
     errors = {text: list(numbers) for text, numbers in raised.items()}
     trace: list[str] = []
     error: int | None = None
+    counters: dict[str, int] = {}
     at: int | None = 0 if program.steps else None
     while at is not None and len(trace) < 1000:
         step = program.steps[at]
@@ -71,6 +72,11 @@ def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[s
             error = queue.pop(0) if queue else None
         elif isinstance(step.operation, Test) and error == step.operation.number:
             error, at = None, step.operation.raised
+        elif isinstance(step.operation, Assign):
+            counters[step.operation.counter] = step.operation.value
+        elif isinstance(step.operation, Countdown):
+            counters[step.operation.counter] -= 1
+            at = step.operation.positive if counters[step.operation.counter] > 0 else at
     return trace
 
 

@@ -82,7 +82,7 @@ def test_macro_is_replaced_by_its_instructions() -> None:
 
 def test_macro_without_a_blank_line_is_reported() -> None:
     assert codes("PARK\nDEFINE GRASP\nMOVE P\nCLOSE .1\n") == ["unterminated-macro"]
-    assert codes("PARK\nDEFINE GRASP\nMOVE P\nCLOSE .1\n\n") == []
+    assert codes("GRASP\nDEFINE GRASP\nMOVE P\nCLOSE .1\n\n") == []
 
 
 def test_macro_inside_a_macro_is_reported_as_a_missing_blank_line() -> None:

@@ -73,3 +73,17 @@ def test_each_motion_is_planned_from_where_the_one_before_ends() -> None:
     plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 1 0] 1\nMOVE T")
     assert plan is not None
     assert plan.motions[1].knots[-1] == plan.motions[2].knots[0]
+
+
+@pytest.mark.parametrize("stop", ["[0 0 -600]", "600"])
+def test_riddle_of_the_listing_explains_itself(stop: str) -> None:
+    problem = only(f"TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP {stop}\nCHANGE [0 0 -1] .6")
+    assert problem.code == "stop-beyond-arm"
+    assert problem.notes[0].startswith(
+        "in the print of 1973 the second stop of the pin insertion can be read as 60"
+    )
+
+
+def test_stop_beyond_the_arm_is_no_riddle_at_another_force() -> None:
+    problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP [0 0 -900]\nCHANGE [0 0 -1] .6")
+    assert problem.notes == ()

@@ -1,0 +1,41 @@
+"""What of a program nobody could have written in the seventies: words and operands that are ours."""
+
+from collections.abc import Iterator
+
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.names import all_statements, pairs
+from handeye.al.parser import parse
+from handeye.al.syntax import Number
+from handeye.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.source import Span
+
+_AGAINST = "the period stops on a vector: `STOP [0 0 -50]`"
+
+
+def extensions(text: str) -> list[Diagnostic]:
+    """An error for each word and operand of a text that is ours; of what can be read of it."""
+    return arranged(_found(text))
+
+
+def _found(text: str) -> Iterator[Diagnostic]:
+    for statement in all_statements(parse(text)[0]):
+        definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
+        if statement.word is None or definition is None:
+            continue
+        if definition.ours:
+            yield _extension(f"`{definition.op}` is not documented before 1978", statement.word.span)
+            continue
+        for operand, value in pairs(statement):
+            if value is None:
+                continue
+            if isinstance(value, Number) and value.value == 0 and operand.name == "speed":
+                continue  # the 0 of the dialect of 1977
+            if operand.ours:
+                message = f"{quoted(operand.shown.strip('()'))} of `{definition.op}` is ours"
+                yield _extension(message, value.span)
+            elif definition.op == "STOP" and isinstance(value, Number):
+                yield _extension("`STOP` with a number is ours", value.span, _AGAINST)
+
+
+def _extension(message: str, span: Span, help: str | None = None) -> Diagnostic:
+    return Diagnostic(code="extension-used", message=message, primary=Label(span=span), help=help)

@@ -1,0 +1,230 @@
+"""What a program does that cannot be meant, seen on the graph of its steps: nothing has to move to find it.
+
+A statement of a macro is several steps. It is at fault only if it is at fault in every call.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from handeye.al.graph import Graph
+from handeye.al.syntax import Name, Statement
+from handeye.diagnostics import Diagnostic, Label
+from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, WRONG_THICKNESS
+from handeye.plan import program as op
+from handeye.plan.raises import raises
+from handeye.source import Span
+
+_CURES = {
+    NO_FORCE: "a motion raises error 23 if a `STOP` before it meets no force",
+    NO_TORQUE: "a motion raises error 24 if a `TORQUE` before it meets no torque",
+    WRONG_THICKNESS: "`CLOSE` raises error 7 if it has a maximum",
+}
+_TAKES_TIME = (op.Move, op.Change, op.Turn, op.Open, op.Close, op.Center, op.Lens, op.Aim, op.Look)
+
+
+def check_flow(steps: Sequence[op.Step], origins: Sequence[Statement]) -> list[Diagnostic]:
+    """What is wrong with the flow of a program whose statements are all right; `origins`: those of its steps."""
+    flow = _Flow(Graph(steps), origins)
+    found = [*flow.unreachable(), *flow.loops()]
+    for check in (flow.tests, *(_order(flow, order) for order in _ORDERS)):
+        found += flow.everywhere(check)
+    return found
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Order:
+    """An operation that makes sense only after (or only before) another."""
+
+    code: str
+    of: type[op.Operation]
+    needs: type[op.Operation]
+    message: str
+    help: str
+    later: bool = False
+    """What it needs has to come after it."""
+
+
+_ORDERS = (
+    _Order(
+        code="aoj-without-search",
+        of=op.Advance,
+        needs=op.Search,
+        message="no `SEARCH` comes before this `AOJ`: there is no next place",
+        help="put a `SEARCH` before the label",
+    ),
+    _Order(
+        code="search-without-aoj",
+        of=op.Search,
+        needs=op.Advance,
+        message="no `AOJ` comes after this `SEARCH`: only its first place is tried",
+        help="`AOJ` goes to the next place and back to a label",
+        later=True,
+    ),
+    _Order(
+        code="save-without-move",
+        of=op.Save,
+        needs=op.Move,
+        message="no `MOVE` comes before this `SAVE`: there is no goal to differ from",
+        help="`SAVE` keeps where the hand is, less where the last `MOVE` was to bring it",
+    ),
+    _Order(
+        code="travel-without-change",
+        of=op.Travel,
+        needs=op.Change,
+        message="no `CHANGE` comes before this `TRAVEL`: nothing has gone any way",
+        help="`TRAVEL` checks how far the last `CHANGE` went",
+    ),
+    _Order(
+        code="specific-without-general",
+        of=op.Specific,
+        needs=op.General,
+        message="no `GENERAL` comes before this `SPECIFIC`: it would raise error 31",
+        help="holes are looked for where `GENERAL` has found the part",
+    ),
+)
+
+Finding = tuple[int, Diagnostic]
+
+
+def _order(flow: "_Flow", order: _Order) -> Callable[[], Iterator[Finding]]:
+    def check() -> Iterator[Finding]:
+        graph = flow.graph
+        reach = graph.before if order.later else graph.after
+        enough = reach(lambda operation: isinstance(operation, order.needs))
+        for number in graph.which(lambda operation: isinstance(operation, order.of)):
+            if number not in enough:
+                yield number, flow.problem(order.code, number, order.message, help=order.help)
+
+    return check
+
+
+class _Flow:
+    def __init__(self, graph: Graph, origins: Sequence[Statement]) -> None:
+        self.graph = graph
+        self.origins = origins
+        self.reached = graph.from_start()
+        self.trapped = graph.trapped(lambda operation: isinstance(operation, op.Wait | op.Advance))
+
+    def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
+        """What a check finds at every step that a statement has become, unreachable ones left out."""
+        found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
+        if not found:
+            return
+        right = {self.span(number) for number in self.reached if number not in found}
+        for number, diagnostic in found.items():
+            if self.span(number) not in right:
+                yield diagnostic
+
+    def unreachable(self) -> Iterator[Diagnostic]:
+        """The first statement of each stretch that nothing leads to, unless it only follows an endless loop."""
+        reached = {self.span(number) for number in self.reached}
+        trapped = self.trapped & self.reached
+        before = False
+        for number in range(len(self.graph.steps)):
+            lost = self.span(number) not in reached
+            if lost and not before and number - 1 not in trapped:
+                help = "a jump before it leads elsewhere, and no jump leads here"
+                message = "this is never carried out"
+                yield self.problem("unreachable-code", number, message, help=help)
+            before = lost
+
+    def loops(self) -> Iterator[Diagnostic]:
+        """Loops that nothing leads out of, each once."""
+        known: set[int] = set()
+        for number in sorted(self.trapped & self.reached, reverse=True):
+            loop = set() if number in known else self.graph.loop(number, known)
+            if loop:
+                yield self.loop(loop)
+
+    def loop(self, loop: set[int]) -> Diagnostic:
+        number, target = max(
+            (number, target)
+            for number in loop
+            for target in self.graph.onward[number]
+            if target is not None and target <= number
+        )
+        code, message = "endless-loop", "nothing leads out of this loop"
+        notes: tuple[str, ...] = ("only an error that nothing tests ends it",)
+        if not any(isinstance(self.graph.steps[n].operation, _TAKES_TIME) for n in loop):
+            code, message = "idle-loop", "nothing leads out of this loop, and nothing moves in it"
+            notes = ("the run would stop here and call the operator",)
+        head = () if number == target else (Label(span=self.word(target).span, text="the loop begins here"),)
+        return self.problem(code, number, message, *head, notes=notes)
+
+    def tests(self) -> Iterator[Finding]:
+        """Tests of errors that cannot have been raised where they stand."""
+        raised, actions = self.incoming()
+        for number in self.graph.which(lambda operation: isinstance(operation, op.Test)):
+            operation = self.graph.steps[number].operation
+            assert isinstance(operation, op.Test)
+            if not actions[number]:
+                yield number, self.no_action(number)
+            elif operation.number not in raised[number] and operation.number in ERRORS:
+                yield number, self.never_raised(number, operation.number, actions[number], raised[number])
+
+    def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
+        """For each test: the errors that can be pending when it is come to, and the actions that raise them."""
+        steps, onward = self.graph.steps, self.graph.onward
+        tests = self.graph.which(lambda operation: isinstance(operation, op.Test))
+        raised: dict[int, set[int]] = {number: set() for number in tests}
+        actions: dict[int, set[int]] = {number: set() for number in tests}
+        waiting = []
+        for number in self.graph.which(lambda operation: isinstance(operation, op.ACTIONS)):
+            target = onward[number][0]
+            if target in raised:
+                raised[target] |= raises(steps[number].operation)
+                actions[target].add(number)
+                waiting.append(target)
+        while waiting:
+            number = waiting.pop()
+            operation, target = steps[number].operation, steps[number].next
+            if target not in raised:
+                continue
+            assert isinstance(operation, op.Test)
+            passed = raised[number] - {operation.number}
+            if not (passed <= raised[target] and actions[number] <= actions[target]):
+                raised[target] |= passed
+                actions[target] |= actions[number]
+                waiting.append(target)
+        return raised, actions
+
+    def no_action(self, number: int) -> Diagnostic:
+        word = self.word(number).text
+        before = [n for n in self.graph.back[number] if n < number]
+        cause = [Label(span=self.word(n).span, text="this raises no error") for n in before[-1:]]
+        if before and isinstance(self.graph.steps[before[-1]].operation, op.Test):
+            cause = [Label(span=self.word(before[-1]).span, text="this has cleared the error")]
+        message = f"`{word}` follows no action: there is no error to test"
+        help = "a test stands directly behind the action that raises the error"
+        return self.problem("test-without-action", number, message, *cause, help=help)
+
+    def never_raised(self, number: int, error: int, actions: set[int], raised: set[int]) -> Diagnostic:
+        words = {self.word(n).text for n in actions}
+        who = f"`{words.pop()}`" if len(words) == 1 else "what comes before"
+        cause = Label(span=self.word(max(actions)).span, text="the last action")
+        can = ", ".join(map(str, sorted(raised)))
+        help = _CURES.get(error, f"what can be raised here: {can}")
+        message = f"{who} does not raise error {error} here"
+        return self.problem("error-never-raised", number, message, cause, help=help)
+
+    def span(self, number: int) -> Span:
+        return self.origins[number].span
+
+    def word(self, number: int) -> Name:
+        word = self.origins[number].word
+        assert word is not None
+        return word
+
+    def problem(
+        self,
+        code: str,
+        number: int,
+        message: str,
+        *secondary: Label,
+        help: str | None = None,
+        notes: tuple[str, ...] = (),
+    ) -> Diagnostic:
+        primary = Label(span=self.word(number).span)
+        return Diagnostic(
+            code=code, message=message, primary=primary, secondary=secondary, help=help, notes=notes
+        )

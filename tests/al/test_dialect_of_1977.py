@@ -1,0 +1,144 @@
+"""Counters, named vectors, PLACE, and the listing of 1977 with its commas."""
+
+import pytest
+from al_support import codes, compiled, diagnose, only, walk
+
+from handeye import al
+from handeye.plan.program import Assign, Change, Countdown, Program, Stop
+from handeye.units import INCH, OUNCE_FORCE
+
+LISTING_1977 = """\
+        TRANS PIN [18 44 4 -90 90 0]   ;location of pin
+        TRANS HOLE [30 40 5 -90 90 0]
+        VECT FV [0 0 -50]
+        ASSIGN TRIES 2
+        MOVE PIN             ;first +Z, then above PIN, then -Z
+PICKUP: CLOSE 1
+        SKIPE 2              ;error 2: fingers closed beyond argument
+        JUMP OK
+        OPEN 4
+        CHANGE Z,-1,NIL,0,0  ;down one inch
+        SOJG TRIES,PICKUP
+        WAIT NO PIN          ;print, wait for operator
+        JUMP PICKUP
+OK:     MOVE HOLE
+        STOP FV,NIL          ;stop on 50 oz
+        CHANGE Z,-1,NIL,0,0
+        SKIPE 23             ;error 23: failed to stop
+        JUMP NOHOLE
+        FREE 2,X,Y
+        SPIN 2,X,Y
+        STOP FV,NIL
+        CHANGE Z,-2,NIL,0,0
+NOHOLE: WAIT NO HOLE
+"""
+"""As remembered from the reprint of 1983, but for positions, FV and OPEN 5, which is wider than this hand."""
+
+
+def listing() -> Program:
+    return compiled(LISTING_1977)
+
+
+def test_listing_of_1977_has_one_warning_that_nothing_is_spun() -> None:
+    assert codes(LISTING_1977) == ["spin-stays-stiff"]
+
+
+def test_listing_of_1977_opens_a_hand_that_is_not_this_one() -> None:
+    assert codes(LISTING_1977.replace("OPEN 4", "OPEN 5"))[0] == "number-out-of-range"
+
+
+def test_pin_found_at_once_is_taken_to_the_hole() -> None:
+    trace = walk(listing(), {"CHANGE Z,-1,NIL,0,0": [23]})
+    assert trace[:6] == ["ASSIGN TRIES 2", "MOVE PIN", "CLOSE 1", "SKIPE 2", "JUMP OK", "MOVE HOLE"]
+    assert trace[-3:] == ["SKIPE 23", "CHANGE Z,-2,NIL,0,0", "WAIT NO HOLE"]
+
+
+def test_pin_not_found_is_looked_for_an_inch_below() -> None:
+    trace = walk(listing(), {"CLOSE 1": [2, None]})
+    assert trace.count("CLOSE 1") == 2
+    assert trace[5:8] == ["CHANGE Z,-1,NIL,0,0", "SOJG TRIES,PICKUP", "CLOSE 1"]
+    assert "WAIT NO PIN" not in trace
+
+
+def test_pin_never_found_calls_the_operator_when_the_counter_is_used_up() -> None:
+    trace = walk(listing(), {"CLOSE 1": [2] * 2})
+    assert trace.count("SOJG TRIES,PICKUP") == 2
+    assert trace[trace.index("WAIT NO PIN") - 1] == "SOJG TRIES,PICKUP"
+
+
+def test_listing_of_1977_keeps_its_commas_when_laid_out() -> None:
+    laid = al.format_text(LISTING_1977)
+    assert "        CHANGE  Z,-1,NIL,0,0    ;down one inch\n" in laid
+    assert al.format_text(laid) == laid
+    assert compiled(laid).steps[5].operation == listing().steps[5].operation
+
+
+def test_commas_and_blanks_say_the_same() -> None:
+    assert only("CHANGE [0,0,-1],0.6,2", Change) == only("CHANGE [0 0 -1] 0.6 2", Change)
+
+
+@pytest.mark.parametrize(
+    "text", ["CLOSE ,.1", "CLOSE .1,", "CLOSE .1,,.2", "CHANGE [,0 0 1] 1", "CHANGE [0 0 1,] 1"]
+)
+def test_comma_with_nothing_beside_it_is_reported(text: str) -> None:
+    assert codes(text) == ["misplaced-comma"]
+
+
+def test_axis_letters_are_unit_vectors_and_a_distance_has_a_sign() -> None:
+    assert only("CHANGE Z,-1", Change).displacement == pytest.approx((0, 0, -INCH))
+    assert only("CHANGE X 2", Change).displacement == pytest.approx((2 * INCH, 0, 0))
+
+
+def test_named_vector_takes_the_unit_of_its_place() -> None:
+    text = "VECT D [0 0 -2]\nSTOP D\nCHANGE D 1"
+    change = only(text, Change)
+    assert change.stop == Stop(force=(0, 0, pytest.approx(-2 * OUNCE_FORCE)))
+    assert change.displacement == pytest.approx((0, 0, -INCH))
+
+
+def test_vector_may_be_named_before_it_is_written_and_in_a_macro() -> None:
+    assert codes("DEFINE A\nCHANGE D 1\n\nA\nVECT D [0 0 1]") == []
+
+
+def test_nil_and_a_speed_of_nothing_change_nothing() -> None:
+    assert only("CHANGE Z,-1,NIL,0,0", Change) == only("CHANGE [0 0 -1] 1", Change)
+    assert codes("CHANGE Z,-1,NIL,0,5") == ["number-out-of-range"]
+
+
+def test_counted_axes_are_those_in_which_the_hand_gives_way() -> None:
+    assert only("FREE 2,X,Y\nCHANGE Z,-1", Change).free == (1.0, 1.0, 0.0)
+    assert only("FREE 1 Z\nCHANGE X 1", Change).free == (0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize("axes", ["2,X", "1,X,Y", "2,X,X", "0", "1.5,X"])
+def test_axes_have_to_be_as_many_as_counted(axes: str) -> None:
+    assert codes(f"FREE {axes}\nCHANGE Z 1") == ["axis-count"]
+
+
+def test_place_is_a_short_way_down_that_stops_on_a_light_touch() -> None:
+    place = only("PLACE", Change)
+    assert place.displacement == pytest.approx((0, 0, -3 * INCH))
+    assert place.stop == Stop(force=(0.0, 0.0, -12 * OUNCE_FORCE))
+    assert codes("STOP 5\nPLACE") == ["modifier-misplaced"]
+
+
+def test_counter_is_set_and_counted_down() -> None:
+    program = compiled("ASSIGN N 3\nL: OPEN 1\nSOJG N,L\nPARK")
+    assert program.steps[0].operation == Assign(counter="N", value=3)
+    assert program.steps[2].operation == Countdown(counter="N", positive=1)
+    assert walk(program, {}).count("OPEN 1") == 3
+
+
+@pytest.mark.parametrize("number", ["-1", "1001", "2.5"])
+def test_counter_is_a_whole_number_within_reason(number: str) -> None:
+    assert codes(f"ASSIGN N {number}\nL: PARK\nSOJG N L")[0] in ("number-out-of-range", "wrong-operand")
+
+
+def test_counter_nothing_sets_is_reported_with_the_nearest_name() -> None:
+    (diagnostic,) = diagnose("ASSIGN TRIES 2\nL: PARK\nSOJG TIRES,L")
+    assert (diagnostic.code, diagnostic.help) == ("unknown-counter", "did you mean `TRIES`?")
+
+
+def test_axis_of_the_table_cannot_be_written_again() -> None:
+    (diagnostic,) = diagnose("VECT X [0 1 0]\nCHANGE X 1")
+    assert (diagnostic.code, diagnostic.notes) == ("vector-twice", ("`X` is an axis of the table",))
