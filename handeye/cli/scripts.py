@@ -1,6 +1,8 @@
 """Commands on scripts and plans; nothing moves."""
 
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -8,8 +10,9 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.al import compile_text, extensions
-from handeye.cli.common import compiled, screen, show, taught
+from handeye.cli.common import compiled, notes, screen, show, taught
 from handeye.diagnostics import arranged, has_errors
+from handeye.errors import InvalidInput
 from handeye.plan.store import read_plan, write_plan
 from handeye.source import read_source
 
@@ -27,8 +30,52 @@ def check(
     strict: Annotated[
         bool, Parameter(name="--strict-1973", negative="", help="Refuse words and operands that are ours.")
     ] = False,
+    watch: Annotated[
+        bool, Parameter(help="Check again whenever the script or what is taught changes.")
+    ] = False,
 ) -> int:
     """Check a script and its taught positions, the arm's reach included; nothing moves."""
+    if not watch:
+        return _check(file, json=json, strict=strict)
+    return watched(file, lambda: _check(file, json=json, strict=strict))
+
+
+def _wait() -> None:
+    time.sleep(0.25)
+
+
+def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _wait) -> int:
+    """Check a script now and whenever it or the file of its taught positions changes, until Ctrl-C.
+
+    Returns:
+        the code of the last check; 2 if a file could not be used.
+    """
+    code, seen = 2, None
+    try:
+        while True:
+            found = [_version(path) for path in (file, file.with_suffix(".toml"))]
+            if found != seen:
+                seen = found
+                try:
+                    code = check()
+                except InvalidInput as error:
+                    notes.print(f"handeye: {error}", style="red", markup=False, soft_wrap=True)
+                    code = 2
+            pause()
+    except KeyboardInterrupt:
+        return code
+
+
+def _version(path: Path) -> tuple[int, int, int] | None:
+    """What changes when a file does; editors often put another file in its place."""
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_mtime_ns, status.st_size, status.st_ino
+
+
+def _check(file: Path, *, json: bool, strict: bool) -> int:
     from handeye.arm.stanford import STANFORD
     from handeye.plan.planner import make_plan
 

@@ -1,0 +1,34 @@
+// Starts `handeye lsp` and connects the editor to it; everything else is the server's.
+const vscode = require("vscode");
+const { LanguageClient } = require("vscode-languageclient/node");
+
+let client;
+
+async function activate(context) {
+  const command = vscode.workspace.getConfiguration("handeye").get("command", "handeye");
+  const taught = vscode.workspace.createFileSystemWatcher("**/*.toml");
+  context.subscriptions.push(taught);
+  client = new LanguageClient(
+    "handeye",
+    "Arm language",
+    { command, args: ["lsp"] },
+    {
+      documentSelector: [{ language: "armal" }],
+      synchronize: { fileEvents: taught },
+    },
+  );
+  try {
+    await client.start();
+  } catch (error) {
+    vscode.window.showErrorMessage(
+      `The arm language server did not start (${command} lsp): ${error.message}. ` +
+        "Install it with: pip install 'handeye[lsp]'",
+    );
+  }
+}
+
+function deactivate() {
+  return client?.stop();
+}
+
+module.exports = { activate, deactivate };

@@ -1,0 +1,75 @@
+"""Colours for arm programs, wherever Pygments is used: rich, notebooks, documentation."""
+
+from typing import ClassVar
+
+from pygments.lexer import RegexLexer, bygroups, default, words
+from pygments.token import (
+    Comment,
+    Error,
+    Keyword,
+    Name,
+    Number,
+    Punctuation,
+    String,
+    Whitespace,
+)
+
+from handeye.al.instructions import INSTRUCTIONS, Refers, Role
+
+_NAME = r"[A-Za-z_]\w*"
+_FREE = [i.op for i in INSTRUCTIONS.values() if any(o.free for o in i.operands)]
+_JUMPS = [i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.LABEL for o in i.operands)]
+_MODIFIERS = [i.op for i in INSTRUCTIONS.values() if i.role in (Role.MODIFIER, Role.SHIFT)]
+_OTHERS = [op for op in INSTRUCTIONS if op not in (*_FREE, *_JUMPS, *_MODIFIERS)]
+_WORDS = sorted({o.word for i in INSTRUCTIONS.values() for o in i.operands if o.word})
+
+
+def _ops(ops: list[str]) -> words:
+    return words(ops, prefix=r"(?i:", suffix=r")\b")
+
+
+class ArmLexer(RegexLexer):
+    """The arm language of 1973; words and operands are those of the table of instructions."""
+
+    name = "Arm language (WAVE)"
+    aliases: ClassVar = ["armal", "wave"]
+    filenames: ClassVar = ["*.al"]
+    mimetypes: ClassVar = ["text/x-armal"]
+    tokens: ClassVar = {
+        "root": [
+            (r"\s+", Whitespace),
+            (r";.*", Comment.Single),
+            (rf"({_NAME})([ \t]*)(:)", bygroups(Name.Label, Whitespace, Punctuation)),
+            (rf"(?i:(DEFINE))\b([ \t]*)({_NAME})?", bygroups(Keyword.Declaration, Whitespace, Name.Function)),
+            (_ops(_FREE), Keyword, "free"),
+            (_ops(_JUMPS), Keyword, "jump"),
+            (_ops(_MODIFIERS), Keyword.Type, "operands"),
+            (_ops(_OTHERS), Keyword, "operands"),
+            (_NAME, Name.Function, "operands"),
+            (r"\S+", Error),
+        ],
+        "operands": [
+            (r"[ \t]+", Whitespace),
+            (words(_WORDS, prefix=r"(?i:", suffix=r")\b"), Keyword.Pseudo),
+            (_NAME, Name.Variable),
+            (r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])", Number.Float),
+            (r'"[^"\n]*"', String.Double),
+            (r"[][,]", Punctuation),
+            (r";.*", Comment.Single, "#pop"),
+            (r"\n", Whitespace, "#pop"),
+            (r"\S", Error),
+        ],
+        "jump": [
+            (r"[ \t]+", Whitespace),
+            (rf"({_NAME})(?=[ \t]*(?:;|$))", Name.Label, "#pop"),
+            (_NAME, Name.Variable),
+            (r",", Punctuation),
+            default(("#pop", "operands")),
+        ],
+        "free": [
+            (r"[ \t]+", Whitespace),
+            (r'"[^"\n]*"', String.Double, "#pop"),
+            (r'[^\s;"]([^\n;"]*[^\s;"])?', String, "#pop"),
+            default("#pop"),
+        ],
+    }

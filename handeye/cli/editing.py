@@ -1,0 +1,93 @@
+"""Commands for those who write scripts: tidy a text, explain a code, serve an editor."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.al.formatter import format_text
+from handeye.al.parser import parse
+from handeye.cli.common import notes, screen, show
+from handeye.diagnostics import has_errors
+from handeye.errors import InvalidInput
+from handeye.files import write_whole
+from handeye.source import Source, read_source
+
+STANDARD_INPUT = Path("-")
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    for command in (fmt, explain, lsp):
+        app.command(command)
+
+
+def fmt(
+    *files: Annotated[Path, Parameter(allow_leading_hyphen=True)],
+    check: Annotated[bool, Parameter(help="Write nothing; exit code 1 if a file would change.")] = False,
+) -> int:
+    """Put scripts into columns, as in a listing of the period; every comment stays.
+
+    `-` is standard input, which goes to standard output. A text with mistakes of form is left as it is. Exit code 2:
+    there was such a text, or a file cannot be used.
+    """
+    if not files:
+        raise InvalidInput("fmt needs the name of a script, or - for standard input")
+    code = 0
+    for file in files:
+        source = _standard_input() if file == STANDARD_INPUT else read_source(file)
+        code = max(code, _fmt(file, source, check=check))
+    return code
+
+
+def _fmt(file: Path, source: Source, *, check: bool) -> int:
+    mistakes = parse(source.text)[1]
+    if has_errors(mistakes):
+        show(mistakes, source, json=False)
+        notes.print(f"{source.name} is left as it is", markup=False, soft_wrap=True)
+        return 2
+    tidy = format_text(source.text)
+    if check:
+        if tidy != source.text:
+            screen.print(f"{source.name} would change", markup=False, soft_wrap=True)
+        return int(tidy != source.text)
+    if file == STANDARD_INPUT:
+        sys.stdout.buffer.write(tidy.encode())
+        sys.stdout.flush()
+    elif tidy != source.text:
+        write_whole(file, tidy.encode())
+        screen.print(f"{source.name}: tidied", markup=False, soft_wrap=True)
+    return 0
+
+
+def _standard_input() -> Source:
+    try:
+        return Source(name="standard input", text=sys.stdin.buffer.read().decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise InvalidInput(
+            f"standard input is not UTF-8 text: {error.reason} at byte {error.start}"
+        ) from None
+
+
+def explain(word: str | None = None) -> int:
+    """Explain the code of a diagnostic, the number of an error, or an instruction; without a word, list the codes."""
+    from handeye.editor.explain import explanation, listing
+
+    text = listing() if word is None else explanation(word)
+    screen.print(text, markup=False, soft_wrap=True)
+    return 0
+
+
+def lsp() -> int:
+    """Serve an editor over standard input and output (language server protocol)."""
+    try:
+        from handeye.editor.answers import serve
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] not in ("pygls", "lsprotocol"):
+            raise
+        raise InvalidInput(
+            "the language server needs the package pygls: pip install 'handeye[lsp]', or pip install pygls"
+        ) from None
+    serve()
+    return 0

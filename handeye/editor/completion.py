@@ -1,0 +1,97 @@
+"""What may be written next, by what the place takes."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from handeye.al.instructions import INSTRUCTIONS, Operand, Refers
+from handeye.al.scanner import Kind, scan
+from handeye.al.syntax import Name
+from handeye.editor.document import Document
+from handeye.editor.occurrences import MACRO, PART, POSITION
+from handeye.editor.places import expected, instruction
+from handeye.errors import ERRORS
+from handeye.source import Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Proposal:
+    """A word that may stand here."""
+
+    text: str
+    kind: str
+    """`instruction`, `word`, `number`, or that of a name."""
+    detail: str
+    help: str = ""
+
+
+def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
+    """What may stand at an offset, and the characters it would replace."""
+    number, column = document.source.position(offset)
+    start = offset - column + 1
+    before = document.source.line(number)[: column - 1]
+    word = _word_before(before)
+    span = Span(start=offset - len(word), end=offset)
+    line = scan(before[: len(before) - len(word)] + "\n")[0]
+    if line.comment is not None or _in_string(before) or start < 0:
+        return span, []
+    definition, tokens = instruction(line)
+    if not tokens:
+        return span, [*_instructions(), *_named(document, MACRO)]
+    if definition is None:
+        return span, []
+    wanted = expected(definition, tokens[1:])
+    last = tokens[-1].text.upper()
+    found = [p for operand in wanted for p in _operand(document, operand, after=last)]
+    return span, list(dict.fromkeys(found))
+
+
+def names(document: Document, kind: str) -> dict[str, str]:
+    """Everything of a kind that there is, and where it comes from."""
+    found = dict.fromkeys(document.taught_of(kind), f"taught {kind}")
+    for name in document.names:
+        if name.kind == kind and name.makes:
+            found.setdefault(name.name, f"{kind}, line {document.source.position(name.span.start)[0]}")
+    return dict(sorted(found.items()))
+
+
+def _word_before(text: str) -> str:
+    at = len(text)
+    while at and (text[at - 1].isalnum() or text[at - 1] in "_."):
+        at -= 1
+    return text[at:]
+
+
+def _in_string(text: str) -> bool:
+    tokens = scan(text + "\n")[0].tokens
+    return bool(tokens) and tokens[-1].kind is Kind.STRING and text.endswith(tokens[-1].text)
+
+
+def _instructions() -> Iterator[Proposal]:
+    for each in INSTRUCTIONS.values():
+        yield Proposal(text=each.op, kind="instruction", detail=each.usage, help=each.help)
+    yield Proposal(
+        text="DEFINE",
+        kind="instruction",
+        detail="DEFINE name",
+        help="begin a macro; a blank line ends it",
+    )
+
+
+def _operand(document: Document, operand: Operand, *, after: str) -> Iterator[Proposal]:
+    if operand.word and after != operand.word:
+        yield Proposal(text=operand.word, kind="word", detail=operand.shown)
+        return
+    if Name in operand.takes and operand.refers is not Refers.NEW:
+        kinds = (POSITION, PART) if operand.refers is Refers.TARGET else (operand.refers.value,)
+        for kind in kinds:
+            yield from _named(document, kind)
+    for choice in operand.choices:
+        yield Proposal(text=f"{choice:g}", kind="number", detail=f"{choice:g} {operand.units[0].name}")
+    if operand.whole and operand.name == "error":
+        for number, meaning in ERRORS.items():
+            yield Proposal(text=str(number), kind="number", detail=meaning)
+
+
+def _named(document: Document, kind: str) -> Iterator[Proposal]:
+    for name, detail in names(document, kind).items():
+        yield Proposal(text=name, kind=kind, detail=detail)

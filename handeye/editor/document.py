@@ -1,0 +1,82 @@
+"""A script as an editor has it: its text, what is taught beside it, and what follows from the two."""
+
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from handeye.al.compiler import compile_text
+from handeye.al.names import all_statements
+from handeye.al.operations import position
+from handeye.al.parser import parse
+from handeye.al.scanner import Line, scan
+from handeye.diagnostics import Diagnostic
+from handeye.editor.occurrences import PART, POSITION, Occurrence, occurrences
+from handeye.editor.taughtfile import taught_occurrences
+from handeye.plan.program import Position, Program
+from handeye.plan.taught import Taught
+from handeye.source import Source, Span
+
+
+@dataclass(frozen=True, kw_only=True)
+class Document:
+    """A script. Offsets count characters of its text; nothing is worked out before it is asked for."""
+
+    source: Source
+    taught: Taught = field(default_factory=Taught)
+    taught_text: str = ""
+    """The text of the file beside the script; empty if there is none."""
+
+    @property
+    def text(self) -> str:
+        """The text of the script."""
+        return self.source.text
+
+    @cached_property
+    def lines(self) -> list[Line]:
+        """The lines of the script as tokens."""
+        return scan(self.text)
+
+    @cached_property
+    def names(self) -> list[Occurrence]:
+        """Every name in the script."""
+        return occurrences(self.text, self.taught.parts)
+
+    @cached_property
+    def taught_names(self) -> list[Occurrence]:
+        """Every name in the file beside it; spans are of that file."""
+        return taught_occurrences(self.taught_text)
+
+    @cached_property
+    def compiled(self) -> tuple[Program | None, list[Diagnostic]]:
+        """The program, if there is no error, and what there is to say about the text."""
+        return compile_text(self.source, self.taught)
+
+    @cached_property
+    def positions(self) -> dict[str, Position]:
+        """Hand positions by name: taught, and written in whatever lines of the text are right."""
+        written = [
+            s for s in all_statements(parse(self.text)[0]) if s.word is not None and s.word.text == "TRANS"
+        ]
+        return {**self.taught.positions, **dict(position(s) for s in written if not s.broken)}
+
+    def taught_of(self, kind: str) -> Collection[str]:
+        """Names of what is taught of a kind."""
+        if kind == POSITION:
+            return self.taught.positions.keys()
+        return self.taught.parts.keys() if kind == PART else ()
+
+    def line_at(self, offset: int) -> Line | None:
+        """The line an offset is on; None behind the last."""
+        number = self.source.position(offset)[0]
+        return self.lines[number - 1] if number <= len(self.lines) else None
+
+    def name_at(self, offset: int) -> Occurrence | None:
+        """The name an offset is in, or at the end of."""
+        return next((name for name in self.names if name.span.start <= offset <= name.span.end), None)
+
+    def whole_line(self, number: int) -> Span:
+        """A line with its end."""
+        return Span(start=self._start(number), end=self._start(number + 1))
+
+    def _start(self, number: int) -> int:
+        return self.lines[number - 1].start if number <= len(self.lines) else len(self.text)

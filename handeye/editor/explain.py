@@ -1,0 +1,100 @@
+"""What a code, an error number or an instruction means, for people."""
+
+from functools import cache
+
+from handeye.al.compiler import compile_text
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.diagnostics import CODES, Diagnostic, quoted, render, suggestion
+from handeye.editor.checking import planning
+from handeye.editor.document import Document
+from handeye.editor.fix import cured
+from handeye.editor.fixes import fixes
+from handeye.errors import ERRORS, InvalidInput
+from handeye.plan.program import Part, Position
+from handeye.plan.taught import Taught
+from handeye.source import Source
+from handeye.units import DEGREE, INCH
+
+_DOWN = (90 * DEGREE, 90 * DEGREE, 0.0)
+
+
+def _position(x: float, y: float, z: float) -> Position:
+    return Position(at=(x * INCH, y * INCH, z * INCH, *_DOWN))
+
+
+SAMPLE = Taught(
+    positions={
+        "PARK": _position(20, 28, 8),
+        "P": _position(18, 44, 3),
+        "T": _position(25, 38, 4),
+        "LOW": _position(25, 38, -1),
+        "FAR": _position(200, 38, 4),
+    },
+    parts={
+        "BASE": Part(at=(25 * INCH, 38 * INCH, 0.0, 0.0)),
+        "GASKET": Part(at=(26 * INCH, 48 * INCH, 0.0, 0.0)),
+    },
+)
+"""What is taught for the examples."""
+
+
+def explanation(word: str) -> str:
+    """What the code of a diagnostic, the number of an error or an instruction means.
+
+    Raises:
+        InvalidInput: it is none of these; the sentence names the nearest.
+    """
+    if word in CODES:
+        return _code(word)
+    if word.upper() in INSTRUCTIONS:
+        definition = INSTRUCTIONS[word.upper()]
+        return f"{definition.usage}\n\n{definition.help} ({definition.origin})"
+    if word.isascii() and word.isdigit() and int(word) in ERRORS:
+        return f"error {int(word)}: {ERRORS[int(word)]}"
+    near = suggestion(word, {*CODES, *INSTRUCTIONS, *map(str, ERRORS)})
+    raise InvalidInput(
+        f"there is no code, error number or instruction {quoted(word)}"
+        + (f"; {near}" if near else "; `handeye explain` lists the codes")
+    )
+
+
+def listing() -> str:
+    """Every code with its meaning, errors and warnings apart, and the numbers of errors."""
+    width = max(map(len, CODES))
+    out = []
+    for severity in ("error", "warning"):
+        out.append(f"{severity}s a script can have")
+        out += [f"  {c:<{width}}  {e.meaning}" for c, e in sorted(CODES.items()) if e.severity == severity]
+        out.append("")
+    out.append("error numbers a script can test")
+    out += [f"  {number:>2}  {meaning}" for number, meaning in sorted(ERRORS.items())]
+    return "\n".join(out)
+
+
+def _code(code: str) -> str:
+    entry = CODES[code]
+    found = "while the script is checked" if entry.phase == "language" else "when its motions are planned"
+    out = [f"{entry.severity}[{code}]: {entry.meaning}", f"found {found}", "", "for example"]
+    out += ["", *(f"    {line}".rstrip() for line in _shortened(entry.example.split("\n"))), ""]
+    source, diagnostic = example(code)
+    if diagnostic is not None:
+        out += ["gives", "", *(f"    {line}".rstrip() for line in render(diagnostic, source).split("\n")), ""]
+        cures = fixes(Document(source=source, taught=SAMPLE), diagnostic)
+        if cures:
+            becomes = cured(source.text, cures[0]).rstrip("\n").split("\n")
+            out += [f"cure: {cures[0].title}", "", *(f"    {line}".rstrip() for line in _shortened(becomes))]
+    return "\n".join(out).rstrip()
+
+
+def _shortened(lines: list[str], most: int = 16) -> list[str]:
+    return lines if len(lines) <= most else [*lines[: most - 4], "...", *lines[-3:]]
+
+
+@cache
+def example(code: str) -> tuple[Source, Diagnostic | None]:
+    """The example of a code, and the diagnostic it gets; None if it takes more than the example to get it."""
+    source = Source(name="example.al", text=CODES[code].example)
+    program, found = compile_text(source, SAMPLE)
+    if program is not None:
+        found = [*found, *planning(program)]
+    return source, next((diagnostic for diagnostic in found if diagnostic.code == code), None)

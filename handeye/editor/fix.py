@@ -1,0 +1,73 @@
+"""A cure, and what the makers of cures share."""
+
+from dataclasses import dataclass
+
+from handeye.al.instructions import Operand
+from handeye.al.scanner import Line, Token
+from handeye.al.syntax import Vector
+from handeye.diagnostics import Diagnostic
+from handeye.editor.document import Document
+from handeye.editor.navigation import Edit
+from handeye.editor.places import instruction, places
+from handeye.source import Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fix:
+    """A cure; the first of several is the likeliest."""
+
+    title: str
+    edits: tuple[Edit, ...]
+
+
+def cured(text: str, fix: Fix) -> str:
+    """The text of a script after a cure."""
+    for edit in sorted(fix.edits, key=lambda edit: edit.span, reverse=True):
+        text = text[: edit.span.start] + edit.text + text[edit.span.end :]
+    return text
+
+
+def replace(span: Span, text: str, title: str) -> Fix:
+    """One place is written otherwise."""
+    return Fix(title=title, edits=(Edit(span=span, text=text),))
+
+
+def insert(at: int, text: str, title: str) -> Fix:
+    """Something is put in."""
+    return replace(Span(start=at, end=at), text, title)
+
+
+def at(offset: int) -> Span:
+    """The empty place at an offset."""
+    return Span(start=offset, end=offset)
+
+
+def line_of(document: Document, diagnostic: Diagnostic) -> Line:
+    """The line a diagnostic is about."""
+    line = document.line_at(diagnostic.primary.span.start)
+    assert line is not None
+    return line
+
+
+def word_of(line: Line) -> str:
+    """The word in the instruction column of a line."""
+    return line.split()[1][0].text.upper()
+
+
+def operand_of(line: Line, diagnostic: Diagnostic) -> tuple[Operand | None, Token | None]:
+    """The operand a diagnostic is about, and its token, unless that is a vector."""
+    definition, tokens = instruction(line)
+    if definition is not None:
+        for place in places(definition, tokens[1:]):
+            if place.token.start == diagnostic.primary.span.start:
+                single = place.operand is None or Vector not in place.operand.takes or place.token.text != "["
+                return place.operand, place.token if single else None
+    return None, None
+
+
+def with_blanks_before(document: Document, span: Span) -> Span:
+    """A place and the blanks in front of it."""
+    start = span.start
+    while start and document.text[start - 1] in " \t":
+        start -= 1
+    return Span(start=start, end=span.end)

@@ -1,0 +1,116 @@
+"""Cures that take lines away, move them or put them in."""
+
+from collections.abc import Iterator
+from itertools import count
+
+from handeye.al.instructions import Role
+from handeye.diagnostics import Diagnostic, quoted
+from handeye.editor.completion import names
+from handeye.editor.document import Document
+from handeye.editor.fix import Fix, at, insert, line_of, replace, word_of
+from handeye.editor.navigation import Edit
+from handeye.editor.occurrences import LABEL, MACRO
+from handeye.editor.places import instruction
+from handeye.source import Span
+
+
+def remove_line(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    line = line_of(document, diagnostic)
+    heads, tokens = line.split()
+    if heads and tokens:
+        word = f"remove `{tokens[0].text}`"
+        end = line.end if line.comment is None else tokens[-1].end
+        yield replace(Span(start=tokens[0].start, end=end), "", word)
+    else:
+        yield replace(document.whole_line(line.number), "", "remove the line")
+
+
+def remove_unused(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    span = diagnostic.primary.span
+    name = document.name_at(span.start)
+    if name is not None and name.makes and name.kind == LABEL:
+        yield from _remove_label(document, name.span)
+    elif name is not None and name.makes and name.kind == MACRO:
+        first = line_of(document, diagnostic).number
+        last = first
+        while last < len(document.lines) and not document.lines[last].is_blank:
+            last += 1
+        whole = Span(start=document.whole_line(first).start, end=document.whole_line(last + 1).end)
+        yield replace(whole, "", f"remove the macro {quoted(name.name)}")
+    else:
+        yield from remove_line(document, diagnostic)
+
+
+def _remove_label(document: Document, span: Span) -> Iterator[Fix]:
+    line = document.line_at(span.start)
+    assert line is not None
+    title = f"remove the label {quoted(document.text[span.start : span.end])}"
+    if len(line.tokens) == 2 and line.comment is None:
+        yield replace(document.whole_line(line.number), "", title)
+        return
+    end = span.end + len(document.text[span.end :].split(":", 1)[0]) + 1
+    # What followed the label stays in its column.
+    fill = " " * (end - span.start) if line.tokens[0].start == span.start else ""
+    yield replace(Span(start=span.start, end=end), fill, title)
+
+
+def label_first(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    if not diagnostic.secondary:
+        return
+    label = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end]
+    modifier = document.line_at(diagnostic.secondary[0].span.start)
+    assert modifier is not None
+    for removed in _remove_label(document, diagnostic.primary.span):
+        put = Edit(span=Span(start=modifier.start, end=modifier.start), text=f"{label}:\n")
+        yield Fix(title=f"put the label before `{word_of(modifier)}`", edits=(put, *removed.edits))
+
+
+def jump_over(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    """SKIPE n, modifier, motion: SKIPN n, JUMP behind, modifier, motion, and the label behind."""
+    line = line_of(document, diagnostic)
+    word = document.text[diagnostic.primary.span.start : diagnostic.primary.span.end].upper()
+    opposite = {"SKIPE": "SKIPN", "SKIPN": "SKIPE"}[word]
+    behind = _behind_motion(document, line.number)
+    if behind is None:
+        return
+    labels = names(document, LABEL)
+    label = next(f"PAST{n}" for n in count(1) if f"PAST{n}" not in labels)
+    yield Fix(
+        title=f"jump over both with `{opposite}` and `JUMP`",
+        edits=(
+            Edit(span=diagnostic.primary.span, text=opposite),
+            Edit(span=at(document.whole_line(line.number).end), text=f"        JUMP    {label}\n"),
+            Edit(span=at(behind), text=f"{label}:\n" if behind < len(document.text) else f"\n{label}:\n"),
+        ),
+    )
+
+
+def _behind_motion(document: Document, number: int) -> int | None:
+    """Where the line behind the next motion, and its RESTOREs, begins."""
+    moved = False
+    for line in document.lines[number:]:
+        definition, _ = instruction(line)
+        role = None if definition is None else definition.role
+        if moved and line.tokens and role is not Role.SHIFT:
+            return line.start
+        moved = moved or role is Role.MOTION
+    return len(document.text) if moved else None
+
+
+def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    """SKIPE of an error that cannot be there never skips; SKIPN always does, and is no good guess."""
+    if word_of(line_of(document, diagnostic)) == "SKIPE":
+        yield from remove_line(document, diagnostic)
+
+
+def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    """Before the label an AOJ goes back to; the step is that of 1973."""
+    line = line_of(document, diagnostic)
+    label = next(
+        (n for n in document.names if n.kind == LABEL and line.start <= n.span.start < line.end), None
+    )
+    made = [n for n in document.names if n.makes and label is not None and n.name == label.name]
+    if made:
+        before = document.line_at(made[0].span.start)
+        assert before is not None
+        yield insert(before.start, "        SEARCH  .07\n", "begin a search with steps of .07 in")

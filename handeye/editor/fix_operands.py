@@ -1,0 +1,97 @@
+"""Cures within a line: marks that are missing or too many, names, numbers."""
+
+import re
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.al.scanner import Kind
+from handeye.al.syntax import Name, Text
+from handeye.diagnostics import Diagnostic, quoted
+from handeye.editor.completion import names
+from handeye.editor.document import Document
+from handeye.editor.fix import Fix, insert, line_of, operand_of, replace, with_blanks_before
+from handeye.editor.places import expected, instruction, places
+from handeye.source import Span
+
+MOST: Final = 8
+"""Choices offered for a name that is missing."""
+_COLON: Final = re.compile(r"`(\w+):`")
+
+
+def colon(_: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    if diagnostic.help and (label := _COLON.search(diagnostic.help)):
+        yield insert(diagnostic.primary.span.end, ":", f"make it the label {quoted(label[1] + ':')}")
+
+
+def close_string(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    line = line_of(document, diagnostic)
+    text = document.text[diagnostic.primary.span.start : line.end]
+    comment = text.find(" ;")
+    words = text if comment < 0 else text[:comment]
+    yield insert(diagnostic.primary.span.start + len(words.rstrip()), '"', "close the string")
+
+
+def close_vector(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    definition, tokens = instruction(line_of(document, diagnostic))
+    if definition is None:
+        return
+    numbers = [p for p in places(definition, tokens[1:]) if p.token.start > diagnostic.primary.span.start]
+    operand = numbers[0].operand if numbers else None
+    if operand is not None and operand.units:
+        last = numbers[: len(operand.units)][-1]
+        yield insert(last.token.end, "]", "close the vector")
+
+
+def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    first = document.source.position(diagnostic.primary.span.start)[0]
+    for line in document.lines[first:]:
+        if line.tokens and line.split()[1][:1] and line.split()[1][0].text.upper() == "DEFINE":
+            yield insert(line.start, "\n", "end the macro with a blank line")
+            return
+    end = "\n" if document.text.endswith("\n") else "\n\n"
+    yield insert(len(document.text), end, "end the macro with a blank line")
+
+
+def drop_operands(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    yield replace(with_blanks_before(document, diagnostic.primary.span), "", "remove what is too much")
+
+
+def drop_mark(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    span = diagnostic.primary.span
+    mark = document.text[span.start : span.end]
+    if mark == ",":
+        yield replace(span, " ", "separate by a blank")
+    else:
+        yield replace(with_blanks_before(document, span), "", f"remove {quoted(mark)}")
+
+
+def quote(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    line = line_of(document, diagnostic)
+    operand, _ = operand_of(line, diagnostic)
+    if operand is not None and operand.takes == (Text,):
+        span = Span(start=diagnostic.primary.span.start, end=line.tokens[-1].end)
+        words = document.text[span.start : span.end]
+        if '"' not in words:
+            yield replace(span, f'"{words}"', "put it in quotes")
+
+
+def fill_in(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    definition, tokens = instruction(line_of(document, diagnostic))
+    if definition is None:
+        return
+    wanted = expected(definition, tokens[1:])
+    if len(wanted) == 1 and Name in wanted[0].takes:
+        for name in list(names(document, wanted[0].refers.value))[:MOST]:
+            yield insert(diagnostic.primary.span.end, f" {name}", f"name {quoted(name)}")
+
+
+def nearest_number(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    operand, token = operand_of(line_of(document, diagnostic), diagnostic)
+    if operand is None or token is None or token.kind is not Kind.NUMBER:
+        return
+    value = float(token.text)
+    for choice in sorted(operand.choices, key=lambda c: abs(c - value)):
+        yield replace(token.span, f"{choice:g}", f"change to {choice:g}")
+    nearest = min(max(value, operand.low), operand.high)
+    if nearest != value:
+        yield replace(token.span, f"{nearest:g}", f"change to {nearest:g}")

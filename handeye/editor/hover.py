@@ -1,0 +1,174 @@
+"""What there is to know about the word under the pointer, as Markdown."""
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.al.instructions import Instruction, Unit
+from handeye.al.scanner import Kind, Line, Token
+from handeye.al.syntax import Number, Vector
+from handeye.arm.kinematics import solve
+from handeye.arm.model import ArmModel
+from handeye.arm.stanford import STANFORD
+from handeye.editor.document import Document
+from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence
+from handeye.editor.places import Place, instruction, places
+from handeye.errors import ERRORS
+from handeye.plan.program import Position
+from handeye.plan.world import WorldModel
+from handeye.pose import Pose, hand_angles
+from handeye.source import Span
+from handeye.units import DEGREE, INCH
+
+SI: Final = {
+    "in": ("mm", 1e-3),
+    "in/s": ("mm/s", 1e-3),
+    "mm": ("in", INCH),
+    "degrees": ("rad", 1.0),
+    "oz": ("N", 1.0),
+    "oz-in": ("N m", 1.0),
+    "rpm": ("rad/s", 1.0),
+}
+"""For each unit as written: the other unit it is shown in, and that one's SI value."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hover:
+    """Markdown, and the characters it is about."""
+
+    span: Span
+    text: str
+
+
+def hover(document: Document, offset: int) -> Hover | None:
+    """What there is to say about what stands at an offset."""
+    line = document.line_at(offset)
+    if line is None:
+        return None
+    token = next((t for t in line.tokens if t.start <= offset < t.end), None)
+    if token is None:
+        return None
+    text = _text(document, line, token)
+    return None if text is None else Hover(span=token.span, text=text)
+
+
+def _text(document: Document, line: Line, token: Token) -> str | None:
+    definition, tokens = instruction(line)
+    if definition is not None and token == tokens[0]:
+        return about_instruction(definition)
+    if tokens and token == tokens[0] and token.text.upper() == "DEFINE":
+        return "`DEFINE name`\n\nbegin a macro; a blank line ends it"
+    name = document.name_at(token.start)
+    if name is not None and name.span == token.span:
+        return _about_name(document, name)
+    if definition is None:
+        return None
+    place = next((p for p in places(definition, tokens[1:]) if p.token == token), None)
+    return None if place is None else _about_value(definition, place)
+
+
+def about_instruction(definition: Instruction) -> str:
+    """Usage, meaning and origin of an instruction."""
+    return f"`{definition.usage}`\n\n{definition.help}\n\n*{definition.origin}*"
+
+
+def _about_value(definition: Instruction, place: Place) -> str | None:
+    operand, token = place.operand, place.token
+    if operand is None:
+        return None
+    if operand.word and token.text.upper() == operand.word:
+        return f"`{definition.usage}`"
+    if token.kind is not Kind.NUMBER:
+        return None
+    try:
+        value = float(token.text)
+    except ValueError:
+        return None
+    if operand.whole and operand.name == "error" and value in ERRORS:
+        return f"error {int(value)}: {ERRORS[int(value)]}"
+    vector = Vector in operand.takes and (Number not in operand.takes or place.component > 0)
+    units = operand.units
+    unit = units[place.component] if vector and place.component < len(units) else units[0] if units else None
+    letters = operand.name.strip("[]").split() if operand.name.startswith("[") else [operand.name]
+    name = letters[place.component] if len(letters) == len(units) else operand.name
+    return f"{name}: {in_both_units(value, unit)}" if unit is not None else None
+
+
+def in_both_units(value: float, unit: Unit) -> str:
+    """A quantity as written and in the other system of units."""
+    if unit.name not in SI:
+        return f"{value:g} {unit.name}".rstrip()
+    other, scale = SI[unit.name]
+    return f"{value:g} {unit.name} = {value * unit.si / scale:.4g} {other}"
+
+
+def _about_name(document: Document, name: Occurrence) -> str | None:
+    title = f"{name.kind} `{name.name}`"
+    if name.kind == POSITION:
+        return "\n\n".join([title, *_position(document, name.name)])
+    if name.kind == PART and name.name in document.taught.parts:
+        x, y, z, turn = document.taught.parts[name.name].at
+        at = f"planned at {_inches(x, y, z)} in, turned {turn / DEGREE:g} degrees"
+        return f"{title}\n\n{at}"
+    made = [
+        n
+        for n in document.names
+        if n.makes and (n.kind, n.name, n.scope) == (name.kind, name.name, name.scope)
+    ]
+    if not made:
+        return None
+    lines = [document.source.position(n.span.start)[0] for n in made]
+    last = _macro_end(document, lines[0]) if name.kind == MACRO else lines[0]
+    shown = [document.source.line(n) for n in (range(lines[0], last + 1) if name.kind == MACRO else lines)]
+    return f"{title}, line {', '.join(map(str, lines))}\n\n```armal\n" + "\n".join(shown) + "\n```"
+
+
+def _macro_end(document: Document, number: int) -> int:
+    while number < len(document.lines) and not document.lines[number].is_blank:
+        number += 1
+    return number
+
+
+def _position(document: Document, name: str) -> list[str]:
+    position = document.positions.get(name)
+    if position is None:
+        return []
+    if position.of is not None and position.of not in document.taught.parts:
+        return [f"relative to part `{position.of}`, which is not known"]
+    world = WorldModel(parts=document.taught.parts, positions={name: position})
+    X_WT = world.planned_position(name)
+    out = [f"hand at {_hand(X_WT)}" + (", as planned" if position.of else "")]
+    if position.of is not None:
+        out.append(f"relative to part `{position.of}`: {_written(position)}")
+    return [*out, joints(STANFORD, X_WT)]
+
+
+def joints(arm: ArmModel, X_WT: Pose) -> str:
+    """Joint positions that put the hand there, from the middle of their ranges; or why there are none."""
+    result = solve(arm, X_WT, (arm.lower + arm.upper) / 2)
+    if result.q is None:
+        return f"out of the arm's reach: {result.message(arm)}"
+    shown = [
+        f"{joint.name} {q / INCH:.1f} in" if joint.kind == "prismatic" else f"{joint.name} {q / DEGREE:.1f}°"
+        for joint, q in zip(arm.joints, result.q, strict=True)
+    ]
+    return "joints: " + ", ".join(shown)
+
+
+def _hand(X_WT: Pose) -> str:
+    return _six(X_WT[:3, 3].tolist(), hand_angles(X_WT))
+
+
+def _written(position: Position) -> str:
+    return _six(position.at[:3], position.at[3:])
+
+
+def _six(p: "list[float] | tuple[float, ...]", angles: tuple[float, ...]) -> str:
+    turned = ", ".join(f"{round(math.degrees(a), 2) + 0.0:g}" for a in angles)
+    return f"{_inches(*p)} in; O, A, T {turned} degrees"
+
+
+def _inches(*p: float) -> str:
+    return "(" + ", ".join(f"{round(float(np.float64(x)) / INCH, 3) + 0.0:g}" for x in p) + ")"

@@ -1,0 +1,104 @@
+"""From a name to where it is made and used, and to another name."""
+
+import re
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.diagnostics import quoted
+from handeye.editor.document import Document
+from handeye.editor.occurrences import LABEL, MACRO, PARK, PART, POSITION, Occurrence, same
+from handeye.errors import InvalidInput
+from handeye.source import Span
+
+_NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_WORDS: Final = {operand.word for i in INSTRUCTIONS.values() for operand in i.operands if operand.word}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """A place in the script, or in the file of what was taught."""
+
+    span: Span
+    taught: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edit:
+    """Characters to be replaced."""
+
+    span: Span
+    text: str
+    taught: bool = False
+    """In the file of what was taught."""
+
+
+def definition(document: Document, offset: int) -> list[Found]:
+    """Where the thing named at an offset is made; a difference may be saved in several places."""
+    name = document.name_at(offset)
+    return [] if name is None else [_found(place) for place in _all(document, name) if place[0].makes]
+
+
+def references(document: Document, offset: int) -> list[Found]:
+    """Where the thing named at an offset is made or used."""
+    name = document.name_at(offset)
+    return [] if name is None else [_found(place) for place in _all(document, name)]
+
+
+def renamable(document: Document, offset: int) -> Occurrence:
+    """The name at an offset, if it may be called otherwise.
+
+    Raises:
+        InvalidInput: there is no name, or it is a word of the language, or it is made where no edit reaches.
+    """
+    name = document.name_at(offset)
+    if name is None:
+        raise InvalidInput("there is no name here")
+    places = [occurrence for occurrence, _ in _all(document, name)]
+    if any(place.fixed for place in places) or (name.kind, name.name) == (POSITION, PARK):
+        raise InvalidInput(f"{quoted(name.name)} is a word of the language")
+    if not any(place.makes for place in places):
+        where = "in the taught file" if _is_taught(document, name) else "anywhere"
+        raise InvalidInput(f"where {name.kind} {quoted(name.name)} is made is not found {where}")
+    return name
+
+
+def rename(document: Document, offset: int, new: str) -> list[Edit]:
+    """Edits of the script and the taught file that call a thing otherwise.
+
+    Raises:
+        InvalidInput: it cannot be called otherwise, or not so.
+    """
+    name = renamable(document, offset)
+    if _NAME.fullmatch(new) is None:
+        raise InvalidInput(
+            f"{quoted(new)} is no name: names consist of letters, digits and `_`, and start with no digit"
+        )
+    if (name.kind in (MACRO, LABEL) and new.upper() in (*INSTRUCTIONS, "DEFINE")) or new.upper() in _WORDS:
+        raise InvalidInput(f"{quoted(new)} is a word of the language")
+    if new != name.name and any(_meets(other, name, new) for other in document.names + document.taught_names):
+        raise InvalidInput(f"there is a {name.kind} {quoted(new)} already")
+    return [Edit(span=o.span, text=new, taught=taught) for o, taught in _all(document, name)]
+
+
+def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
+    """Whether a name stands where the new one would be taken for it; AIM takes positions and parts alike."""
+    if name.kind == LABEL:
+        return other.kind == LABEL and other.name == new
+    kinds = (POSITION, PART) if name.kind in (POSITION, PART) else (name.kind,)
+    called = new.upper() if name.kind == MACRO else new
+    return other.kind in kinds and other.name == called and not same(other, name)
+
+
+def _is_taught(document: Document, name: Occurrence) -> bool:
+    return name.name in document.taught_of(name.kind)
+
+
+def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, bool]]:
+    return [(o, False) for o in document.names if same(o, name)] + [
+        (o, True) for o in document.taught_names if same(o, name)
+    ]
+
+
+def _found(place: tuple[Occurrence, bool]) -> Found:
+    return Found(span=place[0].span, taught=place[1])

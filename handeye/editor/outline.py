@@ -1,0 +1,72 @@
+"""The stages of a script, and what is in them."""
+
+from dataclasses import dataclass, field
+
+from handeye.al.scanner import Kind
+from handeye.editor.document import Document
+from handeye.editor.occurrences import MACRO
+from handeye.editor.places import instruction
+from handeye.source import Span
+
+STAGE = "stage"
+FIRST = "program"
+"""The stage of what stands before the first STAGE."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Symbol:
+    """Something with a name, and the text it reaches over."""
+
+    name: str
+    kind: str
+    """`stage`, or that of a name."""
+    span: Span
+    at: Span
+    """Its name."""
+    parts: list["Symbol"] = field(default_factory=list)
+
+
+def outline(document: Document) -> list[Symbol]:
+    """Stages with the labels, positions, pictures and differences made in them, and macros beside them."""
+    stages = _stages(document)
+    macros = []
+    for name in document.names:
+        if not name.makes:
+            continue
+        line = document.line_at(name.span.start)
+        assert line is not None
+        span = Span(start=line.start, end=max(line.end, name.span.end))
+        symbol = Symbol(name=name.name, kind=name.kind, span=span, at=name.span)
+        if name.kind == MACRO:
+            macros.append(symbol)
+            continue
+        home = next((s for s in reversed(stages) if s.span.start <= name.span.start), None)
+        if home is None:
+            home = Symbol(name=FIRST, kind=STAGE, span=span, at=name.span)
+            stages.insert(0, home)
+        home.parts.append(symbol)
+        home.span = Span(start=home.span.start, end=max(home.span.end, span.end))
+    return sorted([*stages, *macros], key=lambda symbol: symbol.span.start)
+
+
+def _stages(document: Document) -> list[Symbol]:
+    found: list[Symbol] = []
+    for line in document.lines:
+        definition, tokens = instruction(line)
+        if definition is not None and definition.op == "STAGE" and len(tokens) > 1:
+            quoted = tokens[1].text.strip('"') if tokens[1].kind is Kind.STRING else tokens[1].text
+            _close(found, line.start)
+            found.append(
+                Symbol(
+                    name=quoted or STAGE,
+                    kind=STAGE,
+                    span=Span(start=line.start, end=len(document.text)),
+                    at=tokens[1].span,
+                )
+            )
+    return found
+
+
+def _close(stages: list[Symbol], end: int) -> None:
+    if stages:
+        stages[-1].span = Span(start=stages[-1].span.start, end=end)

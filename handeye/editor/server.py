@@ -1,0 +1,67 @@
+"""The language server: what it knows about the scripts that are open."""
+
+import asyncio
+from typing import Final
+
+from lsprotocol import types as lsp
+from pygls.lsp.server import LanguageServer
+
+from handeye import __version__
+from handeye.diagnostics import Diagnostic
+from handeye.editor import wire
+from handeye.editor.checking import planning
+from handeye.editor.script import Script
+from handeye.plan.taught import Taught
+from handeye.source import Span
+
+PAUSE: Final = 0.3
+"""Seconds without a keystroke after which motions are planned; what the text alone tells comes at once."""
+
+
+class ArmServer(LanguageServer):
+    """The server and what it has planned: for each script, the text and what the planner said about it."""
+
+    def __init__(self) -> None:
+        super().__init__("handeye", __version__)
+        self.planned: dict[str, tuple[str, Taught, list[Diagnostic]]] = {}
+
+    def script(self, uri: str) -> Script:
+        """A script as it is now."""
+        return Script(self.workspace, uri)
+
+    def diagnostics(self, script: Script) -> list[Diagnostic]:
+        """What is known about a script by now: the planner's part only if it is about this very text."""
+        text, taught, problems = self.planned.get(script.uri, ("", Taught(), []))
+        known = problems if (text, taught) == (script.document.text, script.document.taught) else []
+        return [*script.diagnostics(), *known]
+
+    def publish(self, script: Script) -> None:
+        """Tell the client what is known about a script."""
+        source = script.document.source
+        problems = self.diagnostics(script)
+        found = [wire.diagnostic(source, script.uri, problem, script.units) for problem in problems]
+        if script.problem is not None:
+            start = script.range(Span(start=0, end=0))
+            found.append(lsp.Diagnostic(range=start, message=script.problem, source="handeye"))
+        self.text_document_publish_diagnostics(
+            lsp.PublishDiagnosticsParams(uri=script.uri, version=script.version, diagnostics=found)
+        )
+
+    async def check(self, uri: str) -> None:
+        """Say what the text tells; when nobody has typed for a while, what the planner tells too."""
+        script = self.script(uri)
+        self.publish(script)
+        program = None if script.problem is not None else script.document.compiled[0]
+        if program is None:
+            return
+        await asyncio.sleep(PAUSE)
+        if self._is_old(script):
+            return
+        problems = await asyncio.to_thread(planning, program)
+        if not self._is_old(script):
+            self.planned[uri] = (script.document.text, script.document.taught, problems)
+            self.publish(script)
+
+    def _is_old(self, script: Script) -> bool:
+        documents = self.workspace.text_documents
+        return script.uri not in documents or documents[script.uri].version != script.version

@@ -1,0 +1,92 @@
+"""The grammar that colours arm programs in VS Code and its like, made from the table of instructions.
+
+`python -m handeye.editor.textmate` prints it; `editors/vscode/syntaxes/armal.tmLanguage.json` holds it.
+"""
+
+import json
+import sys
+from collections.abc import Iterable
+from typing import Final
+
+from handeye.al.instructions import INSTRUCTIONS, Refers, Role
+
+_NAME: Final = r"[A-Za-z_]\w*"
+_NUMBER: Final = r"(?<![\w.])[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])"
+Rule = dict[str, object]
+
+
+def grammar() -> Rule:
+    """The grammar as data."""
+    free = [i.op for i in INSTRUCTIONS.values() if any(o.free for o in i.operands)]
+    jumps = [i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.LABEL for o in i.operands)]
+    modifiers = [i.op for i in INSTRUCTIONS.values() if i.role in (Role.MODIFIER, Role.SHIFT)]
+    others = [op for op in INSTRUCTIONS if op not in (*free, *jumps, *modifiers)]
+    return {
+        "name": "Arm language",
+        "scopeName": "source.armal",
+        "patterns": [
+            {"include": "#comment"},
+            _match(
+                rf"({_NAME})\s*(:)",
+                {"1": "entity.name.label.armal", "2": "punctuation.separator.label.armal"},
+            ),
+            _match(
+                rf"(?i:\b(DEFINE)\b)(?:\s+({_NAME}))?",
+                {"1": "keyword.other.define.armal", "2": "entity.name.function.armal"},
+            ),
+            _line(_word(free), "keyword.control.armal", _FREE_TEXT),
+            _line(_word(jumps), "keyword.control.armal", [_LABEL, {"include": "#operands"}]),
+            _line(_word(modifiers), "storage.modifier.armal", [{"include": "#operands"}]),
+            _line(_word(others), "keyword.other.armal", [{"include": "#operands"}]),
+            _line(rf"\b({_NAME})", "entity.name.function.armal", [{"include": "#operands"}]),
+        ],
+        "repository": {
+            "comment": {"name": "comment.line.semicolon.armal", "match": ";.*$"},
+            "operands": {"patterns": _operands()},
+        },
+    }
+
+
+def _match(pattern: str, names: dict[str, str]) -> Rule:
+    captures = {number: {"name": name} for number, name in names.items()}
+    return {"match": pattern, "captures": captures}
+
+
+def _line(begin: str, name: str, patterns: Iterable[Rule]) -> Rule:
+    """An instruction and its operands, to the comment or the end of the line."""
+    return {
+        "begin": begin,
+        "beginCaptures": {"1": {"name": name}},
+        "end": "(?=;)|$",
+        "patterns": list(patterns),
+    }
+
+
+def _word(words: Iterable[str]) -> str:
+    return rf"(?i:\b({'|'.join(words)})\b)"
+
+
+_STRING: Final[Rule] = {"name": "string.quoted.double.armal", "match": '"[^"]*"?'}
+_LABEL: Final[Rule] = _match(rf"\b({_NAME})\s*(?=;|$)", {"1": "entity.name.label.armal"})
+_FREE_TEXT: Final[list[Rule]] = [_STRING, {"name": "string.unquoted.armal", "match": r'[^\s;"]+'}]
+
+
+def _operands() -> list[Rule]:
+    words = sorted({o.word for i in INSTRUCTIONS.values() for o in i.operands if o.word})
+    return [
+        _STRING,
+        {"name": "constant.numeric.armal", "match": _NUMBER},
+        {"name": "punctuation.section.vector.armal", "match": r"[\[\],]"},
+        _match(_word(words), {"1": "keyword.operator.word.armal"}),
+        {"name": "variable.other.armal", "match": rf"\b{_NAME}"},
+        {"name": "invalid.illegal.armal", "match": r"\S"},
+    ]
+
+
+def grammar_text() -> str:
+    """The grammar as the file holds it."""
+    return json.dumps(grammar(), indent=2) + "\n"
+
+
+if __name__ == "__main__":
+    sys.stdout.write(grammar_text())

@@ -1,0 +1,205 @@
+"""The language server, driven over its standard input and output by a client."""
+
+import asyncio
+import subprocess
+import sys
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pygls")
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.client import LanguageClient
+
+TAUGHT = """\
+[positions]
+PARK = { at = [20.0, 28.0, 8.0, 90, 90, 0] }
+HOLE = { at = [25.0, 38.0, 4.0, 90, 90, 0] }
+FAR = { at = [200.0, 38.0, 4.0, 90, 90, 0] }
+"""
+SCRIPT = """\
+        STAGE   "look 🔭"
+        PARK
+        JUMP    L1
+L1:     MOVE    HOLE
+"""
+
+
+class Client(LanguageClient):
+    """Keeps what is published, and opens one script."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__("test", "1")
+        self.published: asyncio.Queue[lsp.PublishDiagnosticsParams] = asyncio.Queue()
+        self.feature(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: self.published.put_nowait(params))
+        self.script, self.taught = folder / "a.al", folder / "a.toml"
+        self.document = lsp.TextDocumentIdentifier(uri=self.script.as_uri())
+        self.version = 1
+
+    async def open(self, text: str) -> list[lsp.Diagnostic]:
+        item = lsp.TextDocumentItem(uri=self.document.uri, language_id="armal", version=1, text=text)
+        self.text_document_did_open(lsp.DidOpenTextDocumentParams(text_document=item))
+        return await self.diagnostics()
+
+    async def type(self, line: int, start: int, end: int, text: str) -> list[lsp.Diagnostic]:
+        self.version += 1
+        changed = lsp.VersionedTextDocumentIdentifier(uri=self.document.uri, version=self.version)
+        place = lsp.Range(start=lsp.Position(line, start), end=lsp.Position(line, end))
+        change = lsp.TextDocumentContentChangePartial(range=place, text=text)
+        params = lsp.DidChangeTextDocumentParams(text_document=changed, content_changes=[change])
+        self.text_document_did_change(params)
+        return await self.diagnostics()
+
+    async def diagnostics(self) -> list[lsp.Diagnostic]:
+        """The next that are about the text as it is now."""
+        while (published := await self.published.get()).version != self.version:
+            pass
+        return list(published.diagnostics)
+
+
+def talk(folder: Path, conversation: Callable[[Client], Awaitable[None]]) -> None:
+    """Start a server, hold a conversation, say goodbye; the server ends by itself."""
+
+    async def whole() -> int | None:
+        client = Client(folder)
+        await client.start_io(sys.executable, "-m", "handeye", "lsp")
+        abilities = lsp.ClientCapabilities()
+        root = folder.as_uri()
+        await client.initialize_async(lsp.InitializeParams(capabilities=abilities, root_uri=root))
+        client.initialized(lsp.InitializedParams())
+        await conversation(client)
+        await client.shutdown_async(None)
+        client.exit(None)
+        assert client._server is not None
+        code = await client._server.wait()
+        await client.stop()
+        return code
+
+    assert asyncio.run(whole()) == 0
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "a.toml").write_text(TAUGHT, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.slow
+def test_diagnostics_come_as_one_types_and_the_planner_s_after_a_pause(folder: Path) -> None:
+    async def conversation(client: Client) -> None:
+        assert await client.open(SCRIPT) == []
+        assert [d.code for d in await client.type(3, 16, 20, "HOLLE")] == ["unknown-position"]
+        assert await client.type(3, 16, 21, "FAR") == []
+        (far,) = await client.diagnostics()
+        assert (far.code, far.range.start, far.range.end) == (
+            "unreachable-position",
+            lsp.Position(3, 16),
+            lsp.Position(3, 19),
+        )
+        assert await client.type(3, 16, 19, "HOLE") == []
+
+    talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_a_taught_file_that_cannot_be_used_is_one_diagnostic(folder: Path) -> None:
+    (folder / "a.toml").write_text("[positions", encoding="utf-8")
+
+    async def conversation(client: Client) -> None:
+        (only,) = await client.open(SCRIPT)
+        assert "a.toml is not TOML" in only.message
+        client.taught.write_text(TAUGHT, encoding="utf-8")
+        client.workspace_did_change_watched_files(lsp.DidChangeWatchedFilesParams(changes=[]))
+        assert await client.diagnostics() == []
+
+    talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_every_question_an_editor_asks_is_answered(folder: Path) -> None:
+    async def conversation(client: Client) -> None:
+        await client.open(SCRIPT)
+        document, at = client.document, lsp.Position(3, 17)
+        hover = await client.text_document_hover_async(lsp.HoverParams(document, at))
+        assert hover is not None
+        assert "position `HOLE`" in str(hover.contents)
+        assert "(25, 38, 4) in" in str(hover.contents)
+        proposed = await client.text_document_completion_async(lsp.CompletionParams(document, at))
+        assert proposed is not None
+        assert not isinstance(proposed, lsp.CompletionList)
+        assert [item.label for item in proposed] == ["FAR", "HOLE", "PARK"]
+        made = await client.text_document_definition_async(lsp.DefinitionParams(document, at))
+        assert list(made or ()) == [lsp.Location(client.taught.as_uri(), span(2, 0, 4))]
+        used = await client.text_document_references_async(
+            lsp.ReferenceParams(
+                context=lsp.ReferenceContext(include_declaration=False),
+                text_document=document,
+                position=lsp.Position(2, 16),
+            )
+        )
+        assert list(used or ()) == [lsp.Location(document.uri, span(2, 16, 18))]
+        renamed = await client.text_document_rename_async(lsp.RenameParams(document, at, "BORE"))
+        assert renamed is not None
+        assert changes(renamed) == {
+            document.uri: [lsp.TextEdit(span(3, 16, 20), "BORE")],
+            client.taught.as_uri(): [lsp.TextEdit(span(2, 0, 4), "BORE")],
+        }
+        symbols = await client.text_document_document_symbol_async(lsp.DocumentSymbolParams(document))
+        assert symbols is not None
+        (stage,) = symbols
+        assert isinstance(stage, lsp.DocumentSymbol)
+        assert (stage.name, [part.name for part in stage.children or ()]) == ("look 🔭", ["L1"])
+
+    talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_quick_fixes_and_formatting_come_as_edits(folder: Path) -> None:
+    async def conversation(client: Client) -> None:
+        (wrong,) = await client.open('STAGE "🔭" MOVE\npark\n')
+        assert (wrong.code, wrong.range) == ("too-many-operands", span(0, 11, 15))
+        context = lsp.CodeActionContext(diagnostics=[wrong])
+        document = client.document
+        actions = await client.text_document_code_action_async(
+            lsp.CodeActionParams(document, wrong.range, context)
+        )
+        assert actions is not None
+        (action,) = actions
+        assert isinstance(action, lsp.CodeAction)
+        assert action.edit is not None
+        assert changes(action.edit) == {document.uri: [lsp.TextEdit(span(0, 10, 15), "")]}
+        options = lsp.FormattingOptions(tab_size=8, insert_spaces=True)
+        edits = await client.text_document_formatting_async(lsp.DocumentFormattingParams(document, options))
+        assert edits is not None
+        assert [edit.new_text for edit in edits] == ['        STAGE   "🔭" MOVE\n        PARK\n']
+
+    talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_a_word_of_the_language_cannot_be_renamed(folder: Path) -> None:
+    async def conversation(client: Client) -> None:
+        await client.open(SCRIPT)
+        rename = lsp.RenameParams(client.document, lsp.Position(1, 9), "HOME")
+        with pytest.raises(JsonRpcException, match="`PARK` is a word of the language"):
+            await client.text_document_rename_async(rename)
+
+    talk(folder, conversation)
+
+
+@pytest.mark.slow
+def test_the_server_ends_quietly_when_its_client_has_gone() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "lsp"], input=b"", capture_output=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+
+
+def span(line: int, start: int, end: int) -> lsp.Range:
+    return lsp.Range(start=lsp.Position(line, start), end=lsp.Position(line, end))
+
+
+def changes(edit: lsp.WorkspaceEdit) -> dict[str, list[lsp.TextEdit]]:
+    return {uri: list(edits) for uri, edits in (edit.changes or {}).items()}
