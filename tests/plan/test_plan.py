@@ -90,6 +90,19 @@ def test_a_step_that_leads_nowhere_is_refused(plan: Plan) -> None:
     assert refusal(json.dumps(data)) == "p.json: step 0 (line 2) leads to step 77; the plan has steps 0 to 3"
 
 
+@pytest.mark.parametrize(
+    ("step", "field", "value", "said"),
+    [
+        (2, "positive", 77, "step 2 (line 3) leads to step 77; the plan has steps 0 to 2"),
+        (0, "value", 5000, "step 0 (line 1) has value 5000; it has to be from 0 to 1000"),
+    ],
+)
+def test_a_count_that_cannot_be_carried_out_is_refused(step: int, field: str, value: int, said: str) -> None:
+    data = json.loads(encode(planned("ASSIGN N 2\nL: OPEN 1\nSOJG N L")))
+    data["program"]["steps"][step]["operation"][field] = value
+    assert refusal(json.dumps(data)) == f"p.json: {said}"
+
+
 def edited(plan: Plan, path: str, value: object) -> str:
     """The plan's text with one value replaced; `path` is dotted."""
     data = json.loads(encode(plan))
