@@ -5,130 +5,13 @@ A wrong text is never an exception: checkers collect `Diagnostic`s, callers rend
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final
 
+from handeye.codes import CODES, Severity
 from handeye.source import Source, Span
 
-Severity = Literal["error", "warning"]
 LIMIT: Final = 20
 """At most so many diagnostics for one text: nobody reads more."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Code:
-    """What a kind of diagnostic means; `example` is a text that gets it."""
-
-    severity: Severity
-    meaning: str
-    example: str
-    phase: Literal["language", "planning", "strict"] = "language"
-
-
-def _error(meaning: str, example: str) -> Code:
-    return Code(severity="error", meaning=meaning, example=example)
-
-
-def _warning(meaning: str, example: str) -> Code:
-    return Code(severity="warning", meaning=meaning, example=example)
-
-
-def _planning(meaning: str, example: str) -> Code:
-    return Code(severity="error", meaning=meaning, example=example, phase="planning")
-
-
-CODES: Final[dict[str, Code]] = {
-    "aoj-without-search": _warning("no SEARCH comes before an AOJ on any way to it", "L: MOVE T\nAOJ L"),
-    "axis-count": _error("a FREE or SPIN has not as many axes as it says", "FREE 2 X\nCHANGE X 1"),
-    "empty-program": _error("there is no instruction to carry out", "; nothing"),
-    "endless-loop": _warning(
-        "a loop moves the arm, and nothing but an untested error ends it", "L: MOVE T\nJUMP L"
-    ),
-    "error-never-raised": _warning(
-        "a test asks for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
-    ),
-    "extension-used": Code(
-        severity="error",
-        meaning="a word or an operand is ours, and the language was to be that of the seventies",
-        example="LOAD 4",
-        phase="strict",
-    ),
-    "hand-through-table": _planning("part of the hand would be below the table top", "MOVE LOW"),
-    "idle-loop": _warning("nothing leads out of a loop, and nothing moves in it", "PARK\nL: JUMP L"),
-    "label-splits-modifier": _error(
-        "a label stands between a modifier and its motion, so that a jump would lose the modifier",
-        "STOP 50\nL: MOVE T\nJUMP L",
-    ),
-    "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
-    "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
-    "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
-    "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
-    "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
-    "missing-operand": _error("an instruction lacks an operand", "OPEN"),
-    "modifier-misplaced": _error(
-        "a modifier stands before a motion it cannot modify", "FORCE [0 0 -9]\nMOVE T"
-    ),
-    "modifier-twice": _error("a motion has two modifiers where it can have one", "STOP 9\nTORQUE 9\nMOVE T"),
-    "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
-    "never-saved": _warning("a difference is restored that no SAVE keeps", "MOVE T\nRESTORE H"),
-    "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
-    "position-twice": _error(
-        "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"
-    ),
-    "program-too-long": _error(
-        "macros expand to too many statements, or are nested too deeply",
-        "\n".join(f"DEFINE M{i}\nM{i + 1}\n" for i in range(25)) + "\nDEFINE M25\nPARK\n\nM0",
-    ),
-    "recursive-macro": _error("a macro uses itself", "DEFINE A\nOPEN 1\nA\n\nA"),
-    "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
-    "save-without-move": _warning("no MOVE comes before a SAVE on any way to it", "CLOSE\nSAVE H"),
-    "search-without-aoj": _warning("no AOJ comes after a SEARCH on any way from it", "SEARCH .07\nMOVE T"),
-    "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
-    "skip-over-modifier": _error(
-        "a skip would skip a modifier and not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
-    ),
-    "specific-without-general": _warning(
-        "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
-    ),
-    "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
-    "stop-beyond-arm": _planning(
-        "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
-    ),
-    "test-without-action": _warning(
-        "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
-    ),
-    "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
-    "travel-without-change": _warning(
-        "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
-    ),
-    "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
-    "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
-    "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
-    "unknown-error-number": _warning("an error is tested that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"),
-    "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
-    "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
-    "unknown-lens": _error("the turret has no such lens", "LENS 35"),
-    "unknown-part": _error("a part is not known", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
-    "unknown-picture": _error("no LOOK takes a picture of that name", "GENERAL BASE VIEW"),
-    "unknown-position": _error("a position is neither taught nor written with TRANS", "MOVE X9"),
-    "unknown-target": _error("what the camera shall aim at is neither a position nor a part", "AIM X9"),
-    "unknown-vector": _error("a vector is neither an axis nor written with VECT", "CHANGE DOWN 1"),
-    "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
-    "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
-    "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
-    "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
-    "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
-    "unused-label": _warning("no instruction goes to a label", "L: PARK"),
-    "unused-macro": _warning("a macro is never used", "PARK\nDEFINE A\nOPEN 1\n\n"),
-    "unused-position": _warning("a position is written and never used", "TRANS A [1 2 3 0 0 0]\nPARK"),
-    "unused-vector": _warning("a vector is written and never used", "VECT D [0 0 1]\nPARK"),
-    "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),
-    "vector-twice": _error(
-        "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
-    ),
-    "wrong-operand": _error("an operand is of another kind than its place needs", "OPEN T"),
-    "zero-vector": _error("a vector that gives a direction has no length", "CHANGE [0 0 0] 1"),
-}
-"""Every kind of diagnostic there is, by code."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,7 +8,18 @@ import pytest
 PACKAGE = Path(__file__).parent.parent / "handeye"
 
 LAYERS = [
-    {"__init__", "units", "pose", "source", "diagnostics", "errors", "files", "resources", "versions"},
+    {
+        "__init__",
+        "units",
+        "pose",
+        "source",
+        "codes",
+        "diagnostics",
+        "errors",
+        "files",
+        "resources",
+        "versions",
+    },
     {
         "plan.__init__",
         "plan.program",

@@ -14,7 +14,8 @@ from pygments.token import (
     Whitespace,
 )
 
-from handeye.al.instructions import INSTRUCTIONS, Refers, Role
+from handeye.al.definition import Refers, Role
+from handeye.al.instructions import INSTRUCTIONS
 
 _NAME = r"[A-Za-z_]\w*"
 _FREE = [i.op for i in INSTRUCTIONS.values() if any(o.free for o in i.operands)]

@@ -6,7 +6,8 @@ from itertools import accumulate
 
 import msgspec
 
-from handeye.al.instructions import INSTRUCTIONS, Role
+from handeye.al.definition import Role
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.macros import Call, Placed
 from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text

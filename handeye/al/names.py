@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from handeye.al.instructions import AXES, ERROR, INSTRUCTIONS, Operand, Refers
+from handeye.al.definition import Operand, Refers
+from handeye.al.instructions import AXES, ERROR, INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Script, Statement, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS

@@ -4,7 +4,8 @@ import math
 import re
 from collections.abc import Sequence
 
-from handeye.al.instructions import AXES, BIGGEST, SMALLEST, Instruction, Operand
+from handeye.al.definition import BIGGEST, SMALLEST, Instruction, Operand
+from handeye.al.instructions import AXES
 from handeye.al.scanner import Kind, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.diagnostics import Diagnostic, Label, quoted

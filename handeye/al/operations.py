@@ -5,7 +5,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from handeye.al.instructions import INSTRUCTIONS, Instruction
+from handeye.al.definition import Instruction
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
 from handeye.plan import program as p
 from handeye.units import INCH, OUNCE_FORCE

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterator
 
-from handeye.al.instructions import Refers
+from handeye.al.definition import Refers
 from handeye.al.names import all_statements, pairs
 from handeye.al.syntax import Name, Script, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted

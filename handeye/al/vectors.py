@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Final
 
-from handeye.al.instructions import Refers
+from handeye.al.definition import Refers
 from handeye.al.names import all_statements, pairs
 from handeye.al.syntax import Macro, Name, Script, Statement, Value, Vector
 

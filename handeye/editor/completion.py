@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from handeye.al.instructions import INSTRUCTIONS, Operand, Refers
+from handeye.al.definition import Operand, Refers
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Kind, scan
 from handeye.al.syntax import Name
 from handeye.editor.document import Document

@@ -4,7 +4,8 @@ from functools import cache
 
 from handeye.al.compiler import compile_text
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.diagnostics import CODES, Diagnostic, quoted, render, suggestion
+from handeye.codes import CODES
+from handeye.diagnostics import Diagnostic, quoted, render, suggestion
 from handeye.editor.checking import planning
 from handeye.editor.document import Document
 from handeye.editor.fix import cured

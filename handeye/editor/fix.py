@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from handeye.al.instructions import Operand
+from handeye.al.definition import Operand
 from handeye.al.scanner import Line, Token
 from handeye.al.syntax import Vector
 from handeye.diagnostics import Diagnostic

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from itertools import count
 
-from handeye.al.instructions import Role
+from handeye.al.definition import Role
 from handeye.diagnostics import Diagnostic, quoted
 from handeye.editor.completion import names
 from handeye.editor.document import Document

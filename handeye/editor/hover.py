@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.al.instructions import Instruction, Unit
+from handeye.al.definition import Instruction, Unit
 from handeye.al.scanner import Kind, Line, Token
 from handeye.al.syntax import Number, Vector
 from handeye.arm.kinematics import solve

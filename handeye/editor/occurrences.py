@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from handeye.al.instructions import INSTRUCTIONS, Instruction, Refers
+from handeye.al.definition import Instruction, Refers
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Kind, Line, scan
 from handeye.al.syntax import Name
 from handeye.editor.places import instruction, places

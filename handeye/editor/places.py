@@ -6,7 +6,8 @@ The parser reads whole lines and refuses wrong ones; an editor looks at lines th
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from handeye.al.instructions import INSTRUCTIONS, Instruction, Operand
+from handeye.al.definition import Instruction, Operand
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Kind, Line, Token
 from handeye.al.syntax import Vector
 

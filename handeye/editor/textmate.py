@@ -8,7 +8,8 @@ import sys
 from collections.abc import Iterable
 from typing import Final
 
-from handeye.al.instructions import INSTRUCTIONS, Refers, Role
+from handeye.al.definition import Refers, Role
+from handeye.al.instructions import INSTRUCTIONS
 
 _NAME: Final = r"[A-Za-z_]\w*"
 _NUMBER: Final = r"(?<![\w.])[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])"

@@ -2,7 +2,8 @@
 
 from typing import Final
 
-from handeye.al.instructions import INSTRUCTIONS, Role
+from handeye.al.definition import Role
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.macros import expand
 from handeye.al.parser import parse
 from handeye.al.syntax import Statement

@@ -9,7 +9,7 @@ from test_dialect_of_1977 import LISTING_1977
 from handeye import al
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.cli.scripts import check
-from handeye.diagnostics import CODES
+from handeye.codes import CODES
 
 
 @pytest.mark.parametrize("listing", [LISTING, LISTING_1977])

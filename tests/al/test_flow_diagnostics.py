@@ -6,7 +6,7 @@ import pytest
 from al_support import LISTING, codes, diagnose
 
 from handeye import al
-from handeye.diagnostics import CODES
+from handeye.codes import CODES
 from handeye.plan.program import ACTIONS, Advance, Change, Close, Jump, Move, Save, Stop
 from handeye.plan.raises import raises
 from handeye.plan.taught import load_taught

@@ -8,7 +8,8 @@ from al_support import TAUGHT, compiled
 
 from handeye import al
 from handeye.al.instructions import INSTRUCTIONS, LENSES
-from handeye.diagnostics import CODES, render
+from handeye.codes import CODES
+from handeye.diagnostics import render
 from handeye.source import Source
 
 HERE = Path(__file__).parent

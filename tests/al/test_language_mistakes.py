@@ -3,7 +3,8 @@
 import pytest
 from al_support import codes, compiled, diagnose
 
-from handeye.diagnostics import CODES, LIMIT, Diagnostic, Label, as_json, render, suggestion
+from handeye.codes import CODES
+from handeye.diagnostics import LIMIT, Diagnostic, Label, as_json, render, suggestion
 from handeye.source import Source, Span
 
 LANGUAGE = [code for code, entry in CODES.items() if entry.phase == "language"]

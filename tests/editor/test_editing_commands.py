@@ -9,7 +9,7 @@ from conftest import Command
 
 from handeye.al import INSTRUCTIONS
 from handeye.cli.scripts import watched
-from handeye.diagnostics import CODES
+from handeye.codes import CODES
 from handeye.editor.explain import example, explanation
 from handeye.errors import ERRORS, InvalidInput
 

@@ -3,7 +3,7 @@
 import pytest
 from documents import diagnosed, document, edited
 
-from handeye.diagnostics import CODES
+from handeye.codes import CODES
 from handeye.editor.fixes import Fix, fixes
 
 
