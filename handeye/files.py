@@ -49,10 +49,12 @@ def write_whole(path: Path, data: bytes) -> None:
             os.fsync(file.fileno())
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
-    except OSError as error:
+    except BaseException as error:  # Ctrl-C too
         if temporary is not None:
             Path(temporary).unlink(missing_ok=True)
-        raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+        if isinstance(error, OSError):
+            raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+        raise
 
 
 def _umask() -> int:

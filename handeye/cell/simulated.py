@@ -123,7 +123,7 @@ class SimulatedCell(Workcell):
             self._check(state)
             set_noise(self._sensors.rng, state.noise)
             self.camera.restore(state.camera)
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
             raise InvalidInput(f"this is not a state of this work cell: {error}") from None
         model, data = self._model, self._data
         for name, values in state.figures.items():
@@ -153,7 +153,7 @@ class SimulatedCell(Workcell):
         ):
             raise ValueError("its screws are not those of this scene")
         sensed = (state.sensed.time, state.sensed.gap, *state.sensed.q, *state.sensed.qd)
-        if len(sensed) != 14 or not np.isfinite(sensed).all():
+        if len(sensed) != 14 or not np.isfinite(sensed).all() or not 0 <= state.sensed.time < 1e9:
             raise ValueError("its sensors read what they cannot")
 
     def _advance(self, *, tool: float, braked: bool) -> None:

@@ -36,4 +36,7 @@ def main() -> NoReturn:
     except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(141)
+    except OSError as error:  # a path that is too long, a folder that may not be looked into
+        notes.print(f"handeye: {error.filename or error}: {error.strerror}", markup=False, soft_wrap=True)
+        sys.exit(2)
     sys.exit(code if isinstance(code, int) else 0)

@@ -106,9 +106,9 @@ def run(
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
     start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera))
     kept = _checkpoint_folder(checkpoints, out)
-    if stage or first:
-        start = _at_stage(start, stage or first or "", kept, out)
-    stops = _stops(plan, to=stage or to, until=until, breaks=breaks or [])
+    if stage is not None or first is not None:
+        start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
+    stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
     return work(
         Job(
             start=start,

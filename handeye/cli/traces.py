@@ -117,11 +117,11 @@ def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
 
     if file.is_dir():
         growing = part(file / TRACE)
-        if (file / TRACE).exists():
-            file = file / TRACE
-        elif growing.exists():
+        if growing.exists():  # newer than the whole one of before the run was gone on with
             notes.print(f"the run in {file} was broken off; this is what its trace holds", markup=False)
             file = growing
+        elif (file / TRACE).exists():
+            file = file / TRACE
         else:
             file = file / EVENTS
     if file.suffix == ".jsonl":

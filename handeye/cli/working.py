@@ -1,5 +1,6 @@
 """What the commands that move the arm have in common: build, carry out, keep, judge, print."""
 
+import re
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -23,9 +24,9 @@ from handeye.stepping.checkpoint_file import write_checkpoint
 from handeye.stepping.folder import RESULT, RunFolder, open_new
 from handeye.stepping.kept import Kept, file_name
 from handeye.stepping.observer import Observer
-from handeye.stepping.operator import Abort, Ask, Operator, attend, parse_policy
+from handeye.stepping.operator import Ask, Operator, attend, parse_policy
 from handeye.stepping.runner import Runner
-from handeye.stepping.snapshot import Checkpoint
+from handeye.stepping.snapshot import Checkpoint, Setup
 from handeye.stepping.stepper import Stepper, interact
 from handeye.versions import versions
 from handeye.work.drive import Halted
@@ -61,15 +62,16 @@ class Job:
 class _KeepStages(Observer):
     """Keeps the states at the beginning of stages in a folder."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, setup: Setup) -> None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
         self._kept = Kept(folder)
+        self._kept.check(setup)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
-        if checkpoint.between_stages:
+        if checkpoint.between_stages and not checkpoint.touched:
             self._kept.save(checkpoint)
 
 
@@ -80,6 +82,7 @@ class _Work:
         self.job = job
         self.panic = panic
         self.begun = time.perf_counter()
+        self.policy = self._policy()  # first: a word nobody knows must not cost a folder
         self.folder = job.folder or (open_new(job.out, job.start) if job.out is not None else None)
         self.progress = Progress(job.start.setup.plan, notes)
 
@@ -92,7 +95,8 @@ class _Work:
             pause = self._stepped(runner) if self.job.step else self._attended(runner)
         except KeyboardInterrupt:
             pause = PANIC
-            self._keep(runner.checkpoint())
+            if self.folder is not None:
+                self.folder.keep_if_traced(runner.checkpoint())
         if pause.kind == "panic":
             return self._interrupted(runner)
         return self._finished(runner, pause)
@@ -116,7 +120,7 @@ class _Work:
         if self.folder is not None:
             looking.append(self.folder.watch(runner, self.job.start, again=self.job.folder is not None))
         if self.job.checkpoints is not None:
-            looking.append(_KeepStages(self.job.checkpoints))
+            looking.append(_KeepStages(self.job.checkpoints, self.job.start.setup))
         return looking
 
     # -- carrying out ---------------------------------------------------------------------------------
@@ -124,15 +128,16 @@ class _Work:
     def _attended(self, runner: Runner) -> Pause:
         with self.progress:
             breaks = [breakpoint(text, runner.setup.plan) for text in self.job.breaks]
-            return attend(runner, self._operator(), [*breaks, *self.job.stops], self._kept)
+            return attend(
+                runner, self.policy or Ask(self._lines("> "), _note), [*breaks, *self.job.stops], self._kept
+            )
 
-    def _operator(self) -> Operator:
+    def _policy(self) -> Operator | None:
+        """The rule for when the operator is called; None: somebody is asked."""
         policy = self.job.on_stop
         if policy is None:
             policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
-        if policy != "ask":
-            return parse_policy(policy) or Abort()
-        return Ask(self._lines("> "), _note)
+        return parse_policy(policy)
 
     def _stepped(self, runner: Runner) -> Pause:
         pictures = self.folder.path / "pictures" if self.folder is not None else Path()
@@ -168,7 +173,8 @@ class _Work:
     def _keep(self, checkpoint: Checkpoint) -> Path:
         if self.folder is not None:
             return self.folder.kept.save(checkpoint)
-        path = Path(f"{checkpoint.setup.plan.program.name}-{file_name(checkpoint)}")
+        name = re.sub(r"[^A-Za-z0-9_.-]+", "-", checkpoint.setup.plan.program.name).lstrip(".")
+        path = Path(f"{name}-{checkpoint.setup.seed}-{file_name(checkpoint)}")
         write_checkpoint(path, checkpoint)
         return path
 
@@ -177,8 +183,14 @@ class _Work:
     def _interrupted(self, runner: Runner | None) -> int:
         where = "while the cell was set up" if runner is None else f"at {runner.run.time:.1f} s"
         _note(f"interrupted {where}; the brakes are set")
-        if self.folder is not None:
-            _note(f"go on with: handeye resume {self.folder.path}")
+        kept = self.folder.path if self.folder is not None else None
+        if kept is None and runner is not None:
+            try:
+                kept = self._keep(runner.checkpoint())
+            except InvalidInput as fault:
+                _note(str(fault))
+        if kept is not None:
+            _note(f"go on with: handeye resume {kept}")
         return 130
 
     def _finished(self, runner: Runner, pause: Pause) -> int:

@@ -58,7 +58,7 @@ def decode(text: str | bytes, name: str) -> Plan:
     """
     try:
         head = msgspec.json.decode(text)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InvalidInput(f"{name} is not a plan, or is cut short: {error}") from None
     if not isinstance(head, dict) or head.get("format") != "handeye plan":
         raise InvalidInput(f'{name} is not a plan: it does not say "format": "handeye plan"')

@@ -6,6 +6,7 @@ from typing import Final
 import cv2
 
 from handeye.cell.photograph import photograph_png
+from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.stepping.runner import Runner
 from handeye.vision.drawing import annotate
@@ -35,6 +36,10 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
     Raises:
         InvalidInput: the folder cannot be written to.
     """
+    try:
+        folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
+    except OSError as error:
+        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
     for name in runner.run.shots:
         write_whole(folder / f"{name.lower()}.png", annotated_png(runner.run, name))
     truth = runner.cell.truth

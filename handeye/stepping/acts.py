@@ -165,9 +165,12 @@ def _check_called(session: Session, word: str) -> None:
 def checkpoint(session: Session, rest: str) -> Told:
     """Keep the present state."""
     if rest:
-        path = Path(rest).expanduser()
-        _check_replaceable(path)
-        write_checkpoint(path, session.runner.checkpoint())
+        try:
+            path = Path(rest).expanduser()
+            _check_replaceable(path)
+            write_checkpoint(path, session.runner.checkpoint())
+        except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
+            raise InvalidInput(f"{quoted(rest)} cannot be a file's name") from None
         return Told(file=str(path), said=f"kept in {path}")
     kept = session.keep(session.runner.checkpoint())
     if kept is None:

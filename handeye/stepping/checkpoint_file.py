@@ -5,9 +5,10 @@ wrong, is refused before anything in it is used.
 """
 
 import hashlib
+import re
 import zlib
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
 import msgspec
 import numpy as np
@@ -21,7 +22,7 @@ from handeye.plan.store import plan_digest
 from handeye.stepping.snapshot import Checkpoint, Setup, Snapshot, arm_of
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
-from handeye.work.events import AnyEvent
+from handeye.work.events import AnyEvent, RunStarted, StageFinished, StageStarted
 
 MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 1
@@ -40,7 +41,7 @@ class Head(Record, frozen=True, kw_only=True):
     """Digest of the plan."""
     arm: str
     arm_digest: str
-    seed: int
+    seed: Annotated[int, msgspec.Meta(ge=0)]
     camera: str
     versions: dict[str, str]
     position: int
@@ -110,14 +111,24 @@ def decode(data: bytes, name: str) -> Checkpoint:
         arm_of(plan)
     except InvalidInput as error:
         raise InvalidInput(f"{name} cannot be used: {error}") from None
-    if body.snapshot is not None and body.snapshot.happened != len(body.events):
+    if body.snapshot is not None and (
+        body.snapshot.happened != len(body.events)
+        or not isinstance(next(iter(body.events), None), RunStarted)
+    ):
         raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
-    return Checkpoint(
+    checkpoint = Checkpoint(
         setup=Setup(plan=plan, seed=head.seed, camera=head.camera),
         calibration=body.calibration,
         snapshot=body.snapshot,
         events=body.events,
     )
+    begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
+    if not begun <= set(plan.program.stages):
+        raise InvalidInput(f"{name} is not a sound checkpoint: it tells of stages that its plan has not")
+    told = (head.program, head.plan, head.position, head.touched)
+    if told != (plan.program.name, plan_digest(plan), checkpoint.position, checkpoint.touched):
+        raise InvalidInput(f"{name} is not a sound checkpoint: its head does not tell of what is in it")
+    return checkpoint
 
 
 def decode_head(data: bytes, name: str) -> Head:
@@ -156,7 +167,7 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
     """The head and the packed body, if they are undamaged."""
     first, _, rest = data.partition(b"\n")
     words = first.decode("ascii", errors="replace").split(" ")
-    if len(words) != 3 or words[0] != MAGIC or not words[1].isdecimal():
+    if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):
         raise InvalidInput(f"{name} is not a checkpoint of handeye")
     if int(words[1]) > VERSION:
         raise InvalidInput(

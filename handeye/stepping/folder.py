@@ -85,14 +85,21 @@ class RunFolder(Observer):
         assert self._journal is not None
         assert self._recorder is not None
         assert self._runner is not None
-        self._journal.undone(events, self._runner.run.time, "back")
-        self._recorder.cut(events)
         self.kept.drop_after(self._runner.position)
+        try:
+            self._recorder.cut(events)
+        finally:  # none of the three must go on as if nothing was undone
+            self._journal.undone(events, self._runner.run.time, "back")
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         assert self._recorder is not None
         self._recorder.flush()  # first: a checkpoint must not be ahead of the trace that leads to it
         self.kept.save(checkpoint)
+
+    def keep_if_traced(self, checkpoint: Checkpoint) -> None:
+        """Keep a state, unless the trace that leads to it was broken off in the middle of a write."""
+        if self._recorder is None or not self._recorder.broken:
+            self.checkpoint(checkpoint)
 
     def close(self) -> None:
         if self._journal is not None:
@@ -120,6 +127,7 @@ def open_new(path: Path, start: Checkpoint) -> RunFolder:
         InvalidInput: the folder cannot be had, or holds something that would be lost.
     """
     Kept(path / CHECKPOINTS).check(start.setup)
+    _check_plan(path, start.setup.plan)
     _refuse_touched(path)
     inner = [path / CHECKPOINTS, path / PICTURES]
     made = [place for place in (*inner, path, *path.parents) if not place.exists()]
@@ -159,11 +167,13 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
 def _check_plan(path: Path, plan: Plan) -> None:
     beside = path / PLAN
     if beside.exists() and plan_digest(read_plan(beside)) != plan_digest(plan):
-        raise InvalidInput(f"the checkpoints in {path} are of another plan than {beside}")
+        raise InvalidInput(f"the runs in {path} are of another plan than this one, by {beside}")
 
 
 def _refuse_touched(path: Path) -> None:
-    """Raises InvalidInput if the record in the folder would not come out again the same."""
+    """Raises InvalidInput if the record in the folder would not, or might not, come out again the same."""
+    for fault in Kept(path / CHECKPOINTS).damaged():
+        raise InvalidInput(f"{path} holds what cannot be read ({fault}); choose another folder")
     if any(head.touched for _, head in Kept(path / CHECKPOINTS).heads()):
         raise InvalidInput(
             f"{path} holds a run that somebody took a hand in, which would be lost; choose another folder"

@@ -1,5 +1,7 @@
 """The event list of a run on disk: one JSON object a line, appended as things happen, never rewritten."""
 
+import errno
+import os
 from pathlib import Path
 from typing import Literal
 
@@ -17,6 +19,7 @@ class Journal:
             InvalidInput: the file cannot be written.
         """
         self._path = path
+        self._owed: WentBack | None = None  # there was no room for it
         try:
             self._file = path.open("wb" if anew else "ab", buffering=0)
             if not anew:
@@ -31,16 +34,26 @@ class Journal:
         Raises:
             InvalidInput: there is no room.
         """
+        owed, self._owed = self._owed, None
+        if owed is not None and not isinstance(event, WentBack):
+            self.undone(owed.events, owed.time, owed.why)
         line = to_line(event)
         try:
+            whole = self._file.seek(0, os.SEEK_END)
             if self._file.write(line) < len(line):
-                raise OSError(28, "No space left on device")
+                self._file.truncate(whole)  # half a line would spoil the next
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         except OSError as error:
             raise self._unwritable(error) from None
 
     def undone(self, events: int, time: float, why: Literal["back", "resumed"]) -> None:
-        """Note that only the first `events` events have happened."""
-        self.append(WentBack(time=time, events=events, why=why))
+        """Note that only the first `events` events have happened; if there is no room, before the next one."""
+        back = WentBack(time=time, events=events, why=why)
+        try:
+            self.append(back)
+        except InvalidInput:
+            self._owed = back
+            raise
 
     def close(self) -> None:
         """Close the file."""

@@ -24,6 +24,9 @@ class Kept:
         """
         path = self.folder / file_name(checkpoint)
         write_checkpoint(path, checkpoint)
+        for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
+            if other != path:  # as many steps done, but before the operator's answer
+                other.unlink(missing_ok=True)
         return path
 
     def heads(self) -> Iterator[tuple[Path, Head]]:
@@ -87,7 +90,7 @@ class Kept:
         for path, head in self.heads():
             if head.touched or head.stage is None or not head.between_stages:
                 continue
-            if stages.index(head.stage) <= number:
+            if head.stage in stages and stages.index(head.stage) <= number:
                 return read_checkpoint(path)
         return None
 

@@ -73,6 +73,8 @@ class Runner:
         self.calibration = start.calibration
         if start.snapshot is None:
             self.calibration = self._calibrated(halt)
+        elif self.calibration is None and self._looks:
+            self._unable = "the camera could not be calibrated when the run was begun"
         self.trouble: str | None = self._unable
         """Why the run cannot go on, if it is not a matter for the operator."""
         model = self.calibration.model if self.calibration else DRAWING
@@ -290,9 +292,14 @@ class Runner:
         )
         self._settle()
 
+    @property
+    def _looks(self) -> bool:
+        """The plan takes pictures."""
+        return any(isinstance(step.operation, Look) for step in self.setup.plan.program.steps)
+
     def _calibrated(self, halt: Callable[[], bool]) -> Calibration | None:
         """The calibration of the camera, if the plan looks at all and it can be had."""
-        if not any(isinstance(step.operation, Look) for step in self.setup.plan.program.steps):
+        if not self._looks:
             return None
         try:
             return calibrate_camera(self.cell, self.arm, DRAWING, halt)

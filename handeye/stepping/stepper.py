@@ -123,5 +123,8 @@ def interact(
             if not prompt or stepper.repeated is None:
                 continue
             line = stepper.repeated
-        write(face(stepper.do(line)))
+        reply = stepper.do(line)
+        write(face(reply))
+        if reply.pause is not None and reply.pause.kind == "panic" and not prompt:
+            return reply.pause  # nobody is there to say whether the next line still holds
     return stepper.pause

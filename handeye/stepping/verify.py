@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
 from handeye.plan.store import decode
 from handeye.stepping.folder import TRACE, open_new
@@ -18,7 +19,13 @@ RAYS: Final = "ray casting"
 
 
 def setup_of(begun: RunStarted, plan: Plan) -> Setup:
-    """What a recorded run began with; its pictures are made in the way they were."""
+    """What a recorded run began with; its pictures are made in the way they were.
+
+    Raises:
+        InvalidInput: there is no such world.
+    """
+    if begun.seed < 0:
+        raise InvalidInput(f"the run was begun in the world of seed {begun.seed}, which there is not")
     return Setup(plan=plan, seed=begun.seed, camera="ray" if begun.camera == RAYS else "gl")
 
 

@@ -32,8 +32,8 @@ class _Teller:
     """Writes the account as the events come."""
 
     lines: list[str] = field(default_factory=list)
-    _heading: int = 0
-    """The line with the heading of the stage under way."""
+    _heading: int | None = None
+    """The line with the heading of the stage under way, once there is one."""
     _begun: float = 0.0
     """When that stage began, s."""
     _camera: float = 0.0
@@ -55,7 +55,10 @@ class _Teller:
                 self.lines += ["", event.stage.upper()]
             case happened.StageFinished():
                 self._lead_on("and the stage ends")
-                self.lines[self._heading] = f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
+                if self._heading is not None:
+                    self.lines[self._heading] = (
+                        f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
+                    )
             case happened.StepStarted():
                 self._lead_on(f"on at line {event.line}")
                 self._shift = None

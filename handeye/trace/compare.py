@@ -49,5 +49,7 @@ def _events(one: AnyEvent, other: AnyEvent) -> str:
     if kinds[0] != kinds[1]:
         return f"{kinds[0]} at {one.time:.3f} s in one, {kinds[1]} at {other.time:.3f} s in the other"
     values = ((name, getattr(one, name), getattr(other, name)) for name in one.__struct_fields__)
-    name, first, second = next(found for found in values if found[1] != found[2])
+    name, first, second = next((found for found in values if found[1] != found[2]), ("", None, None))
+    if not name:
+        return f"{kinds[0]} at {one.time:.3f} s is told in other words"
     return f"{name} of {kinds[0]} at {one.time:.3f} s is {first} in one, {second} in the other"

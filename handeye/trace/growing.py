@@ -148,3 +148,6 @@ class GrowingFile:
         except OSError as error:
             self.broken = True
             raise InvalidInput(f"{self.file} cannot be written: {error.strerror}") from None
+        except BaseException:  # Ctrl-C in the middle of a chunk: what is there may be half of it
+            self.broken = True
+            raise

@@ -1,5 +1,6 @@
 """Reads traces from disk. What is not whole, not sound, or not ours is refused with one sentence."""
 
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -70,7 +71,7 @@ def _identify(path: Path, data: bytes) -> bytes:
     if start.metadata.get("format") != FORMAT:
         raise InvalidInput(f"{path} is not a trace of this program: it does not say “{FORMAT}”")
     version = start.metadata.get("version", "")
-    if not version.isascii() or not version.isdigit() or int(version) < 1:
+    if not re.fullmatch(r"[1-9][0-9]{0,8}", version):
         raise InvalidInput(f"{path} does not say which version of the trace format it has")
     if int(version) > VERSION:
         raise InvalidInput(

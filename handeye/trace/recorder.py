@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from google.protobuf.message import DecodeError
+
 from handeye.cell.ports import Picture, Sensed
 from handeye.errors import InvalidInput
 from handeye.files import read_whole
@@ -80,6 +82,11 @@ class Recorder:
         recorder = cls(path, frames, picture, plan, old=old, prefix=prefix)
         recorder.flush()
         return recorder
+
+    @property
+    def broken(self) -> bool:
+        """Something could not be written; the trace ends there."""
+        return self._writing.file.broken
 
     # -- what happens -------------------------------------------------------------------------------
 
@@ -183,8 +190,15 @@ class Recorder:
             for message in until(read_messages(old, lenient=True), events):
                 writing.copy(message)
             file.move(part(self._path))
-        except InvalidInput:
-            file.release()
-            file.file.unlink(missing_ok=True)
+        except (DecodeError, KeyError, ValueError):  # frames or channels that there are not in this scene
+            self._abandon(file)
+            raise InvalidInput(f"the trace at {self._path} is of another scene; move it away") from None
+        except BaseException:
+            self._abandon(file)
             raise
         return writing
+
+    @staticmethod
+    def _abandon(file: GrowingFile) -> None:
+        file.release()
+        file.file.unlink(missing_ok=True)

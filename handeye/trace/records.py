@@ -16,7 +16,7 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, Message, Metadata
 from mcap.stream_reader import breakup_chunk
 from mcap.writer import MCAP0_MAGIC
-from zstandard import ZstdError
+from zstandard import ZstdError, frame_content_size
 
 from handeye.trace.channels import METADATA, PLAN
 
@@ -26,6 +26,9 @@ _DATA_END: Final = _HEAD.size + 4
 _FOOTER: Final = _HEAD.size + 20
 _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, MemoryError, OverflowError)
 """What the MCAP library makes of records that are not as they should be."""
+
+LARGEST: Final = 1 << 26
+"""Bytes of a chunk, unpacked: fifty times what a trace's are."""
 
 Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 
@@ -71,7 +74,7 @@ def check(data: bytes) -> None:
     if zlib.crc32(data[min(summary, footer) : footer + _FOOTER - 4]) != summary_crc:
         raise Unsound("is damaged")
     end = summary - _DATA_END
-    if end < 0 or _HEAD.unpack_from(data, end) != (Opcode.DATA_END, 4):
+    if not 0 <= end <= footer or _HEAD.unpack_from(data, end) != (Opcode.DATA_END, 4):
         raise Unsound("is damaged")
     if struct.unpack_from("<I", data, end + _HEAD.size) != (zlib.crc32(data[:end]),):
         raise Unsound("is damaged")
@@ -105,7 +108,7 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
         if opcode != Opcode.CHUNK:
             continue
         try:
-            content = breakup_chunk(_parsed(Chunk, body), validate_crc=True)
+            content = breakup_chunk(_modest(_parsed(Chunk, body)), validate_crc=True)
         except (Unsound, *_TROUBLE):
             if lenient:
                 return
@@ -115,6 +118,15 @@ def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]
                 topics[record.id] = record.topic
             elif isinstance(record, Message):
                 yield RawMessage(topics.get(record.channel_id, ""), record.log_time, record.data)
+
+
+def _modest(chunk: Chunk) -> Chunk:
+    """A chunk that will not fill the memory. Raises Unsound for another."""
+    packed = chunk.compression == "zstd"
+    size = max(chunk.uncompressed_size, frame_content_size(chunk.data) if packed else len(chunk.data))
+    if size > LARGEST or not (packed or chunk.compression == ""):
+        raise Unsound("is damaged")
+    return chunk
 
 
 def _records(data: bytes) -> Iterator[tuple[int, bytes]]:

@@ -9,9 +9,10 @@ from typing import Annotated, Any, Final
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.plan.program import Position, Record
+from handeye.plan.program import Look, Position, Record
 from handeye.pose import Array, Pose
 from handeye.vision.base import GeneralLocation
+from handeye.vision.camera import COLUMNS, ROWS
 from handeye.work.events import OperatorCalled
 from handeye.work.executor import Executor
 from handeye.work.run import Clockwork, Fault, Found, Run, SearchState, Shot
@@ -109,15 +110,19 @@ def recall(executor: Executor, memory: Memory) -> None:
 
 
 def _check(run: Run, memory: Memory) -> None:
-    """Raises InvalidInput for steps, stages, parts and vectors that the plan does not have."""
+    """Raises InvalidInput for steps, stages, parts, pictures and vectors that the plan does not have."""
     program = run.plan.program
+    taken = {step.operation.picture for step in program.steps if isinstance(step.operation, Look)}
     vectors = [memory.goal, *memory.saved.values(), *memory.restored.values()]
     vectors += [] if memory.finger_line is None else [memory.finger_line]
     joints = (memory.drive.q, memory.drive.tare, memory.drive.wrench)
     fits = (
         all(step is None or step < len(program.steps) for step in (memory.at, memory.onward))
         and (memory.stage is None or memory.stage < len(program.stages))
+        and (memory.stopped is None or (memory.stage is not None and memory.at is None))
         and {*memory.measured, *memory.general} <= set(program.parts)
+        and {*memory.shots, *memory.found} <= taken  # names that become file names
+        and all(shot.picture.shape == (ROWS, COLUMNS) for shot in memory.shots.values())
         and set(memory.moved) <= set(program.positions)
         and all(p.of is None or p.of in program.parts for p in memory.moved.values())
         and all(vector.shape == (3,) for vector in vectors)
