@@ -1,13 +1,12 @@
-"""Commands that measure: pictures, timing, trials."""
+"""Commands that look at worlds: pictures, trials."""
 
 import tempfile
-import time
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Seed, compiled, notes, screen, world
+from handeye.cli.common import Camera, Seed, compiled, screen, world
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.resources import plans
@@ -17,15 +16,11 @@ from handeye.units import DEGREE, INCH
 def register(app: App) -> None:
     """Add the commands to the command line."""
     app.command(render)
-    bench = App(name="bench", help="Measure, as ratios in one run.")
-    bench.command(timing)
-    bench.command(overhead)
     trials = App(name="trials", help="Try in many worlds and count.")
     trials.command(assembly_trials, name="assembly")
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")
-    app.command(bench)
     app.command(trials)
 
 
@@ -46,56 +41,6 @@ def render(
     write_whole(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height))
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0
-
-
-def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
-    """Assemble once and print the timing table beside that of 1973."""
-    from handeye.report.page import timing as table
-    from handeye.report.progress import Progress
-    from handeye.trials.assembly import run_plan
-
-    started = time.process_time()
-    plan = compiled(plans() / "water_pump.al")
-    planning = time.process_time() - started
-    with Progress(plan, notes) as progress:
-        finished = run_plan(
-            plan,
-            seed=world(seed),
-            camera=camera,
-            planning_wall_s=planning,
-            referee=False,
-            observers=lambda _: [progress],
-        )
-    screen.print(table(finished.result))
-    return 0 if finished.result.completed else 1
-
-
-def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
-    """Assemble once and say what checkpoints and trace cost, as shares of that run.
-
-    Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
-    """
-    from handeye.report.progress import Progress
-    from handeye.stepping.snapshot import Setup
-    from handeye.trials.overhead import measure
-
-    plan = compiled(plans() / "water_pump.al")
-    setup = Setup(plan=plan, seed=world(seed), camera=camera)
-    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan, notes):
-        cost = measure(setup, Path(folder) / "run")
-    screen.print(f"working phase without them   {cost.run:6.2f} s of this computer's clock")
-    rows = (
-        ("checkpoints", cost.checkpoints, f"{cost.kept} of them", 0.02),
-        ("trace", cost.tracing, f"{cost.ticks} servo periods, {cost.trace_bytes / 1e6:.1f} MB", 0.10),
-    )
-    for name, seconds, what, limit in rows:
-        share = seconds / cost.run
-        screen.print(
-            f"{name:28} {seconds:6.2f} s  {share:6.2%} (at most {limit:.0%})  {what}",
-            markup=False,
-            soft_wrap=True,
-        )
-    return 0 if all(seconds / cost.run < limit for _, seconds, _, limit in rows) else 1
 
 
 def assembly_trials(

@@ -1,0 +1,97 @@
+"""Commands that measure how long things take."""
+
+import tempfile
+import time
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Camera, Json, Seed, compiled, notes, screen, world
+from handeye.errors import InvalidInput
+from handeye.resources import plans
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    bench = App(name="bench", help="Measure how long things take.")
+    for command in (timing, overhead, language):
+        bench.command(command)
+    app.command(bench)
+
+
+def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
+    """Assemble once and print the timing table beside that of 1973."""
+    from handeye.report.page import timing as table
+    from handeye.report.progress import Progress
+    from handeye.trials.assembly import run_plan
+
+    started = time.process_time()
+    plan = compiled(plans() / "water_pump.al")
+    planning = time.process_time() - started
+    with Progress(plan, notes) as progress:
+        finished = run_plan(
+            plan,
+            seed=world(seed),
+            camera=camera,
+            planning_wall_s=planning,
+            referee=False,
+            observers=lambda _: [progress],
+        )
+    screen.print(table(finished.result))
+    return 0 if finished.result.completed else 1
+
+
+def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
+    """Assemble once and say what checkpoints and trace cost, as shares of that run.
+
+    Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
+    """
+    from handeye.report.progress import Progress
+    from handeye.stepping.snapshot import Setup
+    from handeye.trials.overhead import measure
+
+    plan = compiled(plans() / "water_pump.al")
+    setup = Setup(plan=plan, seed=world(seed), camera=camera)
+    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan, notes):
+        cost = measure(setup, Path(folder) / "run")
+    screen.print(f"working phase without them   {cost.run:6.2f} s of this computer's clock")
+    rows = (
+        ("checkpoints", cost.checkpoints, f"{cost.kept} of them", 0.02),
+        ("trace", cost.tracing, f"{cost.ticks} servo periods, {cost.trace_bytes / 1e6:.1f} MB", 0.10),
+    )
+    for name, seconds, what, limit in rows:
+        share = seconds / cost.run
+        screen.print(
+            f"{name:28} {seconds:6.2f} s  {share:6.2%} (at most {limit:.0%})  {what}",
+            markup=False,
+            soft_wrap=True,
+        )
+    return 0 if all(seconds / cost.run < limit for _, seconds, _, limit in rows) else 1
+
+
+def language(
+    *,
+    times: Annotated[int, Parameter(help="How often each is measured.")] = 15,
+    json: Json = False,
+) -> int:
+    """Say how long a check, a keystroke and a plan make people wait, each time on a text not seen before.
+
+    Exit code 0: each median is under its target; 1: not each.
+    """
+    from handeye.trials.language import measure
+
+    if times < 1:
+        raise InvalidInput(f"at least one time is needed; {times} is too few")
+    measured = []
+    for waiting in measure(times):
+        measured.append(waiting)
+        (notes if json else screen).print(
+            f"{waiting.what:26} {waiting.median * 1e3:7.1f} ms  (under {waiting.target * 1e3:.0f} ms)  "
+            f"{times} times, {min(waiting.seconds) * 1e3:.1f} to {max(waiting.seconds) * 1e3:.1f} ms",
+            markup=False,
+            soft_wrap=True,
+        )
+    if json:
+        screen.print_json(data={"measured": [waiting.as_json() for waiting in measured]})
+    return 0 if all(waiting.is_short for waiting in measured) else 1

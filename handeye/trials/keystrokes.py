@@ -1,0 +1,97 @@
+"""An editor that types into a script, and waits each time for what the language server says about it."""
+
+import subprocess
+import sys
+import time
+from importlib.util import find_spec
+from types import TracebackType
+from typing import Any, Final, Self
+
+import msgspec
+
+from handeye.errors import InvalidInput
+
+_URI: Final = "untitled:pins.al"
+
+
+def typed(text: str, line: int, times: int) -> list[float]:
+    """Seconds from each of so many keystrokes at the end of a line to the diagnostics of the text as it then is.
+
+    The server is a process of its own, and what lies between is counted in: the pipes, and JSON at both ends.
+
+    Args:
+        line: counted from 1.
+
+    Raises:
+        InvalidInput: pygls, which the server needs, is not installed.
+    """
+    if find_spec("pygls") is None:
+        raise InvalidInput("the language server needs the package pygls: pip install pygls")
+    column = len(text.splitlines()[line - 1])
+    with _Editor(text) as editor:
+        return [editor.type(line - 1, column + k, "ABCDEFGH"[k % 8]) for k in range(times)]
+
+
+class _Editor:
+    """One end of the language server protocol, with one script open."""
+
+    def __init__(self, text: str) -> None:
+        self.server = subprocess.Popen(
+            [sys.executable, "-m", "handeye", "lsp"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+        )
+        self.version = 0
+        self._tell("initialize", {"capabilities": {}, "processId": None, "rootUri": None}, id=1)
+        self._hear()
+        self._tell("initialized", {})
+        item = {"uri": _URI, "languageId": "armal", "version": self.version, "text": text}
+        self._tell("textDocument/didOpen", {"textDocument": item})
+        self._diagnostics()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.server.kill()
+        self.server.communicate()
+
+    def type(self, line: int, column: int, key: str) -> float:
+        """Seconds that one key takes, counted from 0."""
+        self.version += 1
+        here = {"line": line, "character": column}
+        begun = time.perf_counter()
+        self._tell(
+            "textDocument/didChange",
+            {
+                "textDocument": {"uri": _URI, "version": self.version},
+                "contentChanges": [{"range": {"start": here, "end": here}, "text": key}],
+            },
+        )
+        self._diagnostics()
+        return time.perf_counter() - begun
+
+    def _diagnostics(self) -> None:
+        """Wait for those of the text as it is now."""
+        while self._hear().get("params", {}).get("version") != self.version:
+            pass
+
+    def _tell(self, method: str, params: dict[str, Any], **more: int) -> None:
+        assert self.server.stdin is not None
+        body = msgspec.json.encode({"jsonrpc": "2.0", "method": method, "params": params, **more})
+        self.server.stdin.write(b"Content-Length: %d\r\n\r\n%b" % (len(body), body))
+        self.server.stdin.flush()
+
+    def _hear(self) -> dict[str, Any]:
+        assert self.server.stdout is not None
+        size = 0
+        while (header := self.server.stdout.readline()) not in (b"\r\n", b""):
+            name, _, value = header.partition(b":")
+            size = int(value) if name == b"Content-Length" else size
+        if not size:
+            raise InvalidInput("the language server has ended; `handeye lsp` may say why")
+        heard: dict[str, Any] = msgspec.json.decode(self.server.stdout.read(size))
+        return heard

@@ -1,0 +1,145 @@
+"""How long the arm language makes people wait: for a check, after a keystroke, for a plan.
+
+Every time is taken on a text that nobody has seen before: other numbers and other names, so that nothing can be left
+over from the time before.
+"""
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from statistics import median
+from typing import Final
+
+from msgspec.structs import replace
+
+from handeye.al import compile_text
+from handeye.arm.stanford import STANFORD
+from handeye.plan.planner import make_plan
+from handeye.plan.program import Position
+from handeye.plan.taught import Taught, load_taught
+from handeye.resources import plans
+from handeye.source import Source, read_source
+from handeye.trials.keystrokes import typed
+
+LINES: Final = 2400
+TYPED_LINES: Final = 1000
+_BLOCK: Final = """\
+; pin {name}: the listing of 1973, with other names and numbers
+        TRANS   P{name} [{x:.3f} 44 4.5 -90 90 0]
+        TRANS   T{name} [30 {y:.3f} 6 -90 90 0]
+        VECT    V{name} [0 0 -{force}]
+        ASSIGN  N{name} 3
+A{name}: MOVE    P{name}         ;GO TO THE PIN
+        CLOSE   .1              ;grasp it
+        SKIPE   2               ;nothing is between the fingers
+        JUMP    G{name}
+        OPEN    1
+        SOJG    N{name} A{name}
+        WAIT    "NO PIN {name}"
+G{name}: MOVE    T{name}         ;GO TO THE HOLE
+        SEARCH  .07
+L{name}: MOVE    T{name}         ;GO TO THE HOLE
+        STOP    V{name}
+        CHANGE  [0 0 -1] .{depth} ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
+        SKIPE   23
+        AOJ     L{name}
+        SAVE    H{name}
+        OPEN    .5
+        MOVE    P{name}
+        RESTORE H{name} LEVEL
+        CLOSE   .1 .5           ;AND CHECK THAT IT IS STILL THERE
+        OPEN    1
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Waiting:
+    """Seconds of this computer's clock that one and the same task took, time after time."""
+
+    what: str
+    seconds: tuple[float, ...]
+    target: float
+    """What the median has to stay under."""
+
+    @property
+    def median(self) -> float:
+        """The middle of the times."""
+        return median(self.seconds)
+
+    @property
+    def is_short(self) -> bool:
+        """Whether the target is met."""
+        return self.median < self.target
+
+    def as_json(self) -> dict[str, object]:
+        """The times and what they are held to, in seconds."""
+        return {
+            "what": self.what,
+            "median_s": self.median,
+            "target_s": self.target,
+            "met": self.is_short,
+            "seconds": self.seconds,
+        }
+
+
+def measure(times: int) -> Iterator[Waiting]:
+    """Measure each task so many times.
+
+    What is typed is a name: each key leaves a text without an error, of which everything is to be checked.
+
+    Raises:
+        InvalidInput: pygls, which the language server needs, is not installed.
+    """
+    check = [_seconds(partial(_check, script(LINES, k))) for k in range(times)]
+    yield Waiting(what=f"{LINES} lines checked", seconds=tuple(check), target=0.025)
+    text = script(TYPED_LINES, times)
+    save = text.count("\n", 0, text.index("SAVE", len(text) // 2)) + 1
+    strokes = typed(text, save, times)
+    yield Waiting(what=f"a keystroke in {TYPED_LINES} lines", seconds=tuple(strokes), target=0.050)
+    file = plans() / "water_pump.al"
+    source, taught = read_source(file), load_taught(file.with_suffix(".toml"))
+    plan = [_seconds(partial(_plan, source, _moved(taught, k))) for k in range(times)]
+    yield Waiting(what="the pump planned", seconds=tuple(plan), target=1.0)
+
+
+def script(lines: int, number: int) -> str:
+    """A script without a mistake, of so many lines (a multiple of 25); none is the same for two numbers."""
+    return "".join(
+        _BLOCK.format(
+            name=f"{number}_{k}",
+            x=18 + number * 0.007 + k * 0.01,
+            y=40 - number * 0.003 - k * 0.01,
+            force=31 + (number + k) % 29,
+            depth=500 + (7 * number + k) % 200,
+        )
+        for k in range(lines // _BLOCK.count("\n"))
+    )
+
+
+def _seconds(task: Callable[[], object]) -> float:
+    begun = time.perf_counter()
+    task()
+    return time.perf_counter() - begun
+
+
+def _check(text: str) -> None:
+    """What `handeye check` and an editor say about a text, the arm's reach left out."""
+    program, _ = compile_text(Source(name="pins.al", text=text), Taught())
+    assert program is not None
+
+
+def _plan(source: Source, taught: Taught) -> None:
+    program, _ = compile_text(source, taught)
+    assert program is not None
+    assert make_plan(program, STANFORD)[0] is not None
+
+
+def _moved(taught: Taught, times: int) -> Taught:
+    """The same positions, each a thousandth of a millimetre further on for every time."""
+
+    def moved(position: Position) -> Position:
+        x, *rest = position.at
+        return replace(position, at=(x + times * 1e-6, *rest))
+
+    return Taught(positions={name: moved(p) for name, p in taught.positions.items()}, parts=taught.parts)
