@@ -3,57 +3,15 @@
 import string
 
 from al_support import LISTING, TAUGHT, diagnose
+from any_texts import texts
 from hypothesis import given
 from hypothesis import strategies as st
 
 from handeye import al
-from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.al.scanner import scan
 from handeye.diagnostics import render
 from handeye.source import Source
-
-WORDS = [
-    *INSTRUCTIONS,
-    "DEFINE M",
-    "M",
-    "T",
-    "L:",
-    "L",
-    "BASE",
-    "LEVEL",
-    "NIL",
-    "X",
-    "Z,-1",
-    "2,X,Y",
-    "OF",
-    "[0 0 -1]",
-    "[0 0 0 0 0 0]",
-    "1",
-    "-.5",
-]
-ODD = [
-    "[",
-    "]",
-    '"',
-    '"a b"',
-    ";",
-    ";note",
-    ":",
-    "1e999",
-    "nan",
-    "1.2.3",
-    ",",
-    "\t",
-    "\r",
-    "\x0c",
-    "é",
-    "\x00",
-    "open",
-]
-lines = st.lists(st.sampled_from([*WORDS, *ODD]), max_size=6).map(" ".join)
-programs = st.lists(lines, max_size=12).map("\n".join)
-texts = st.one_of(st.text(max_size=200), programs)
 
 
 @given(texts)

@@ -1,0 +1,111 @@
+"""The parser against a grammar that was written from the manual: both take the same texts for arm programs."""
+
+from pathlib import Path
+
+import pytest
+from any_texts import CORPUS, programs, spoiled
+from hypothesis import given
+
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.parser import parse
+
+lark = pytest.importorskip("lark")
+
+HERE = Path(__file__).parent
+GRAMMAR = lark.Lark((HERE / "arm_language.lark").read_text(encoding="utf-8"), parser="lalr")
+SIZES = {"number-out-of-range", "unknown-lens", "zero-vector"}
+"""What the parser says of numbers that are written as they should be."""
+
+
+def is_program(text: str) -> bool:
+    """What the grammar says, and the rules that no such grammar can have."""
+    try:
+        tree = GRAMMAR.parse(text + "\n" * (text[-1:] not in ("\n", "")))
+    except lark.UnexpectedInput:
+        return False
+    macros = [str(macro.children[0]).upper() for macro in tree.find_data("macro")]
+    calls = {str(call.children[0]).upper() for call in tree.find_data("call")}
+    axes = [
+        (float(count), letters) for count, *letters in (found.children for found in tree.find_data("axes"))
+    ]
+    return (
+        len(set(macros)) == len(macros)
+        and calls <= set(macros)
+        and not {*INSTRUCTIONS, "DEFINE"} & set(macros)
+        and all(float(whole.children[0]).is_integer() for whole in tree.find_data("whole"))
+        and all(count == len(letters) == len({*letters} & {"X", "Y", "Z"}) for count, letters in axes)
+    )
+
+
+def assert_agreed(text: str) -> None:
+    mistakes = {diagnostic.code for diagnostic in parse(text)[1]}
+    if mistakes <= SIZES and mistakes:
+        return  # a reader that stops at the first mistake of a line leaves open what its form is
+    assert is_program(text) == (not mistakes), mistakes
+
+
+PROBES = {
+    "MOVE T direct": True,
+    "move T": True,
+    "MOVE OPEN": True,
+    "MOVE, T": False,
+    "MOVE T, DIRECT": True,
+    "MOVE OF": True,
+    "L :M: PARK": True,
+    "OPEN: PARK": True,
+    "L:\nPARK": True,
+    "1: PARK": False,
+    "OPEN 1e0": True,
+    "OPEN 1e": False,
+    "OPEN 1.": True,
+    "OPEN .": False,
+    "OPEN --1": False,
+    "OPEN 1_0": False,
+    "SKIPE 2.5": False,
+    "SKIPE 2.0": True,
+    "CHANGE[0 0 1]1": True,
+    "CHANGE [0,0,1],1": True,
+    "CHANGE [0 0 1,] 1": False,
+    "CHANGE Z 1 0 0": True,
+    "CHANGE Z 1 0 NIL": False,
+    "CHANGE [[0 0 1]] 1": False,
+    "FREE 2 X,Y": True,
+    "FREE 2 X X": False,
+    "FREE 1 x": False,
+    "WAIT": False,
+    "WAIT NO PIN": True,
+    'WAIT "a;b" c;d': True,
+    'WAIT "a': False,
+    "STAGE A": False,
+    "DEFINE A\nPARK\n\na": True,
+    "DEFINE A\nPARK\n;\n": False,
+    "DEFINE A\nPARK\n ": True,
+    "DEFINE A\nPARK\n": False,
+    "L: DEFINE A\nPARK\n\nA": True,
+    "TRANS A [0 0 0 0 0 0] OFB": False,
+    "MOVE é": False,
+    "PARK\r\n\x0bPARK\x0c": True,
+    "\ufeffPARK": False,
+    "": True,
+}
+"""Where two readers of the manual might part."""
+
+
+@pytest.mark.parametrize("text", CORPUS)
+def test_grammar_and_parser_agree_on_every_program_there_is(text: str) -> None:
+    assert_agreed(text)
+
+
+@pytest.mark.parametrize("text", PROBES)
+def test_grammar_and_parser_agree_where_they_might_part(text: str) -> None:
+    assert (is_program(text), not parse(text)[1]) == (PROBES[text], PROBES[text])
+
+
+@given(programs)
+def test_grammar_and_parser_agree_on_random_words(text: str) -> None:
+    assert_agreed(text)
+
+
+@given(spoiled(CORPUS))
+def test_grammar_and_parser_agree_on_spoiled_programs(text: str) -> None:
+    assert_agreed(text)
