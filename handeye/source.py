@@ -6,6 +6,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Final
 
+import msgspec
+
 from handeye.errors import InvalidInput
 from handeye.files import read_whole
 
@@ -13,8 +15,7 @@ LARGEST: Final = 4_000_000
 """Bytes of the largest file taken for a text; a program of the period has a few thousand."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, order=True)
-class Span:
+class Span(msgspec.Struct, frozen=True, kw_only=True, order=True):
     """Characters `start` (inclusive) to `end` (exclusive) of a source text."""
 
     start: int

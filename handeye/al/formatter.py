@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.instructions import FREE
 from handeye.al.operands import free_text
 from handeye.al.scanner import Kind, Line, Token, scan
 
@@ -26,15 +26,10 @@ def _format(line: Line) -> str:
         text = _column(text, 0) + f"DEFINE {_operands(tokens[1:])}".rstrip()
     elif tokens:
         word = tokens[0].text.upper() if tokens[0].kind is Kind.NAME else tokens[0].text
-        operands = free_text(tokens[1:]) if _is_free(word, tokens) else _operands(tokens[1:])
+        operands = free_text(tokens[1:]) if word in FREE and tokens[1:] else _operands(tokens[1:])
         text = _column(text, OPERATION) + word
         text = _column(text, OPERANDS) + operands if operands else text
     return text if line.comment is None else _column(text, COMMENT) + line.comment
-
-
-def _is_free(word: str, tokens: Sequence[Token]) -> bool:
-    definition = INSTRUCTIONS.get(word)
-    return definition is not None and any(o.free for o in definition.operands) and len(tokens) > 1
 
 
 def _column(text: str, column: int) -> str:

@@ -15,13 +15,12 @@ from pygments.token import (
 )
 
 from handeye.al.definition import Refers, Role
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.instructions import FREE, INSTRUCTIONS
 
 _NAME = r"[A-Za-z_]\w*"
-_FREE = [i.op for i in INSTRUCTIONS.values() if any(o.free for o in i.operands)]
 _JUMPS = [i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.LABEL for o in i.operands)]
 _MODIFIERS = [i.op for i in INSTRUCTIONS.values() if i.role in (Role.MODIFIER, Role.SHIFT)]
-_OTHERS = [op for op in INSTRUCTIONS if op not in (*_FREE, *_JUMPS, *_MODIFIERS)]
+_OTHERS = [op for op in INSTRUCTIONS if op not in (*FREE, *_JUMPS, *_MODIFIERS)]
 _WORDS = sorted({o.word for i in INSTRUCTIONS.values() for o in i.operands if o.word})
 
 
@@ -42,7 +41,7 @@ class ArmLexer(RegexLexer):
             (r";.*", Comment.Single),
             (rf"({_NAME})([ \t]*)(:)", bygroups(Name.Label, Whitespace, Punctuation)),
             (rf"(?i:(DEFINE))\b([ \t]*)({_NAME})?", bygroups(Keyword.Declaration, Whitespace, Name.Function)),
-            (_ops(_FREE), Keyword, "free"),
+            (_ops(sorted(FREE)), Keyword, "free"),
             (_ops(_JUMPS), Keyword, "jump"),
             (_ops(_MODIFIERS), Keyword.Type, "operands"),
             (_ops(_OTHERS), Keyword, "operands"),

@@ -366,6 +366,8 @@ _TABLE = (
 
 INSTRUCTIONS: Final[dict[str, Instruction]] = {instruction.op: instruction for instruction in _TABLE}
 """Every instruction, by its word. `DEFINE`, which makes macros, is the parser's own."""
+FREE: Final = frozenset(i.op for i in _TABLE if any(operand.free for operand in i.operands))
+"""Instructions that take words up to the end of the line."""
 
 
 def manual() -> str:

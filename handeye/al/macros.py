@@ -1,8 +1,10 @@
 """Macros: each call is replaced by the statements of the macro."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Final
+
+from msgspec.structs import replace
 
 from handeye.al.syntax import Name, Script, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted

@@ -5,7 +5,7 @@ import re
 from collections.abc import Sequence
 
 from handeye.al.definition import BIGGEST, SMALLEST, Instruction, Operand
-from handeye.al.instructions import AXES
+from handeye.al.instructions import AXES, FREE
 from handeye.al.scanner import Kind, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.diagnostics import Diagnostic, Label, quoted
@@ -31,7 +31,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
     Raises:
         Mistake: the operands do not fit the definition.
     """
-    if not any(operand.free for operand in definition.operands):
+    if definition.op not in FREE:
         tokens = _separated(tokens)
     return _Reader(definition, head, tokens).read()
 
@@ -47,13 +47,13 @@ def free_text(tokens: Sequence[Token]) -> str:
 
 def _separated(tokens: Sequence[Token]) -> Sequence[Token]:
     """Without the commas of the dialect of 1977, each of which stands between two values."""
-    for at, token in enumerate(tokens):
-        if token.text == ",":
-            if at == 0 or tokens[at - 1].text in (",", "["):
-                raise Mistake("misplaced-comma", "nothing stands before this comma", token.span)
-            if at + 1 == len(tokens) or tokens[at + 1].text == "]":
-                raise Mistake("misplaced-comma", "nothing stands behind this comma", token.span)
-    return [token for token in tokens if token.text != ","]
+    commas = [at for at, token in enumerate(tokens) if token.text == ","]
+    for at in commas:
+        if at == 0 or tokens[at - 1].text in (",", "["):
+            raise Mistake("misplaced-comma", "nothing stands before this comma", tokens[at].span)
+        if at + 1 == len(tokens) or tokens[at + 1].text == "]":
+            raise Mistake("misplaced-comma", "nothing stands behind this comma", tokens[at].span)
+    return [token for token in tokens if token.text != ","] if commas else tokens
 
 
 def is_unterminated(token: Token) -> bool:
@@ -64,40 +64,47 @@ def is_unterminated(token: Token) -> bool:
 class _Reader:
     def __init__(self, definition: Instruction, head: Token, tokens: Sequence[Token]) -> None:
         self.definition = definition
+        self.head = head
         self.tokens = tokens
-        self.end = Span(start=(tokens[-1] if tokens else head).end, end=(tokens[-1] if tokens else head).end)
         self.at = 0
+        self.values: list[Value | None] = []
 
     def read(self) -> tuple[Value | None, ...]:
         if self.definition.axes and self.tokens and self.tokens[0].kind is Kind.NUMBER:
             return (self.axes(),)
-        values = tuple(self.operand(operand) for operand in self.definition.operands)
+        for operand in self.definition.operands:
+            self.values.append(self.operand(operand))
         if self.at < len(self.tokens):
             self.too_many()
-        self.check_order(values)
-        return values
+        return tuple(self.values)
 
     def operand(self, operand: Operand) -> Value | None:
-        token = self.next()
-        if operand.word:
-            if token is None or token.kind is not Kind.NAME or token.text.upper() != operand.word:
-                return None
-            self.at += 1
-            if not operand.takes:
-                return Name(operand.word, token.span)
-            token = self.next()
-            if token is None:
-                raise self.missing(operand)
-        if token is None:
-            if operand.optional:
+        if operand.word and not self.takes(operand.word):
+            return None
+        if operand.word and not operand.takes:
+            return Name(operand.word, self.tokens[self.at - 1].span)
+        if self.at == len(self.tokens):
+            if operand.optional and not operand.word:
                 return None
             raise self.missing(operand)
+        token = self.tokens[self.at]
         value = self.free(token) if operand.free else self.value(token, operand)
-        self.check(value, operand, token)
+        if not isinstance(value, operand.takes):
+            raise self.wrong(value, operand)
+        if isinstance(value, Number):
+            self.check_number(value, operand, token)
+        elif isinstance(value, Vector):
+            self.check_vector(value, operand)
         return value
 
-    def next(self) -> Token | None:
-        return self.tokens[self.at] if self.at < len(self.tokens) else None
+    def takes(self, word: str) -> bool:
+        """Whether a word of the language stands here; it is read."""
+        if self.at == len(self.tokens):
+            return False
+        token = self.tokens[self.at]
+        found = token.kind is Kind.NAME and token.text.upper() == word
+        self.at += found
+        return found
 
     def free(self, token: Token) -> Text:
         rest = self.tokens[self.at :]
@@ -117,7 +124,7 @@ class _Reader:
         self.at += 1
         if token.kind is Kind.NUMBER:
             return Number(_number(token), token.span)
-        if _NOT_FINITE.fullmatch(token.text) and Name not in operand.takes:
+        if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
         if token.kind is Kind.NAME:
             return Name(token.text, token.span)
@@ -147,23 +154,16 @@ class _Reader:
 
     def vector(self, opening: Token, operand: Operand) -> Vector:
         values: list[float] = []
-        self.at += 1
-        while (token := self.next()) is not None:
-            self.at += 1
-            if token.text == "]":
-                break
+        for token in self.tokens[self.at + 1 :]:
             if token.kind is Kind.NUMBER:
                 values.append(_number(token))
-            elif _NOT_FINITE.fullmatch(token.text):
-                raise _malformed(token)
-            elif token.kind is Kind.NAME:
-                raise Mistake(
-                    "wrong-operand", f"a vector consists of numbers, not of {quoted(token.text)}", token.span
-                )
+            elif token.text == "]":
+                break
             else:
-                raise _unexpected(token)
+                raise _no_number(token)
         else:
             raise Mistake("unterminated-vector", "the vector has no `]`", opening.span, "it begins here")
+        self.at += len(values) + 2
         span = Span(start=opening.start, end=token.end)
         if Vector in operand.takes and len(values) != len(operand.units):
             raise Mistake(
@@ -174,20 +174,17 @@ class _Reader:
             )
         return Vector(tuple(values), span)
 
-    def check(self, value: Value, operand: Operand, token: Token) -> None:
-        if not isinstance(value, operand.takes):
-            takes = " or ".join(kind.what for kind in operand.takes)
-            message = f"`{self.definition.op}` takes {takes} as {operand.plain}, not {value.what}"
-            raise Mistake("wrong-operand", message, value.span, help=self.usage())
-        if isinstance(value, Vector):
-            if max(map(abs, value.values)) > BIGGEST:
-                raise Mistake(
-                    "number-out-of-range", "a number in the vector is too large", value.span, operand.why
-                )
-            if len(value.values) == 3 and math.hypot(*value.values) < _NO_LENGTH:
-                raise Mistake("zero-vector", "a vector of no length has no direction", value.span)
-        if isinstance(value, Number):
-            self.check_number(value, operand, token)
+    def wrong(self, value: Value, operand: Operand) -> Mistake:
+        takes = " or ".join(kind.what for kind in operand.takes)
+        message = f"`{self.definition.op}` takes {takes} as {operand.plain}, not {value.what}"
+        return Mistake("wrong-operand", message, value.span, help=self.usage())
+
+    def check_vector(self, value: Vector, operand: Operand) -> None:
+        if max(map(abs, value.values)) > BIGGEST:
+            message = "a number in the vector is too large"
+            raise Mistake("number-out-of-range", message, value.span, operand.why)
+        if len(value.values) == 3 and math.hypot(*value.values) < _NO_LENGTH:
+            raise Mistake("zero-vector", "a vector of no length has no direction", value.span)
 
     def check_number(self, value: Number, operand: Operand, token: Token) -> None:
         if operand.choices and value.value not in operand.choices:
@@ -205,19 +202,17 @@ class _Reader:
         if operand.whole and value.value != int(value.value):
             message = f"`{self.definition.op}` takes a whole number as {operand.plain}"
             raise Mistake("wrong-operand", message, value.span)
-
-    def check_order(self, values: tuple[Value | None, ...]) -> None:
-        named = {
-            o.name: v for o, v in zip(self.definition.operands, values, strict=True) if isinstance(v, Number)
-        }
-        low, high = named.get("minimum"), named.get("maximum")
-        if low is not None and high is not None and low.value > high.value:
-            message = f"the maximum {high.value:g} is less than the minimum {low.value:g}"
-            raise Mistake("number-out-of-range", message, high.span)
+        low = self.values[-1] if operand.name == "maximum" else None
+        if isinstance(low, Number) and low.value > value.value:
+            message = f"the maximum {value.value:g} is less than the minimum {low.value:g}"
+            raise Mistake("number-out-of-range", message, value.span)
 
     def missing(self, operand: Operand) -> Mistake:
         message = f"`{self.definition.op}` lacks its {operand.plain}"
-        return Mistake("missing-operand", message, self.end, "it is expected here", self.usage())
+        end = (self.tokens[-1] if self.tokens else self.head).end
+        return Mistake(
+            "missing-operand", message, Span(start=end, end=end), "it is expected here", self.usage()
+        )
 
     def too_many(self) -> None:
         first, last = self.tokens[self.at], self.tokens[-1]
@@ -251,6 +246,15 @@ def _number(token: Token) -> float:
 def _malformed(token: Token) -> Mistake:
     help = "numbers look like 3, .07, -0.6 or 1e-3"
     return Mistake("malformed-number", f"{quoted(token.text)} is not a number", token.span, help=help)
+
+
+def _no_number(token: Token) -> Mistake:
+    if _NOT_FINITE.fullmatch(token.text):
+        return _malformed(token)
+    if token.kind is Kind.NAME:
+        message = f"a vector consists of numbers, not of {quoted(token.text)}"
+        return Mistake("wrong-operand", message, token.span)
+    return _unexpected(token)
 
 
 def _unexpected(token: Token) -> Mistake:

@@ -1,6 +1,8 @@
 """Text to syntax tree: one diagnostic for a mistake, then on to the next line."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+
+from msgspec.structs import replace
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands

@@ -1,8 +1,9 @@
-"""Characters to tokens, one line at a time; nothing is lost and nothing is refused here."""
+"""Characters to tokens, in one pass; nothing is lost and nothing is refused here."""
 
 import re
 from enum import Enum
-from typing import NamedTuple
+
+import msgspec
 
 from handeye.source import Span
 
@@ -17,7 +18,7 @@ class Kind(Enum):
     JUNK = "junk"
 
 
-class Token(NamedTuple):
+class Token(msgspec.Struct, frozen=True):
     """A piece of the text; `start` and `end` are offsets into the whole of it."""
 
     kind: Kind
@@ -30,7 +31,7 @@ class Token(NamedTuple):
         return Span(start=self.start, end=self.end)
 
 
-class Line(NamedTuple):
+class Line(msgspec.Struct, frozen=True):
     """A line of the text, numbered from 1; `start` is the offset of its first character."""
 
     number: int
@@ -44,14 +45,10 @@ class Line(NamedTuple):
 
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
         """The names of the labels, and what follows them."""
-        at = 0
-        while (
-            at + 1 < len(self.tokens)
-            and self.tokens[at].kind is Kind.NAME
-            and self.tokens[at + 1].text == ":"
-        ):
+        tokens, at = self.tokens, 0
+        while at + 1 < len(tokens) and tokens[at + 1].text == ":" and tokens[at].kind is Kind.NAME:
             at += 2
-        return self.tokens[:at:2], self.tokens[at:]
+        return tokens[:at:2], tokens[at:]
 
     @property
     def is_blank(self) -> bool:
@@ -59,16 +56,18 @@ class Line(NamedTuple):
         return not self.tokens and self.comment is None
 
 
+_BLANKS = " \t\r\f\v"
 _TOKEN = re.compile(
-    r"""[ \t\r\f\v]* (?:
+    rf"""[{_BLANKS}]* (?:
         (?P<NAME> [A-Za-z_]\w* )
       | (?P<NUMBER> [+-]? (?: \d | \.\d ) (?: [eE][+-] | [\w.] )* )
       | (?P<MARK> [][:,] )
-      | (?P<COMMENT> ;.* )
-      | (?P<STRING> "[^"]*"? )
-      | (?P<JUNK> [^][:;,"\s]+ | . )
+      | (?P<COMMENT> ;[^\n]* )
+      | (?P<STRING> "[^"\n]*" | "(?: [^"\n]*[^"\s] )? )
+      | (?P<END> \n | \Z )
+      | (?P<JUNK> [^][:;,"\s]+ )
     )""",
-    re.ASCII | re.VERBOSE | re.DOTALL,
+    re.ASCII | re.VERBOSE,
 )
 _KINDS = {kind.name: kind for kind in Kind}
 
@@ -76,26 +75,22 @@ _KINDS = {kind.name: kind for kind in Kind}
 def scan(text: str) -> list[Line]:
     """The lines of a text; a final newline starts no line of its own."""
     lines: list[Line] = []
-    start = 0
-    pieces = text.split("\n")
-    if pieces[-1] == "":
-        pieces.pop()
-    for number, piece in enumerate(pieces, 1):
-        lines.append(_line(number, start, piece))
-        start += len(piece) + 1
-    return lines
-
-
-def _line(number: int, start: int, text: str) -> Line:
     tokens: list[Token] = []
     comment = None
-    end = len(text.rstrip(" \t\r\f\v"))
-    for match in _TOKEN.finditer(text, 0, end):
-        kind = match.lastgroup
+    start = end = 0
+    for match in _TOKEN.finditer(text):
+        kind, behind = match.lastgroup, match.end()
         assert kind is not None
-        if kind == "COMMENT":
-            comment = match[kind]
+        piece = match[kind]
+        if kind == "END":
+            if behind > start:
+                indented = text[start] in " \t"
+                lines.append(Line(len(lines) + 1, start, end, tuple(tokens), comment, indented))
+            tokens, comment, start, end = [], None, behind, behind
+        elif kind == "COMMENT":
+            comment = piece.rstrip(_BLANKS)
+            end = behind - len(piece) + len(comment)
         else:
-            a, b = match.span(kind)
-            tokens.append(Token(_KINDS[kind], match[kind], start + a, start + b))
-    return Line(number, start, start + end, tuple(tokens), comment, text[:1] in (" ", "\t"))
+            tokens.append(Token(_KINDS[kind], piece, behind - len(piece), behind))
+            end = behind
+    return lines

@@ -1,52 +1,48 @@
-"""The syntax tree of an arm program. Trees are equal when they say the same, wherever it stands."""
+"""The syntax tree of an arm program."""
 
-from dataclasses import dataclass, field
 from typing import ClassVar
+
+import msgspec
 
 from handeye.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(msgspec.Struct, frozen=True):
     """A word: the name of something, or a word of the language."""
 
     what: ClassVar[str] = "a name"
     text: str
-    span: Span = field(compare=False)
+    span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(msgspec.Struct, frozen=True):
     """A number in the unit of its place."""
 
     what: ClassVar[str] = "a number"
     value: float
-    span: Span = field(compare=False)
+    span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Vector:
+class Vector(msgspec.Struct, frozen=True):
     """Numbers in brackets."""
 
     what: ClassVar[str] = "a vector"
     values: tuple[float, ...]
-    span: Span = field(compare=False)
+    span: Span
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(msgspec.Struct, frozen=True):
     """Words for people; without the quotes."""
 
     what: ClassVar[str] = "a string"
     text: str
-    span: Span = field(compare=False)
+    span: Span
 
 
 Value = Name | Number | Vector | Text
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Statement:
+class Statement(msgspec.Struct, frozen=True, kw_only=True):
     """A line: labels and perhaps an instruction or the name of a macro."""
 
     labels: tuple[Name, ...]
@@ -56,13 +52,12 @@ class Statement:
     """One for each operand in the definition of the instruction; None where an optional one is left out."""
     broken: bool
     """A mistake in it has been reported; `operands` is empty."""
-    line: int = field(compare=False)
-    span: Span = field(compare=False)
+    line: int
+    span: Span
     """From the instruction to the last operand."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Macro:
+class Macro(msgspec.Struct, frozen=True, kw_only=True):
     """`DEFINE name`, statements, and a blank line."""
 
     name: Name
@@ -70,8 +65,7 @@ class Macro:
     body: tuple[Statement, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Script:
+class Script(msgspec.Struct, frozen=True, kw_only=True):
     """A whole text."""
 
     statements: tuple[Statement, ...]

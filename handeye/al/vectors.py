@@ -1,7 +1,8 @@
 """Named vectors: each name that stands for a vector is replaced by it, so that nothing after this knows names."""
 
-from dataclasses import replace
 from typing import Final
+
+from msgspec.structs import replace
 
 from handeye.al.definition import Refers
 from handeye.al.names import all_statements, pairs

@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
+import msgspec
+
 from handeye import al
 from handeye.diagnostics import Diagnostic
 from handeye.plan.program import ACTIONS, Assign, Countdown, Move, Part, Position, Program, Test
@@ -78,6 +80,18 @@ def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[s
             counters[step.operation.counter] -= 1
             at = step.operation.positive if counters[step.operation.counter] > 0 else at
     return trace
+
+
+def said(tree: object) -> object:
+    """What a syntax tree says, wherever it stands."""
+    if isinstance(tree, tuple):
+        return tuple(map(said, tree))
+    if isinstance(tree, dict):
+        return {name: said(part) for name, part in tree.items()}
+    if isinstance(tree, msgspec.Struct):
+        parts = msgspec.structs.asdict(tree)
+        return type(tree), {name: said(part) for name, part in parts.items() if name not in ("span", "line")}
+    return tree
 
 
 def moves(program: Program) -> list[Move]:

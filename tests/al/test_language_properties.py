@@ -2,7 +2,7 @@
 
 import string
 
-from al_support import LISTING, TAUGHT, diagnose
+from al_support import LISTING, TAUGHT, diagnose, said
 from any_texts import texts
 from hypothesis import given
 from hypothesis import strategies as st
@@ -26,7 +26,7 @@ def test_no_text_makes_the_compiler_fail(text: str) -> None:
 def test_formatting_keeps_the_meaning(text: str) -> None:
     tree, mistakes = parse(text)
     again, still = parse(al.format_text(text))
-    assert again == tree
+    assert said(again) == said(tree)
     assert [d.code for d in still] == [d.code for d in mistakes]
 
 
