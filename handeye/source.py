@@ -15,7 +15,7 @@ LARGEST: Final = 4_000_000
 """Bytes of the largest file taken for a text; a program of the period has a few thousand."""
 
 
-class Span(msgspec.Struct, frozen=True, kw_only=True, order=True):
+class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
     """Characters `start` (inclusive) to `end` (exclusive) of a source text."""
 
     start: int

@@ -89,9 +89,12 @@ Finding = tuple[int, Diagnostic]
 def _order(flow: "_Flow", order: _Order) -> Callable[[], Iterator[Finding]]:
     def check() -> Iterator[Finding]:
         graph = flow.graph
+        numbers = graph.which(lambda operation: isinstance(operation, order.of))
+        if not numbers:
+            return
         reach = graph.before if order.later else graph.after
         enough = reach(lambda operation: isinstance(operation, order.needs))
-        for number in graph.which(lambda operation: isinstance(operation, order.of)):
+        for number in numbers:
             if number not in enough:
                 yield number, flow.problem(order.code, number, order.message, help=order.help)
 

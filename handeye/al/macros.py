@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Final
 
+import msgspec
 from msgspec.structs import replace
 
 from handeye.al.syntax import Name, Script, Statement
@@ -18,8 +19,7 @@ Call = tuple[int, ...]
 """Which call of a macro a statement comes from, within which other call: () is the text itself."""
 
 
-@dataclass(frozen=True, slots=True)
-class Placed:
+class Placed(msgspec.Struct, frozen=True, gc=False):
     """A statement at its place in the expanded program; no call of a macro."""
 
     statement: Statement

@@ -1,9 +1,9 @@
 """Every name must be the name of something: positions, parts, pictures, saved differences, error numbers."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from handeye.al.definition import Operand, Refers
-from handeye.al.instructions import AXES, ERROR, INSTRUCTIONS
+from handeye.al.definition import Operand, Refers, Role
+from handeye.al.instructions import AXES, INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Script, Statement, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS
@@ -27,25 +27,31 @@ _MESSAGES = {
     Refers.COUNTER: "no `ASSIGN` sets a counter {}",
     Refers.SAVED: "no `SAVE` keeps a difference {}: the goal is not shifted",
 }
+_TESTS = {instruction.op for instruction in INSTRUCTIONS.values() if instruction.role is Role.SKIP}
 
 
 def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
     """What is named in a script, its macros included, and is not there, or is there twice."""
     statements = list(all_statements(script))
-    known = _known(statements, taught)
-    unknown = [(name, refers) for name, refers in _references(statements) if name.text not in known[refers]]
+    declared = _declared(statements)
+    known = _known(declared, taught)
+    unknown = [
+        (n, refers) for n, refers in uses(statements) if refers in known and n.text not in known[refers]
+    ]
+    unknown.sort(key=lambda use: use[0].span)
     # Looking for what was meant takes time: only for those that will be shown.
     errors = [u for u in unknown if u[1] is not Refers.SAVED][:LIMIT]
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
     found = [_unknown(name, refers, known[refers]) for name, refers in errors + warnings]
-    return found + _error_numbers(statements) + _twice(statements, taught) + _vectors_twice(statements)
+    found += _error_numbers(statements)
+    return found + _twice(declared.get("TRANS", []), taught) + _vectors_twice(declared.get("VECT", []))
 
 
-def _references(statements: list[Statement]) -> Iterator[tuple[Name, Refers]]:
-    """Every use of a name, in the order of the text."""
-    for statement in sorted(statements, key=lambda s: s.line):
+def uses(statements: Iterable[Statement]) -> Iterator[tuple[Name, Refers]]:
+    """Every name that stands for something, and for what."""
+    for statement in statements:
         for operand, value in pairs(statement):
-            if isinstance(value, Name) and operand.refers in _CODES:
+            if isinstance(value, Name):
                 yield value, operand.refers
         if statement.word is not None and statement.word.text == "PARK":
             yield statement.word, Refers.POSITION
@@ -53,10 +59,11 @@ def _references(statements: list[Statement]) -> Iterator[tuple[Name, Refers]]:
 
 def _error_numbers(statements: list[Statement]) -> list[Diagnostic]:
     return [
-        _unknown_error(value)
+        _unknown_error(number)
         for statement in statements
-        for operand, value in pairs(statement)
-        if isinstance(value, Number) and operand is ERROR and int(value.value) not in ERRORS
+        if statement.word is not None and statement.word.text in _TESTS
+        for number in statement.operands
+        if isinstance(number, Number) and int(number.value) not in ERRORS
     ]
 
 
@@ -67,37 +74,42 @@ def all_statements(script: Script) -> Iterator[Statement]:
         yield from macro.body
 
 
-def pairs(statement: Statement) -> Iterator[tuple[Operand, Value | None]]:
+def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
     """The operands of an instruction with their definitions; none for a macro or a broken statement."""
-    if statement.word is not None and statement.operands and not statement.broken:
-        yield from zip(INSTRUCTIONS[statement.word.text].operands, statement.operands, strict=True)
+    if statement.word is None or statement.broken or not statement.operands:
+        return ()
+    return zip(INSTRUCTIONS[statement.word.text].operands, statement.operands, strict=True)
 
 
-def _declared(statements: list[Statement], op: str) -> list[Name]:
-    return [
-        s.operands[0]
-        for s in statements
-        if s.word is not None and s.word.text == op and s.operands and isinstance(s.operands[0], Name)
-    ]
+def _declared(statements: list[Statement]) -> dict[str, list[Name]]:
+    """Names that stand first in a statement, by its instruction."""
+    found: dict[str, list[Name]] = {}
+    for statement in statements:
+        if statement.word is not None and statement.operands and isinstance(statement.operands[0], Name):
+            found.setdefault(statement.word.text, []).append(statement.operands[0])
+    return found
 
 
-def _known(statements: list[Statement], taught: Taught) -> dict[Refers, set[str]]:
-    positions = {name.text for name in _declared(statements, "TRANS")} | set(taught.positions)
+def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[str]]:
+    by = {
+        op: {name.text for name in declared.get(op, [])} for op in ("TRANS", "LOOK", "VECT", "ASSIGN", "SAVE")
+    }
+    positions = by["TRANS"] | set(taught.positions)
     return {
         Refers.POSITION: positions,
         Refers.PART: set(taught.parts),
         Refers.TARGET: positions | set(taught.parts),
-        Refers.PICTURE: {name.text for name in _declared(statements, "LOOK")},
-        Refers.VECTOR: {name.text for name in _declared(statements, "VECT")} | set(AXES),
-        Refers.COUNTER: {name.text for name in _declared(statements, "ASSIGN")},
-        Refers.SAVED: {name.text for name in _declared(statements, "SAVE")},
+        Refers.PICTURE: by["LOOK"],
+        Refers.VECTOR: by["VECT"] | set(AXES),
+        Refers.COUNTER: by["ASSIGN"],
+        Refers.SAVED: by["SAVE"],
     }
 
 
-def _twice(statements: list[Statement], taught: Taught) -> list[Diagnostic]:
+def _twice(names: list[Name], taught: Taught) -> list[Diagnostic]:
     found = []
     first: dict[str, Name] = {}
-    for name in _declared(statements, "TRANS"):
+    for name in names:
         before = first.setdefault(name.text, name)
         notes: tuple[str, ...] = ()
         secondary: tuple[Label, ...] = ()
@@ -119,10 +131,10 @@ def _twice(statements: list[Statement], taught: Taught) -> list[Diagnostic]:
     return found
 
 
-def _vectors_twice(statements: list[Statement]) -> list[Diagnostic]:
+def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
     found = []
     first: dict[str, Name] = {}
-    for name in _declared(statements, "VECT"):
+    for name in names:
         before = first.setdefault(name.text, name)
         axis = name.text in AXES
         if axis or before is not name:

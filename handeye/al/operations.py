@@ -5,7 +5,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from handeye.al.definition import Instruction
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
 from handeye.plan import program as p
@@ -16,6 +15,11 @@ PLACE_DEPTH: Final = 3.0 * INCH
 PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
 """What PLACE stops on. The least with which the pump script stops a motion; friction is felt as up to 0.2 N, and
 an arm that moves as some ten times that."""
+_UNITS: Final = {
+    op: {o.name or o.word: tuple(unit.si for unit in o.units) for o in instruction.operands}
+    for op, instruction in INSTRUCTIONS.items()
+}
+"""Of each operand of each instruction, in SI."""
 
 
 class Operands:
@@ -23,13 +27,8 @@ class Operands:
 
     def __init__(self, statement: Statement) -> None:
         assert statement.word is not None
-        definition: Instruction = INSTRUCTIONS[statement.word.text]
-        self._values: dict[str, Value | None] = {}
-        self._units = {}
-        for operand, value in zip(definition.operands, statement.operands, strict=True):
-            key = operand.name or operand.word
-            self._values[key] = value
-            self._units[key] = tuple(unit.si for unit in operand.units)
+        self._units = _UNITS[statement.word.text]
+        self._values = dict(zip(self._units, statement.operands, strict=True))
 
     def has(self, key: str) -> bool:
         """Whether an optional operand or word is there."""
@@ -67,10 +66,13 @@ class _How:
     free: p.Vector | None = None
 
 
+_FREELY: Final = _How()
+
+
 def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOperation:
     """The operation of a statement whose modifiers fit it, jumps and skips still without their targets."""
     assert statement.word is not None
-    how = _How()
+    how = _FREELY
     for modifier in modifiers:
         assert modifier.word is not None
         word, operands = modifier.word.text, Operands(modifier)

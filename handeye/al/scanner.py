@@ -18,7 +18,7 @@ class Kind(Enum):
     JUNK = "junk"
 
 
-class Token(msgspec.Struct, frozen=True):
+class Token(msgspec.Struct, frozen=True, gc=False):
     """A piece of the text; `start` and `end` are offsets into the whole of it."""
 
     kind: Kind
@@ -31,7 +31,7 @@ class Token(msgspec.Struct, frozen=True):
         return Span(start=self.start, end=self.end)
 
 
-class Line(msgspec.Struct, frozen=True):
+class Line(msgspec.Struct, frozen=True, gc=False):
     """A line of the text, numbered from 1; `start` is the offset of its first character."""
 
     number: int

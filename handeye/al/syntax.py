@@ -1,4 +1,4 @@
-"""The syntax tree of an arm program."""
+"""The syntax tree of an arm program. It has no cycles, so that nobody has to look for them (`gc`)."""
 
 from typing import ClassVar
 
@@ -7,7 +7,7 @@ import msgspec
 from handeye.source import Span
 
 
-class Name(msgspec.Struct, frozen=True):
+class Name(msgspec.Struct, frozen=True, gc=False):
     """A word: the name of something, or a word of the language."""
 
     what: ClassVar[str] = "a name"
@@ -15,7 +15,7 @@ class Name(msgspec.Struct, frozen=True):
     span: Span
 
 
-class Number(msgspec.Struct, frozen=True):
+class Number(msgspec.Struct, frozen=True, gc=False):
     """A number in the unit of its place."""
 
     what: ClassVar[str] = "a number"
@@ -23,7 +23,7 @@ class Number(msgspec.Struct, frozen=True):
     span: Span
 
 
-class Vector(msgspec.Struct, frozen=True):
+class Vector(msgspec.Struct, frozen=True, gc=False):
     """Numbers in brackets."""
 
     what: ClassVar[str] = "a vector"
@@ -31,7 +31,7 @@ class Vector(msgspec.Struct, frozen=True):
     span: Span
 
 
-class Text(msgspec.Struct, frozen=True):
+class Text(msgspec.Struct, frozen=True, gc=False):
     """Words for people; without the quotes."""
 
     what: ClassVar[str] = "a string"
@@ -42,7 +42,7 @@ class Text(msgspec.Struct, frozen=True):
 Value = Name | Number | Vector | Text
 
 
-class Statement(msgspec.Struct, frozen=True, kw_only=True):
+class Statement(msgspec.Struct, frozen=True, gc=False, kw_only=True):
     """A line: labels and perhaps an instruction or the name of a macro."""
 
     labels: tuple[Name, ...]
@@ -57,7 +57,7 @@ class Statement(msgspec.Struct, frozen=True, kw_only=True):
     """From the instruction to the last operand."""
 
 
-class Macro(msgspec.Struct, frozen=True, kw_only=True):
+class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
     """`DEFINE name`, statements, and a blank line."""
 
     name: Name
@@ -65,7 +65,7 @@ class Macro(msgspec.Struct, frozen=True, kw_only=True):
     body: tuple[Statement, ...]
 
 
-class Script(msgspec.Struct, frozen=True, kw_only=True):
+class Script(msgspec.Struct, frozen=True, gc=False, kw_only=True):
     """A whole text."""
 
     statements: tuple[Statement, ...]

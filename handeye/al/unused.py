@@ -1,9 +1,9 @@
 """What is written and never used: labels, positions, macros."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 from handeye.al.definition import Refers
-from handeye.al.names import all_statements, pairs
+from handeye.al.names import all_statements, uses
 from handeye.al.syntax import Name, Script, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
 
@@ -17,17 +17,19 @@ _WRITTEN = {
 def check_unused(script: Script) -> Iterator[Diagnostic]:
     """A warning for each; of a script without mistakes. Taught positions may be there for another script."""
     statements = list(all_statements(script))
-    yield from _labels(statements)
-    for op, (what, refers) in _WRITTEN.items():
-        yield from _declared(statements, op, what, refers)
+    used: dict[Refers, set[str]] = {refers: set() for refers in Refers}
+    for use, refers in uses(statements):
+        used[refers].add(use.text)
+    yield from _labels(statements, used[Refers.LABEL])
+    for op, (what, as_) in _WRITTEN.items():
+        yield from _declared(statements, op, what, set().union(*(used[refers] for refers in as_)))
     called = {statement.word.text for statement in statements if statement.word is not None}
     for name, macro in script.macros.items():
         if name not in called:
             yield _unused("unused-macro", macro.name, f"macro {quoted(name)} is never used")
 
 
-def _labels(statements: list[Statement]) -> Iterator[Diagnostic]:
-    used = {name.text for name, refers in _named(statements) if refers is Refers.LABEL}
+def _labels(statements: list[Statement], used: set[str]) -> Iterator[Diagnostic]:
     for statement in statements:
         for label in statement.labels:
             if label.text not in used:
@@ -35,23 +37,12 @@ def _labels(statements: list[Statement]) -> Iterator[Diagnostic]:
                 yield _unused("unused-label", label, message)
 
 
-def _declared(
-    statements: list[Statement], op: str, what: str, as_: Collection[Refers]
-) -> Iterator[Diagnostic]:
-    used = {name.text for name, refers in _named(statements) if refers in as_}
-    used |= {s.word.text for s in statements if s.word is not None and s.word.text == "PARK"}
+def _declared(statements: list[Statement], op: str, what: str, used: set[str]) -> Iterator[Diagnostic]:
     for statement in statements:
         if statement.word is not None and statement.word.text == op:
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in used:
                 yield _unused(f"unused-{what}", name, f"{what} {quoted(name.text)} is written and never used")
-
-
-def _named(statements: list[Statement]) -> Iterator[tuple[Name, Refers]]:
-    for statement in statements:
-        for operand, value in pairs(statement):
-            if isinstance(value, Name):
-                yield value, operand.refers
 
 
 def _unused(code: str, name: Name, message: str) -> Diagnostic:

@@ -5,9 +5,13 @@ from typing import Final
 from msgspec.structs import replace
 
 from handeye.al.definition import Refers
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.names import all_statements, pairs
 from handeye.al.syntax import Macro, Name, Script, Statement, Value, Vector
 
+_TAKE_NAMES: Final = {
+    i.op for i in INSTRUCTIONS.values() if any(operand.refers is Refers.VECTOR for operand in i.operands)
+}
 _UNITS: Final = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
 
@@ -32,6 +36,8 @@ def _replaced(
 
 
 def _with(statement: Statement, known: dict[str, tuple[float, float, float]]) -> Statement:
+    if statement.word is None or statement.word.text not in _TAKE_NAMES:
+        return statement
     operands: list[Value | None] = []
     changed = False
     for operand, value in pairs(statement):
