@@ -89,11 +89,11 @@ Finding = tuple[int, Diagnostic]
 def _order(flow: "_Flow", order: _Order) -> Callable[[], Iterator[Finding]]:
     def check() -> Iterator[Finding]:
         graph = flow.graph
-        numbers = graph.which(lambda operation: isinstance(operation, order.of))
+        numbers = graph.which(order.of)
         if not numbers:
             return
         reach = graph.before if order.later else graph.after
-        enough = reach(lambda operation: isinstance(operation, order.needs))
+        enough = reach(graph.which(order.needs))
         for number in numbers:
             if number not in enough:
                 yield number, flow.problem(order.code, number, order.message, help=order.help)
@@ -106,7 +106,7 @@ class _Flow:
         self.graph = graph
         self.origins = origins
         self.reached = graph.from_start()
-        self.trapped = graph.trapped(lambda operation: isinstance(operation, op.Wait | op.Advance))
+        self.trapped = graph.trapped(graph.which(op.Wait, op.Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
         """What a check finds at every step that a statement has become, unreachable ones left out."""
@@ -157,7 +157,7 @@ class _Flow:
     def tests(self) -> Iterator[Finding]:
         """Tests of errors that cannot have been raised where they stand."""
         raised, actions = self.incoming()
-        for number in self.graph.which(lambda operation: isinstance(operation, op.Test)):
+        for number in self.graph.which(op.Test):
             operation = self.graph.steps[number].operation
             assert isinstance(operation, op.Test)
             if not actions[number]:
@@ -168,11 +168,11 @@ class _Flow:
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
         """For each test: the errors that can be pending when it is come to, and the actions that raise them."""
         steps, onward = self.graph.steps, self.graph.onward
-        tests = self.graph.which(lambda operation: isinstance(operation, op.Test))
+        tests = self.graph.which(op.Test)
         raised: dict[int, set[int]] = {number: set() for number in tests}
         actions: dict[int, set[int]] = {number: set() for number in tests}
         waiting = []
-        for number in self.graph.which(lambda operation: isinstance(operation, op.ACTIONS)):
+        for number in self.graph.which(*op.ACTIONS):
             target = onward[number][0]
             if target in raised:
                 raised[target] |= raises(steps[number].operation)

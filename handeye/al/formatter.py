@@ -23,7 +23,7 @@ def _format(line: Line) -> str:
     labels, tokens = line.split()
     text = " ".join(f"{label.text}:" for label in labels)
     if tokens and tokens[0].text.upper() == "DEFINE":
-        text = _column(text, 0) + f"DEFINE {_operands(tokens[1:])}".rstrip()
+        text = " ".join((text, "DEFINE", _operands(tokens[1:]))).strip(" ")
     elif tokens:
         word = tokens[0].text.upper() if tokens[0].kind is Kind.NAME else tokens[0].text
         operands = free_text(tokens[1:]) if word in FREE and tokens[1:] else _operands(tokens[1:])

@@ -1,11 +1,9 @@
 """The steps of a program as a graph: what leads where, what comes before what."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from handeye.plan.program import Countdown, Operation, Step, Test
-
-Condition = Callable[[Operation], bool]
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,39 +14,44 @@ class Graph:
     onward: list[tuple[int | None, ...]] = field(init=False)
     back: list[list[int]] = field(init=False)
     """Steps that lead to each."""
+    kinds: dict[type[Operation], list[int]] = field(init=False)
+    """Steps with each kind of operation."""
 
     def __post_init__(self) -> None:
-        onward = [_onward(step) for step in self.steps]
+        onward: list[tuple[int | None, ...]] = []
         back: list[list[int]] = [[] for _ in self.steps]
+        kinds: dict[type[Operation], list[int]] = {}
+        for number, step in enumerate(self.steps):
+            onward.append(_onward(step))
+            kinds.setdefault(type(step.operation), []).append(number)
         for number, targets in enumerate(onward):
             for target in targets:
                 if target is not None:
                     back[target].append(number)
         object.__setattr__(self, "onward", onward)
         object.__setattr__(self, "back", back)
+        object.__setattr__(self, "kinds", kinds)
 
-    def which(self, condition: Condition) -> list[int]:
-        """The steps whose operation meets a condition."""
-        return [number for number, step in enumerate(self.steps) if condition(step.operation)]
+    def which(self, *kinds: type[Operation]) -> list[int]:
+        """The steps whose operation is of one of these kinds, in order."""
+        return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
 
     def from_start(self) -> set[int]:
         """The steps that can be come to."""
         return _spread([0] if self.steps else [], self.onward)
 
-    def after(self, condition: Condition) -> set[int]:
-        """The steps that can come, sooner or later, after one that meets a condition."""
-        first = [target for number in self.which(condition) for target in self.onward[number]]
-        return _spread(first, self.onward)
+    def after(self, numbers: Iterable[int]) -> set[int]:
+        """The steps that can come, sooner or later, after one of these."""
+        return _spread([target for number in numbers for target in self.onward[number]], self.onward)
 
-    def before(self, condition: Condition) -> set[int]:
-        """The steps after which, sooner or later, one that meets a condition can come."""
-        first = [number for step in self.which(condition) for number in self.back[step]]
-        return _spread(first, self.back)
+    def before(self, numbers: Iterable[int]) -> set[int]:
+        """The steps after which, sooner or later, one of these can come."""
+        return _spread([before for number in numbers for before in self.back[number]], self.back)
 
-    def trapped(self, exits: Condition) -> set[int]:
+    def trapped(self, exits: Iterable[int]) -> set[int]:
         """The steps from which the program neither ends nor comes to an exit."""
         ends = [number for number, targets in enumerate(self.onward) if None in targets]
-        return set(range(len(self.steps))) - _spread([*ends, *self.which(exits)], self.back)
+        return set(range(len(self.steps))) - _spread([*ends, *exits], self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
         """The steps that can be come to from `start`; none if any of those already known is among them.
@@ -73,12 +76,11 @@ def _spread(
     first: Iterable[int | None], edges: Sequence[Iterable[int | None]], without: Iterable[int] = ()
 ) -> set[int]:
     """Everything that can be come to along edges, the beginning included."""
-    found: set[int] = set()
-    barred = set(without)
+    found = set(without)
     waiting = list(first)
     while waiting:
         number = waiting.pop()
-        if number is not None and number not in found and number not in barred:
+        if number is not None and number not in found:
             found.add(number)
             waiting.extend(edges[number])
-    return found
+    return found.difference(without)

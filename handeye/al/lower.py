@@ -12,7 +12,7 @@ from handeye.al.macros import Call, Placed
 from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
+from handeye.plan.program import Advance, AnyOperation, Countdown, Jump, Move, Step, Test
 from handeye.source import Span
 
 Report = Callable[[Diagnostic], None]
@@ -158,7 +158,7 @@ class _Lowering:
                 self.problem("spin-stays-stiff", message, _word(modifier), help=help)
         self.draft(item, operation(statement, [m.statement for m in modifiers]))
         self.pending.clear()
-        self.shiftable = self.drafts[-1].word == "MOVE"
+        self.shiftable = statement.word is not None and statement.word.text == "MOVE"
 
     def draft(self, item: Placed, made: AnyOperation | None) -> None:
         if not self.stages:
@@ -202,15 +202,11 @@ class _Lowering:
         """What follows a step; sets what follows after an error."""
         draft = self.drafts[index]
         following = self.at(index + 1)
-        if draft.operation is None:
-            return following
-        if draft.word in ("AOJ", "JUMP"):
+        if isinstance(draft.operation, (Advance, Jump)):
             return self.jump(index)
         if isinstance(draft.operation, Countdown):
             draft.operation = msgspec.structs.replace(draft.operation, positive=self.jump(index))
-            return following
-        if draft.word in ("SKIPE", "SKIPN"):
-            assert isinstance(draft.operation, Test)
+        elif isinstance(draft.operation, Test):
             skipped = self.skip(index)
             raised, other = (skipped, following) if draft.word == "SKIPE" else (following, skipped)
             draft.operation = msgspec.structs.replace(draft.operation, raised=raised)

@@ -36,7 +36,9 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
     declared = _declared(statements)
     known = _known(declared, taught)
     unknown = [
-        (n, refers) for n, refers in uses(statements) if refers in known and n.text not in known[refers]
+        (name, refers)
+        for name, refers in uses(statements)
+        if (there := known.get(refers)) is not None and name.text not in there
     ]
     unknown.sort(key=lambda use: use[0].span)
     # Looking for what was meant takes time: only for those that will be shown.

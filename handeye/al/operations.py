@@ -53,7 +53,7 @@ class Operands:
 
     def name(self, key: str) -> str:
         value = self._values[key]
-        assert isinstance(value, Name | Text)
+        assert isinstance(value, (Name, Text))
         return value.text
 
 

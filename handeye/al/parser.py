@@ -45,7 +45,7 @@ class _Parser:
     body: list[Statement] = field(default_factory=list)
 
     def line(self, line: Line) -> None:
-        if line.is_blank and self.opened is not None:
+        if self.opened is not None and line.is_blank:
             self.close()
         heads, tokens = line.split()
         labels = [Name(token.text, token.span) for token in heads]
