@@ -77,6 +77,11 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
 # --- names ---------------------------------------------------------------------------------------
 
 
+MOST_COMPARED: Final = 500
+LONGEST_COMPARED: Final = 40
+"""Characters. Finding the nearest name takes as many steps as there are names, times the square of their length."""
+
+
 def quoted(name: str) -> str:
     """A word of the user's text inside a sentence: in backquotes, shortened, made visible."""
     short = name if len(name) <= 40 else name[:39] + "…"
@@ -86,6 +91,8 @@ def quoted(name: str) -> str:
 def suggestion(name: str, known: Iterable[str]) -> str | None:
     """`did you mean ...` for the nearest known name, at most a third of its length away; else few choices."""
     choices = sorted(set(known))
+    if len(choices) > MOST_COMPARED or len(name) > LONGEST_COMPARED:
+        return None
     ranked = sorted((_distance(name.upper(), choice.upper()), choice) for choice in choices)
     if ranked and ranked[0][0] <= len(name) // 3:
         return f"did you mean {quoted(ranked[0][1])}?"

@@ -11,8 +11,8 @@ import msgspec
 from handeye.errors import InvalidInput
 from handeye.files import read_whole
 
-LARGEST: Final = 4_000_000
-"""Bytes of the largest file taken for a text; a program of the period has a few thousand."""
+LARGEST: Final = 1_000_000
+"""Bytes of the largest file taken for a text: the longest program there can be, with a hundred for each statement."""
 
 
 class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):

@@ -150,7 +150,12 @@ class _Lowering:
         statement = item.statement
         if role is not Role.MOTION and self.pending:
             self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
-        modifiers = [m for m in self.pending if self.fits(m, statement)]
+        firsts: dict[str, Placed] = {}
+        modifiers = []
+        for modifier in self.pending:
+            first = firsts.setdefault(_WAY.get(_word(modifier).text, ""), modifier)
+            if self.fits(modifier, first, statement):
+                modifiers.append(modifier)
         for modifier in modifiers:
             if _word(modifier).text == "SPIN":
                 help = "`FREE` lets it give way sideways"
@@ -166,7 +171,8 @@ class _Lowering:
         modifier = self.pending[0] if self.pending else None
         self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier))
 
-    def fits(self, modifier: Placed, motion: Statement) -> bool:
+    def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
+        """Whether it modifies such a motion, and is the first of its kind."""
         word = _word(modifier)
         assert motion.word is not None
         fits = INSTRUCTIONS[word.text].fits
@@ -176,14 +182,13 @@ class _Lowering:
             help = "it modifies " + ", ".join(f"`{op}`" for op in fits)
             self.problem("modifier-misplaced", message, word, modified, help=help)
             return False
-        same = [m for m in self.pending if _WAY.get(_word(m).text) == _WAY.get(word.text)]
-        if modifier is not same[0]:
-            first = Label(span=_word(same[0]).span, text="the other one")
-            message = f"`{motion.word.text}` has both `{_word(same[0]).text}` and `{word.text}`"
-            if _word(same[0]).text == word.text:
+        if modifier is not first:
+            other = Label(span=_word(first).span, text="the other one")
+            message = f"`{motion.word.text}` has both `{_word(first).text}` and `{word.text}`"
+            if _word(first).text == word.text:
                 message = f"`{motion.word.text}` has `{word.text}` twice"
-            self.problem("modifier-twice", message, word, first)
-        return modifier is same[0]
+            self.problem("modifier-twice", message, word, other)
+        return modifier is first
 
     def no_motion(self, after: Label | None) -> None:
         word = _word(self.pending[0])
@@ -227,10 +232,10 @@ class _Lowering:
                 if draft.word == "AOJ":
                     self.loops.append((target, index))
                 return self.at(target)
-        known = [name for scope, name in self.labels if scope in scopes]
         message = f"no statement has the label {quoted(label.text)}"
         # Looking for what was meant takes time: only for those that will be shown.
-        help = suggestion(label.text, known) if self.lost < LIMIT else None
+        known = [name for scope, name in self.labels if scope in scopes] if self.lost < LIMIT else []
+        help = suggestion(label.text, known)
         self.lost += 1
         self.problem("unknown-label", message, label, help=help)
         return None
