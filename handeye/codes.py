@@ -51,6 +51,7 @@ CODES: Final[dict[str, Code]] = {
         "STOP 50\nL: MOVE T\nJUMP L",
     ),
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
+    "line-too-long": _error("a line has more characters than anybody reads", f"OPEN 1\n;{'-' * 1000}"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),

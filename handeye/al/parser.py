@@ -1,6 +1,7 @@
 """Text to syntax tree: one diagnostic for a mistake, then on to the next line."""
 
 from dataclasses import dataclass, field
+from typing import Final
 
 from msgspec.structs import replace
 
@@ -10,6 +11,9 @@ from handeye.al.scanner import Kind, Line, Token, scan
 from handeye.al.syntax import Macro, Name, Script, Statement
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.source import Span
+
+LONGEST_LINE: Final = 1000
+"""Characters. Steps, plans and traces repeat the line they come from, for each call of a macro."""
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
@@ -47,6 +51,9 @@ class _Parser:
     def line(self, line: Line) -> None:
         if self.opened is not None and line.is_blank:
             self.close()
+        if line.end - line.start > LONGEST_LINE:
+            self.too_long(line)
+            return
         heads, tokens = line.split()
         labels = [Name(token.text, token.span) for token in heads]
         if tokens and tokens[0].text.upper() == "DEFINE":
@@ -58,6 +65,13 @@ class _Parser:
             (self.statements if self.opened is None else self.body).append(
                 self.statement(line, labels, tokens)
             )
+
+    def too_long(self, line: Line) -> None:
+        span = Span(start=line.start + LONGEST_LINE, end=line.end)
+        message = f"the line has {line.end - line.start} characters"
+        self.report("line-too-long", message, span, help=f"a line has at most {LONGEST_LINE}")
+        broken = _statement([], None, line, span, broken=True)
+        (self.statements if self.opened is None else self.body).append(broken)
 
     def end(self) -> None:
         if self.opened is not None and len(self.diagnostics) < LIMIT:

@@ -5,7 +5,7 @@ from functools import cache
 from handeye.al.compiler import compile_text
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.codes import CODES
-from handeye.diagnostics import Diagnostic, quoted, render, suggestion
+from handeye.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
 from handeye.editor.checking import planning
 from handeye.editor.document import Document
 from handeye.editor.fix import cured
@@ -88,7 +88,8 @@ def _code(code: str) -> str:
 
 
 def _shortened(lines: list[str], most: int = 16) -> list[str]:
-    return lines if len(lines) <= most else [*lines[: most - 4], "...", *lines[-3:]]
+    shown = [line if len(line) <= WIDTH else f"{line[:WIDTH]}..." for line in lines]
+    return shown if len(shown) <= most else [*shown[: most - 4], "...", *shown[-3:]]
 
 
 @cache

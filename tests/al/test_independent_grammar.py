@@ -13,8 +13,8 @@ lark = pytest.importorskip("lark")
 
 HERE = Path(__file__).parent
 GRAMMAR = lark.Lark((HERE / "arm_language.lark").read_text(encoding="utf-8"), parser="lalr")
-SIZES = {"number-out-of-range", "unknown-lens", "zero-vector"}
-"""What the parser says of numbers that are written as they should be."""
+SIZES = {"line-too-long", "number-out-of-range", "unknown-lens", "zero-vector"}
+"""What the parser says of what is written as it should be, but for its size."""
 
 
 def is_program(text: str) -> bool:
