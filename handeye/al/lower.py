@@ -13,6 +13,7 @@ from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
+from handeye.source import Source
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
@@ -30,7 +31,7 @@ class Lowered:
     """The statement each step comes from."""
 
 
-def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
+def lower(placed: Sequence[Placed], source: Source, report: Report) -> Lowered:
     """Stages and steps of an expanded program; worth something only if no error was reported."""
     lowering = _Lowering(report=report)
     for item in placed:
@@ -40,18 +41,22 @@ def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
     targets = [lowering.link(index) for index in range(len(drafts))]
     lowering.mark_searching()
     steps = tuple(
-        Step(
-            operation=draft.operation,
-            stage=draft.stage,
-            line=draft.statement.line,
-            text=text[draft.statement.span.start : draft.statement.span.end],
-            next=target,
-        )
+        _step(source, draft.statement, draft.operation, draft.stage, target)
         for draft, target in zip(drafts, targets, strict=True)
         if draft.operation is not None
     )
     origins = tuple(draft.statement for draft in drafts if draft.operation is not None)
     return Lowered(stages=tuple(lowering.stages), steps=steps, origins=origins)
+
+
+def _step(
+    source: Source, statement: Statement, operation: AnyOperation, stage: int, target: int | None
+) -> Step:
+    text, start = source.find(statement.span.start)
+    said = text.text[start : start + statement.span.end - statement.span.start]
+    return Step(
+        operation=operation, stage=stage, file=text.key, line=statement.line, text=said, next=target
+    )  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -125,8 +130,9 @@ class _Lowering:
         self.shiftable = False
 
     def declare(self, statement: Statement) -> None:
+        assert statement.word is not None
         name = statement.operands[0]
-        if isinstance(name, Text):
+        if statement.word.text == "STAGE" and isinstance(name, Text):
             if name.text not in self.stages:
                 self.stages.append(name.text)
             self.stage = self.stages.index(name.text)
