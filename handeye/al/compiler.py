@@ -38,7 +38,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
         found += check_flow(lowered.steps, lowered.origins)
         lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
-        found += [d for d in check_unused(script) if _line(source, d) not in lost]
+        found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
     if has_errors(found):
         return None, arranged(found)
     written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]
@@ -59,6 +59,11 @@ def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
     """The text a diagnostic is about, and the line in it."""
     text, offset = source.find(diagnostic.primary.span.start)
     return text.key, text.position(offset)[0]
+
+
+def _is_for_us(source: Source, unused: Diagnostic) -> bool:
+    """A required file may make things for other scripts; what it jumps to is its own."""
+    return unused.code == "unused-label" or not _line(source, unused)[0]
 
 
 def _empty() -> Diagnostic:

@@ -121,7 +121,16 @@ def test_json_form_names_the_file_of_each_place() -> None:
 
 
 def test_warnings_of_required_files_are_found() -> None:
-    assert codes("REQUIRE a.al", {"a.al": f"{MACRO}L: PARK"}) == ["unused-macro", "unused-label"]
+    assert codes("REQUIRE a.al", {"a.al": "L: PARK\nSKIPE 42\nPARK"}) == [
+        "unused-label",
+        "unknown-error-number",
+    ]
+
+
+def test_a_required_file_may_make_things_for_other_scripts() -> None:
+    text = f"{MACRO}VECT D [0 0 1]\nTRANS A [1 2 3 0 0 0]\nPARK"
+    assert codes("REQUIRE a.al", {"a.al": text}) == []
+    assert codes(text) == ["unused-macro", "unused-vector", "unused-position"]
 
 
 def test_macro_of_a_required_file_ends_with_the_file() -> None:
