@@ -96,6 +96,7 @@ CODES: Final[dict[str, Code]] = {
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
     "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
+    "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
     ),

@@ -42,6 +42,8 @@ def faults(plan: Plan) -> Iterator[str]:
         yield "it has no steps"
     if "" in program.required:
         yield "it requires a file that has no name"
+    if len(set(program.stages)) < len(program.stages):
+        yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
         yield f"its speed is {plan.speed:g}; a share of the arm's limits is above 0 and at most 1"
     for key, position in program.positions.items():
