@@ -9,12 +9,11 @@ from typing import Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.al import compile_text, extensions
+from handeye.al import compile_text, extensions, read_script
 from handeye.cli.common import compiled, complain, say, screen, show, taught
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.plan.store import read_plan, write_plan
-from handeye.source import read_source
 
 
 def register(app: App) -> None:
@@ -79,12 +78,12 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
     from handeye.arm.stanford import STANFORD
     from handeye.plan.planner import make_plan
 
-    source = read_source(file)
+    source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
         diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
     if strict:
-        diagnostics = arranged([*diagnostics, *extensions(source.text)])
+        diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)
     if has_errors(diagnostics):
         return 2

@@ -45,6 +45,7 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "modifier-without-motion": fix_lines.remove_line,
     "never-saved": fix_lines.remove_line,
     "number-out-of-range": fix_operands.nearest_number,
+    "required-twice": fix_lines.remove_line,
     "restore-without-move": fix_lines.remove_line,
     "search-without-aoj": fix_lines.remove_line,
     "skip-at-end": fix_lines.remove_line,
