@@ -64,7 +64,9 @@ CODES: Final[dict[str, Code]] = {
     ),
     "modifier-twice": _error("a motion has two modifiers where it can have one", "STOP 9\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
-    "never-saved": _warning("a difference is restored that no SAVE keeps", "MOVE T\nRESTORE H"),
+    "never-saved": _warning(
+        "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
+    ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "position-twice": _error(
         "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"

@@ -3,20 +3,19 @@
 from pathlib import PurePath
 
 from handeye.al.flow import check_flow
+from handeye.al.form import MISSING
 from handeye.al.lower import lower
 from handeye.al.macros import expand
 from handeye.al.names import all_statements, check_names
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
+from handeye.al.restores import check_restores
 from handeye.al.unused import check_unused
 from handeye.al.vectors import with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
 from handeye.plan.program import Program
 from handeye.plan.taught import Taught
 from handeye.source import Source, Span
-
-_MISSING = ("unreadable-file", "too-much-required")
-"""A part of the text is not there: what it makes would be told as unknown."""
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
@@ -27,7 +26,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     position, at most `diagnostics.LIMIT`.
     """
     script, found = parse_whole(source)
-    if any(d.code in _MISSING for d in found):
+    if any(d.code in MISSING for d in found):
         return None, arranged(d for d in found if d.code != "unknown-instruction")
     if sum(d.severity == "error" for d in found) >= LIMIT:
         return None, arranged(found)
@@ -37,6 +36,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
         found += check_flow(lowered.steps, lowered.origins)
+        found += check_restores(lowered)
         lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
         found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
     if has_errors(found):

@@ -125,12 +125,7 @@ class _Parser:
             return
         name = Name(tokens[1].text.upper(), tokens[1].span)
         if len(tokens) > 2:
-            self.report(
-                "too-many-operands",
-                "`DEFINE` takes a name only",
-                Span(start=tokens[2].start, end=tokens[-1].end),
-                help="the instructions of a macro stand on the lines below",
-            )
+            self.beyond(name, tokens[2:])
         elif name.text in INSTRUCTIONS or name.text == "DEFINE":
             self.report("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span)
         elif name.text in self.macros:
@@ -139,6 +134,15 @@ class _Parser:
                 "macro-twice", f"macro {quoted(name.text)} is defined twice", name.span, secondary=(first,)
             )
         self.opened = name
+
+    def beyond(self, name: Name, rest: tuple[Token, ...]) -> None:
+        """More than a name behind a DEFINE: an instruction, or arguments."""
+        message, help = f"macro {quoted(name.text)} can have no arguments", "write a macro for each use of it"
+        if rest[0].text.upper() in INSTRUCTIONS:
+            message = "`DEFINE` takes a name only"
+            help = "the instructions of a macro stand on the lines below"
+        span = Span(start=rest[0].start, end=rest[-1].end)
+        self.report("too-many-operands", message, span, help=help)
 
     def unterminated(self, why: str) -> None:
         if self.opened is None or not self.opened.text:

@@ -12,7 +12,7 @@ from handeye.al.operands import Mistake, read_operands
 from handeye.al.scanner import scan
 from handeye.al.syntax import Text
 from handeye.errors import InvalidInput
-from handeye.source import LARGEST, Source, read_source
+from handeye.source import LARGEST, Source, Span, read_source
 
 REQUIRE: Final = "REQUIRE"
 MOST: Final = 100
@@ -45,8 +45,8 @@ def sewn(source: Source, read: Read) -> Source:
     size = len(source.text)
     while waiting:
         by, text = waiting.pop(0)
-        for file in _files(text):
-            key = key_of(file, by)
+        for file in required_by(text):
+            key = key_of(file.text, by)
             if key == own or key in required:
                 continue
             if len(required) == MOST or size > LARGEST:
@@ -85,10 +85,10 @@ def _piece(name: str, key: str, read: Read) -> Source:
         return Source(name=name, key=key, text="", problem=str(error))
 
 
-def _files(text: str) -> Iterator[str]:
-    """The files that a text requires."""
+def required_by(text: str) -> Iterator[Text]:
+    """What a text itself requires, in its order."""
     for found in _LINE.finditer(text):
-        for line in scan(found[0]):
+        for line in scan(found[0], found.start()):
             tokens = line.split()[1]
             if tokens and tokens[0].text.upper() == REQUIRE:
                 try:
@@ -96,4 +96,19 @@ def _files(text: str) -> Iterator[str]:
                 except Mistake:
                     continue
                 assert isinstance(file, Text)
-                yield file.text
+                yield file
+
+
+def led_by(source: Source, key: str) -> Span | None:
+    """Where the text itself requires a file that is read, or leads to it."""
+    texts = {text.key: text.text for text in source.required}
+    for file in required_by(source.text):
+        waiting, seen = [key_of(file.text, own_key(source))], set[str]()
+        while waiting:
+            by = waiting.pop()
+            if by == key:
+                return file.span
+            if by in texts and by not in seen:
+                seen.add(by)
+                waiting += [key_of(further.text, by) for further in required_by(texts[by])]
+    return None

@@ -19,6 +19,8 @@ _UNUSED: Final = "unused-"
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
     """The cures of a diagnostic of the document; none if none is known."""
+    if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
+        return []  # some of it stands in a required file
     cure = _CURES.get(diagnostic.code)
     if cure is None and diagnostic.code.startswith(_UNUSED):
         cure = fix_lines.remove_unused
