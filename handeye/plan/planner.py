@@ -178,7 +178,7 @@ def _facing(operation: Change) -> Stop | None:
 def _span(whole: Source, step: Step, word: str) -> Span:
     """Where `word` stands on the source line of a step."""
     source = next(text for text in whole.texts if text.key == step.file)
-    line, begin = source.line_span(step.line), whole.begin(step.file)
+    line, begin = source.line_span(step.line), whole.begins[step.file]
     start = source.text.find(word, line.start, line.end)
     found = line if start < 0 else Span(start=start, end=start + len(word))
     return Span(start=begin + found.start, end=begin + found.end)
