@@ -141,7 +141,6 @@ class ArmDrive:
         A position servo in which the measured force moves the set-point: it needs no joint to be slack.
         """
         self.zero()
-        here = self.dynamics()
         X_start = forward(self.arm, self.q)
         gone, given = 0.0, np.zeros(3)
         for tick in range(course.patience(PRESS_TICKS)):
@@ -152,7 +151,7 @@ class ArmDrive:
             step = solve(self.arm, translated(X_start, gone * course.direction + given), self.q)
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
-            self._approach(here, step.q, estimate=True)
+            self._approach(self.dynamics(), step.q, estimate=True)
             if self.cut:
                 return CUT
             trip = guard.check(self._reading(course.direction)) if guard is not None else None
