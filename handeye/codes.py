@@ -53,6 +53,9 @@ CODES: Final[dict[str, Code]] = {
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
+    "faint-moment": _warning(
+        "a moment is less than what joint friction is felt as", "STOP NIL [5 0 0]\nCHANGE X 1"
+    ),
     "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
@@ -81,7 +84,6 @@ CODES: Final[dict[str, Code]] = {
     "specific-without-general": _warning(
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
-    "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
     ),

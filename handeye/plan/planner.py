@@ -20,7 +20,7 @@ from handeye.plan.program import Change, Move, Program, Step, Stop, Turn
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
 from handeye.source import Source, Span
-from handeye.units import INCH, OUNCE_FORCE
+from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 SPEED = 0.40
 """Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
@@ -126,20 +126,27 @@ class _Walk:
         self.q = end
 
     def _check_stop(self, step: Step, stop: Stop | None) -> None:
-        """A force the arm cannot exert can never stop it."""
-        if stop is None or stop.force is None:
-            return
-        torque = np.abs(jacobian(self.arm, self.q)[:3].T @ np.array(stop.force))
+        """A force or moment the arm cannot exert can never stop it."""
+        J = jacobian(self.arm, self.q)
+        if stop is not None and stop.force is not None:
+            self._check_exerted(step, "press", J[:3], np.array(stop.force) / OUNCE_FORCE, OUNCE_FORCE, "oz")
+        if stop is not None and stop.moment is not None:
+            self._check_exerted(step, "turn", J[3:], np.array(stop.moment) / OUNCE_INCH, OUNCE_INCH, "oz-in")
+
+    def _check_exerted(self, step: Step, verb: str, J: Array, wanted: Array, si: float, unit: str) -> None:
+        """What is wanted, along or about the rows of a Jacobian, in a unit and its SI value."""
+        torque = np.abs(J.T @ wanted) * si
         limit = np.array([joint.effort for joint in self.arm.joints])
-        if (torque > limit).any():
-            joint = int(np.argmax(torque / limit))
-            ounces = float(np.linalg.norm(stop.force)) / OUNCE_FORCE
-            self._problem(
-                step, step.text.split()[0], "stop-beyond-arm",
-                f"the arm cannot press with {ounces:.0f} oz here, so the stop would never fire",
-                note=RIDDLE if round(ounces) == 600 else None,
-                help=f"{self.arm.joints[joint].name} gives out at {ounces * limit[joint] / torque[joint]:.0f} oz",
-            )  # fmt: skip
+        if (torque <= limit).all():
+            return
+        joint = int(np.argmax(torque / limit))
+        size = float(np.linalg.norm(wanted))
+        self._problem(
+            step, step.text.split()[0], "stop-beyond-arm",
+            f"the arm cannot {verb} with {size:.0f} {unit} here, so the stop would never fire",
+            note=RIDDLE if round(size) == 600 and verb == "press" else None,
+            help=f"{self.arm.joints[joint].name} gives out at {size * limit[joint] / torque[joint]:.0f} {unit}",
+        )  # fmt: skip
 
     def _unreachable(self, step: Step, word: str, failure: IKResult) -> None:
         self._problem(
@@ -172,7 +179,7 @@ def _facing(operation: Change) -> Stop | None:
         return stop
     x, y, z = operation.displacement
     scale = stop.against / math.hypot(x, y, z)
-    return Stop(force=(x * scale, y * scale, z * scale))
+    return Stop(force=(x * scale, y * scale, z * scale), moment=stop.moment)
 
 
 def _span(text: str, step: Step, word: str) -> Span:

@@ -67,8 +67,8 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
-    for field in ("goal", "centre"):
-        name = getattr(operation, field, None)
+    named = [getattr(operation, field, None) for field in ("goal", "centre")]
+    for name in (*named, *getattr(operation, "via", ())):
         if name is not None and name not in program.positions:
             yield f"uses position {name}, which the plan does not have"
     part = getattr(operation, "part", None)
@@ -90,16 +90,27 @@ def _numbers(operation: op.AnyOperation) -> Iterator[str]:
             yield f"has {field} {value:g}; it has to be from {low:g} to {high:g}"
     if isinstance(operation, op.Change):
         yield from _size("displacement", operation.displacement, _LENGTH)
-        if operation.press is not None:
-            yield from _size("press", operation.press, _FORCE)
+        for field in ("press", "moment"):
+            value = getattr(operation, field)
+            if value is not None:
+                yield from _size(field, value, _FORCE)
     if isinstance(operation, op.Lens) and not any(math.isclose(operation.focal_length, f) for f in _LENSES):
         yield f"wants a lens of {operation.focal_length * 1000:g} mm; the turret has 25 and 50 mm"
     stop = getattr(operation, "stop", None)
     if stop is not None:
-        given = [value for value in (stop.force, stop.against, stop.torque) if value is not None]
-        if len(given) != 1:
-            yield f"has a stop with {len(given)} conditions; it has to have one"
-        for value in given:
+        yield from _stop(stop)
+
+
+def _stop(stop: op.Stop) -> Iterator[str]:
+    """What is wrong with what ends a motion."""
+    given = [value for value in (stop.force, stop.against, stop.torque, stop.touch) if value is not None]
+    beside = stop.moment is not None and (stop.torque is not None or stop.touch is not None)
+    if len(given) > 1 or (not given and stop.moment is None) or beside:
+        yield f"has a stop with {len(given) + (stop.moment is not None)} conditions; it has to have one"
+    if stop.touch not in (None, 1, 2, 3):
+        yield f"has a stop on finger switches {stop.touch}; there are 1, 2, and 3 for either"
+    for value in (stop.force, stop.moment, stop.against, stop.torque):
+        if value is not None:
             yield from _size("stop", value if isinstance(value, tuple) else (value, 0.0, 0.0), _FORCE)
 
 
@@ -116,7 +127,7 @@ def _motion(plan: Plan, number: int, step: op.Step) -> Iterator[str]:
         if isinstance(step.operation, op.Move):
             yield "has no planned motion"
         return
-    knots = 4 if isinstance(step.operation, op.Move) else 2
+    knots = 4 + len(step.operation.via) if isinstance(step.operation, op.Move) else 2
     if not moves:
         yield "has a planned motion, and does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:

@@ -69,6 +69,13 @@ def test_a_stop_beyond_the_arm_is_found_in_planning() -> None:
     assert problem.code == "stop-beyond-arm"
 
 
+def test_a_moment_beyond_the_arm_is_found_in_planning() -> None:
+    problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP NIL [0 0 3000]\nCHANGE [0 0 -1] 1")
+    assert problem.code == "stop-beyond-arm"
+    assert problem.message == "the arm cannot turn with 3000 oz-in here, so the stop would never fire"
+    assert problem.help == "hand roll gives out at 1416 oz-in"
+
+
 def test_each_motion_is_planned_from_where_the_one_before_ends() -> None:
     plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 1 0] 1\nMOVE T")
     assert plan is not None
