@@ -94,6 +94,9 @@ CODES: Final[dict[str, Code]] = {
     "travel-without-change": _warning(
         "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
     ),
+    "typed-word": _error(
+        "a word is typed to have something done, and is no instruction of a script", "OPEN 3\nDO PARK"
+    ),
     "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
     "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),

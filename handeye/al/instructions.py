@@ -32,6 +32,8 @@ AXES: Final = ("X", "Y", "Z")
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
 MOST: Final = 1000
 """What a counter can be set to."""
+VIAS: Final = 4
+"""Positions that a motion can be led by."""
 LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
 
 
@@ -59,6 +61,10 @@ def _named_vector(name: str, unit: Unit) -> Operand:
 
 def _name(name: str, refers: Refers) -> Operand:
     return Operand(name=name, takes=(Name,), refers=refers)
+
+
+def _also(name: str, refers: Refers) -> Operand:
+    return Operand(name=name, takes=(Name,), refers=refers, optional=True)
 
 
 def _word(word: str, *, ours: bool = True) -> Operand:
@@ -181,6 +187,15 @@ _TABLE = (
         axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
+    ),
+    Instruction(
+        op="VIA",
+        group=MODIFIERS,
+        help="on the way to the goal of the next MOVE, pass these positions, in this order, without stopping",
+        operands=(_name("position", Refers.POSITION), *[_also("position", Refers.POSITION)] * (VIAS - 1)),
+        role=Role.MODIFIER,
+        fits=("MOVE", "PARK"),
+        ours=True,
     ),
     Instruction(
         op="TOUCH",

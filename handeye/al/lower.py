@@ -16,7 +16,7 @@ from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
-_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned"}
+_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
 """What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 

@@ -70,6 +70,7 @@ class _How:
     free: p.Vector | None = None
     moment: p.Vector | None = None
     spin: p.Vector | None = None
+    via: tuple[str, ...] = ()
 
 
 def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOperation:
@@ -85,6 +86,8 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
             how = replace(how, free=operands.vector3("[x y z]"))
         elif word == "SPIN":
             how = replace(how, spin=operands.vector3("[x y z]"))
+        elif word == "VIA":
+            how = replace(how, via=tuple(v.text for v in modifier.operands if isinstance(v, Name)))
         else:
             how = replace(how, stop=_STOPS[word](operands))
     motion = _MOTIONS.get(statement.word.text)
@@ -141,8 +144,10 @@ _STOPS: Final[dict[str, Callable[[Operands], p.Stop]]] = {
     "TOUCH": lambda o: p.Stop(touch=int(o.number("mask"))),
 }
 _MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
-    "MOVE": lambda o, how: p.Move(goal=o.name("position"), direct=o.has("DIRECT"), stop=how.stop),
-    "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop),
+    "MOVE": lambda o, how: p.Move(
+        goal=o.name("position"), direct=o.has("DIRECT"), stop=how.stop, via=how.via
+    ),
+    "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop, via=how.via),
     "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=how.stop),
     "CHANGE": _change,
     "PLACE": _place,

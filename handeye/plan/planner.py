@@ -5,6 +5,7 @@ to end. What cannot be reached, or would go through the table, is found here and
 """
 
 import math
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,7 +15,7 @@ from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.cell.ports import TICK
 from handeye.diagnostics import Diagnostic, Label
-from handeye.plan.motions import change_samples, move_trajectory, turn_samples
+from handeye.plan.motions import NoWay, change_samples, move_trajectory, turn_samples
 from handeye.plan.plan import Joints, Motion, Plan
 from handeye.plan.program import Change, Move, Program, Step, Stop, Turn
 from handeye.plan.world import WorldModel
@@ -91,17 +92,19 @@ class _Walk:
         return False
 
     def _move(self, number: int, step: Step, operation: Move) -> None:
-        X_WT = self.world.planned_position(operation.goal)
-        if X_WT[2, 3] < 0:
-            self._problem(
-                step, operation.goal, "hand-through-table",
-                f"the hand would be {-X_WT[2, 3] / INCH:.2f} in below the table at {operation.goal}",
-                help="the table top is z = 0; raise the position",
-            )  # fmt: skip
-            return
-        trajectory = move_trajectory(self.arm, self.q, X_WT, operation, self.speed)
-        if isinstance(trajectory, IKResult):
-            self._unreachable(step, operation.goal, trajectory)
+        places = (*operation.via, operation.goal)
+        *via, X_WT = (self.world.planned_position(name) for name in places)
+        for name, X in zip(places, (*via, X_WT), strict=True):
+            if X[2, 3] < 0:
+                self._problem(
+                    step, name, "hand-through-table",
+                    f"the hand would be {-X[2, 3] / INCH:.2f} in below the table at {name}",
+                    help="the table top is z = 0; raise the position",
+                )  # fmt: skip
+                return
+        trajectory = move_trajectory(self.arm, self.q, via, X_WT, operation, self.speed)
+        if isinstance(trajectory, NoWay):
+            self._unreachable(step, trajectory.name, trajectory.why)
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
@@ -183,11 +186,15 @@ def _facing(operation: Change) -> Stop | None:
 
 
 def _span(text: str, step: Step, word: str) -> Span:
-    """Where `word` stands on the source line of a step."""
+    """Where `word` stands on the source line of a step, or of a `VIA` above it."""
     source = Source(name="", text=text)
-    line = source.line_span(step.line)
-    start = text.find(word, line.start, line.end)
-    return line if start < 0 else Span(start=start, end=start + len(word))
+    via = isinstance(step.operation, Move) and word in step.operation.via
+    for number in range(step.line, 0, -1) if via else (step.line,):
+        line = source.line_span(number)
+        found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", text[line.start : line.end])
+        if found is not None:
+            return Span(start=line.start + found.start(), end=line.start + found.end())
+    return source.line_span(step.line)
 
 
 def _joints(q: Array) -> Joints:

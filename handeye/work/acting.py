@@ -9,6 +9,7 @@ from handeye.arm.kinematics import IKResult, forward
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.cell.ports import TICK
 from handeye.plan.motions import (
+    NoWay,
     change_samples,
     change_speed,
     complies,
@@ -64,26 +65,30 @@ def move(run: Run, number: int, operation: Move) -> Fault | None:
     run.goal = X_WT[:3, 3].copy()
     if operation.searching and run.search is not None:
         X_WT = translated(X_WT, (*run.search.offset(), 0.0))
-    trajectory = _trajectory(run, number, operation, X_WT)
-    if isinstance(trajectory, IKResult):
-        return Fault(number=errors.NO_SOLUTION, detail=f"{operation.goal}: {trajectory.message(run.arm)}")
+    via = [run.world.position(name) for name in operation.via]
+    trajectory = _trajectory(run, number, operation, via, X_WT)
+    if isinstance(trajectory, NoWay):
+        return Fault(
+            number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
+        )
     samples = trajectory.sample(TICK)
     along = directions(samples, run.arm, run.drive.q)
     return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
 
 
-def _trajectory(run: Run, number: int, operation: Move, X_WT: Pose) -> Trajectory | IKResult:
+def _trajectory(run: Run, number: int, operation: Move, via: list[Pose], X_WT: Pose) -> Trajectory | NoWay:
     """The planned trajectory if the world is where the plan thought, else one adjusted to it."""
-    planned = run.plan.motions[number]
-    start = np.abs(np.array(planned.knots[0]) - run.drive.q).max()
-    shift = X_WT[:3, 3] - forward(run.arm, np.array(planned.knots[-1]))[:3, 3]
-    turned = np.abs(X_WT[:3, :3] - forward(run.arm, np.array(planned.knots[-1]))[:3, :3]).max()
-    if max(start, np.abs(shift).max(), turned) < PLAN_TOLERANCE:
-        q0, q1, q2, q3 = np.array(planned.knots)
-        return four_three_four(q0, q1, q2, q3, np.array(planned.times))
-    if max(np.abs(shift).max(), turned) >= PLAN_TOLERANCE:
-        run.emit(Adjusted(time=run.time, goal=operation.goal, shift=vector(shift)))
-    return move_trajectory(run.arm, run.drive.q, X_WT, operation, run.plan.speed)
+    knots = np.array(run.plan.motions[number].knots)
+    as_planned = np.abs(knots[0] - run.drive.q).max() < PLAN_TOLERANCE
+    names, planned = (*operation.via, operation.goal), (*knots[2:-2], knots[-1])
+    for name, X, q in zip(names, (*via, X_WT), planned, strict=True):
+        off = X - forward(run.arm, q)
+        if np.abs(off).max() >= PLAN_TOLERANCE:
+            as_planned = False
+            run.emit(Adjusted(time=run.time, goal=name, shift=vector(off[:3, 3])))
+    if as_planned:
+        return four_three_four(knots, np.array(run.plan.motions[number].times))
+    return move_trajectory(run.arm, run.drive.q, via, X_WT, operation, run.plan.speed)
 
 
 def change(run: Run, operation: Change) -> Fault | None:

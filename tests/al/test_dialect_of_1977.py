@@ -1,7 +1,7 @@
 """Counters, named vectors, PLACE, and the listing of 1977 with its commas."""
 
 import pytest
-from al_support import codes, compiled, diagnose, only, walk
+from al_support import codes, compiled, diagnose, moves, only, walk
 
 from handeye import al
 from handeye.plan.program import Assign, Change, Countdown, Move, Program, Stop
@@ -156,6 +156,26 @@ def test_moment_that_friction_hides_is_warned_of(text: str, help: str) -> None:
 
 def test_moment_that_friction_does_not_hide_is_not() -> None:
     assert codes("STOP NIL [20 0 0]\nCHANGE Z -1\nSTOP NIL [0 0 2]\nCHANGE Z -1") == []
+
+
+def test_via_names_what_is_passed_on_the_way() -> None:
+    move = moves(compiled("VIA P,T\nMOVE T DIRECT"))[0]
+    assert (move.via, move.goal, move.direct) == (("P", "T"), "T", True)
+    assert moves(compiled("VIA P\nSTOP 9\nPARK"))[0].via == ("P",)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("VIA P\nCHANGE Z 1", "modifier-misplaced"),
+        ("VIA P\nVIA T\nMOVE T", "modifier-twice"),
+        ("VIA\nMOVE T", "missing-operand"),
+        ("VIA P P P P P\nMOVE T", "too-many-operands"),
+        ("VIA P NOWHERE\nMOVE T", "unknown-position"),
+    ],
+)
+def test_via_that_cannot_be_meant_is_reported(text: str, code: str) -> None:
+    assert codes(text) == [code]
 
 
 def test_touch_enables_one_finger_or_either() -> None:

@@ -59,6 +59,7 @@ def depends(pump: Plan, line: int) -> list[str]:
         ("FORCE NIL [0 0 -22]\nCHANGE [1 0 0] .6", "turns with 22 oz-in about -z"),
         ("SPIN [1 1 0]\nCHANGE [0 0 -1] .6", "gives way about x and y"),
         ("FREE [1 1 0]\nCHANGE [0 0 -1] .6", "gives way along x and y"),
+        ("VIA T T\nMOVE T", "by way of T, T"),
         ("CLOSE 2 2.4", "holds 2 in or more, else error 2; 2.4 in or less, else error 7"),
         ("TRAVEL 1.6 2.2", "went 1.6 in to 2.2 in, else error 8"),
     ],

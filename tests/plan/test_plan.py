@@ -131,6 +131,12 @@ CHANGE = "program.steps.1.operation"
     [
         ("program.steps", [], "it has no steps"),
         ("speed", 0, "its speed is 0; a share of the arm's limits is above 0 and at most 1"),
+        ("program.steps.0.operation.via", ["X"], "step 0 (line 2) uses position X"),
+        (
+            "program.steps.0.operation.via",
+            ["T"],
+            "step 0 (line 2) has 4 knots and 3 times; 5 and 4 are right",
+        ),
         ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 times; 4 and 3 are right"),
         (
             "motions.0.times",
