@@ -84,6 +84,7 @@ CODES: Final[dict[str, Code]] = {
     "specific-without-general": _warning(
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
+    "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
     ),

@@ -13,6 +13,7 @@ from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
+from handeye.source import Span
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
@@ -75,7 +76,8 @@ class _Draft:
 class _Lowering:
     report: Report
     drafts: list[_Draft] = field(default_factory=list)
-    stages: list[str] = field(default_factory=list)
+    stages: dict[str, Span] = field(default_factory=dict)
+    """Their names, and where they stand."""
     stage: int = 0
     labels: dict[tuple[Call, str], tuple[int, Name]] = field(default_factory=dict)
     pending: list[Placed] = field(default_factory=list)
@@ -127,9 +129,13 @@ class _Lowering:
     def declare(self, statement: Statement) -> None:
         name = statement.operands[0]
         if isinstance(name, Text):
-            if name.text not in self.stages:
-                self.stages.append(name.text)
-            self.stage = self.stages.index(name.text)
+            if name.text in self.stages:
+                first = Label(span=self.stages[name.text], text="first here")
+                message = f"two stages have the name {quoted(name.text)}"
+                help = "give each a name of its own: runs are told, stopped and gone on with by it"
+                self.problem("stage-twice", message, name, first, help=help)
+            self.stages.setdefault(name.text, name.span)
+            self.stage = list(self.stages).index(name.text)
 
     def restore(self, statement: Statement) -> None:
         assert statement.word is not None
@@ -151,7 +157,7 @@ class _Lowering:
 
     def draft(self, item: Placed, made: AnyOperation | None) -> None:
         if not self.stages:
-            self.stages.append(FIRST_STAGE)
+            self.stages[FIRST_STAGE] = item.statement.span
         modifier = self.pending[0] if self.pending else None
         self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier))
 
@@ -273,7 +279,9 @@ class _Lowering:
             help="jump over both with the opposite test and `JUMP`",
         )
 
-    def problem(self, code: str, message: str, at: Name, *secondary: Label, help: str | None = None) -> None:
+    def problem(
+        self, code: str, message: str, at: Name | Text, *secondary: Label, help: str | None = None
+    ) -> None:
         primary = Label(span=at.span)
         self.report(Diagnostic(code=code, message=message, primary=primary, secondary=secondary, help=help))
 

@@ -193,8 +193,11 @@ def _range(text: str) -> list[int]:
 
 def breaking_trials(
     kind: Annotated[
-        Literal["killed", "interrupted", "alone"],
-        Parameter(help="Killed in each stage, Ctrl-C at random moments, or each stage by itself."),
+        Literal["killed", "interrupted", "alone", "stepped"],
+        Parameter(
+            help="Killed in each stage, Ctrl-C at random moments, each stage by itself, or stepped through with "
+            "ten ways back."
+        ),
     ],
     *,
     seed: Seed = 0,
@@ -205,15 +208,18 @@ def breaking_trials(
 
     Exit code 0: all of them do; 1: not all.
     """
-    from handeye.trials import breaking
+    from handeye.trials import breaking, detours
 
+    _some(jobs, "process")
+    _some(count, "time")
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folder = Path(name)
         whole = breaking.whole_run(folder / "whole", world(seed))
         ways = {
-            "killed": lambda: breaking.killed(whole, folder, _some(jobs, "process")),
-            "interrupted": lambda: breaking.interrupted(whole, folder, _some(count, "time"), jobs),
+            "killed": lambda: breaking.killed(whole, folder, jobs),
+            "interrupted": lambda: breaking.interrupted(whole, folder, count, jobs),
             "alone": lambda: breaking.alone(whole, folder, jobs),
+            "stepped": lambda: detours.stepped(whole, folder),
         }
         verdicts = []
         for verdict in ways[kind]():

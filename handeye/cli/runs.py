@@ -105,10 +105,11 @@ def run(
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
     start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera))
+    stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
+    _check_order(plan, first, to)
     kept = _checkpoint_folder(checkpoints, out)
     if stage is not None or first is not None:
         start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
-    stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
     return work(
         Job(
             start=start,
@@ -116,6 +117,7 @@ def run(
             checkpoints=None if checkpoints is None else kept,
             stops=stops,
             breaks=breaks or (),
+            halfway=not step and bool(breaks or until),
             step=step,
             on_stop=on_stop,
             json=json,
@@ -161,6 +163,7 @@ def resume(
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
     notes.print(f"going on from step {max(start.position, 0)}: {stage}", markup=False, soft_wrap=True)
     stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
+    _check_order(start.setup.plan, start.stage, to)
     return work(
         Job(
             start=start,
@@ -168,6 +171,7 @@ def resume(
             out=out,
             stops=stops,
             breaks=breaks or (),
+            halfway=not step and bool(breaks or until),
             step=step,
             on_stop=on_stop,
             json=json,
@@ -188,6 +192,18 @@ def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) 
     if until is not None:
         stops.append(UntilStep(step_number(until, plan)))
     return stops
+
+
+def _check_order(plan: Plan, first: str | None, last: str | None) -> None:
+    """Raises InvalidInput if a run that begins with one stage cannot end with another."""
+    from handeye.stepping.breakpoints import stage_number
+
+    if first is None or last is None:
+        return
+    stages = plan.program.stages
+    begin, end = stages[stage_number(first, plan)], stages[stage_number(last, plan)]
+    if stages.index(end) < stages.index(begin):
+        raise InvalidInput(f"the run begins with “{begin}”, and “{end}” comes before that")
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:

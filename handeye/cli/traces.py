@@ -92,19 +92,28 @@ def verify(file: File) -> int:
 
     Exit code 0: it comes out the same; 1: it does not; 2: bad input.
     """
-    from handeye.stepping.verify import difference
+    from handeye.stepping.verify import difference, settled
+    from handeye.versions import versions
 
     trace, events = _read(file)
     if trace is None:
         raise InvalidInput(
             f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too"
         )
+    changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
+    if changed:
+        sentence = (
+            f"it was recorded with other versions of {', '.join(changed)}; it need not come out the same"
+        )
+        notes.print(sentence, markup=False, soft_wrap=True)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("carrying it out again"):
         found = difference(trace, Path(folder) / "run")
     if found is not None:
         screen.print(f"{file} does not come out the same: {found}", markup=False, soft_wrap=True)
         return 1
-    screen.print(f"{file}: the same {len(events)} events, to the byte", markup=False, soft_wrap=True)
+    count = settled(events)
+    ended = "" if count == len(events) else " up to the step that was interrupted"
+    screen.print(f"{file}: the same {count} events{ended}, to the byte", markup=False, soft_wrap=True)
     return 0
 
 

@@ -50,6 +50,8 @@ class Job:
     """Where it ends, for now."""
     breaks: Sequence[str] = ()
     """Where it stops besides, as after --break."""
+    halfway: bool = False
+    """It is to stop where somebody will want to go on from."""
     step: bool = False
     """Ask before every step."""
     on_stop: str | None = None
@@ -68,7 +70,7 @@ class _KeepStages(Observer):
         except OSError as error:
             raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
         self._kept = Kept(folder)
-        self._kept.check(setup)
+        self._kept.claim(setup)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         if checkpoint.between_stages and not checkpoint.touched:
@@ -96,10 +98,11 @@ class _Work:
         except KeyboardInterrupt:
             pause = PANIC
             if self.folder is not None:
-                self.folder.keep_if_traced(runner.checkpoint())
+                self.folder.checkpoint(runner.checkpoint())
         if pause.kind == "panic":
             return self._interrupted(runner)
-        return self._finished(runner, pause)
+        with self.panic.aside():
+            return self._finished(runner, pause)
 
     def _built(self) -> Runner | None:
         """The cell, ready for its first step; None if the panic button was hit meanwhile."""
@@ -165,6 +168,8 @@ class _Work:
                     return
             if not line and not sys.stdin.isatty():
                 return
+            if sys.stdin.isatty():
+                self.panic()  # what was pressed while nothing moved must not stop what comes
             yield line.rstrip("\n")
 
     def _kept(self, position: int) -> Checkpoint | None:
@@ -172,6 +177,7 @@ class _Work:
 
     def _keep(self, checkpoint: Checkpoint) -> Path:
         if self.folder is not None:
+            self.folder.check_traced()
             return self.folder.kept.save(checkpoint)
         name = re.sub(r"[^A-Za-z0-9_.-]+", "-", checkpoint.setup.plan.program.name).lstrip(".")
         path = Path(f"{name}-{checkpoint.setup.seed}-{file_name(checkpoint)}")
@@ -197,6 +203,8 @@ class _Work:
         job = self.job
         if pause.kind != "break":
             runner.finish()
+        elif job.halfway and self.folder is None:
+            _note(f"go on with: handeye resume {self._keep(runner.checkpoint())}")
         findings = None
         if job.referee and pause.kind != "break":
             findings = judge(runner.cell.truth) if pause.kind == "end" else {}

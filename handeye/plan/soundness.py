@@ -40,6 +40,8 @@ def faults(plan: Plan) -> Iterator[str]:
     program = plan.program
     if not program.steps:
         yield "it has no steps"
+    if len(set(program.stages)) < len(program.stages):
+        yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
         yield f"its speed is {plan.speed:g}; a share of the arm's limits is above 0 and at most 1"
     for key, position in program.positions.items():

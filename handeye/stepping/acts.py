@@ -190,6 +190,8 @@ def _check_replaceable(path: Path) -> None:
 def leave(session: Session, _: str) -> Told:
     """Keep the present state, and end."""
     session.over = True
+    if session.runner.ended and not session.runner.called:
+        return Told(said="nothing is left to go on with")
     path = session.keep(session.runner.checkpoint())
     if path is None:
         return Told(said="nothing is kept")

@@ -84,6 +84,12 @@ def test_a_newer_version_is_refused(data: bytes) -> None:
         decode(sealed(rest, version=2), "it")
 
 
+def test_a_version_of_thousands_of_digits_is_no_version(data: bytes) -> None:
+    rest = data.partition(b"\n")[2]
+    with pytest.raises(InvalidInput, match="it is not a checkpoint of handeye"):
+        decode(sealed(rest, version=10**4000), "it")
+
+
 def test_another_arm_is_refused(runner: Runner) -> None:
     plan = msgspec.structs.replace(runner.setup.plan, arm="puma", arm_digest="0" * 12)
     setup = msgspec.structs.replace(runner.setup, plan=plan)
@@ -131,9 +137,12 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("memory", "stage"), 99, "does not fit this plan"),
         (("memory", "goal"), ["<f8", [2], b"\0" * 16], "does not fit this plan"),
         (("memory", "measured"), {"moon": ["<f8", [4, 4], b"\0" * 128]}, "does not fit this plan"),
+        (("memory", "found"), {"../../x": {}}, "does not fit this plan"),
+        (("cell", "sensed", "time"), 1e300, "what they cannot"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
         (("cell", "figures"), {}, "figures that change"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
+        (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
         (("cell", "camera", "lens"), 0.5, "no lens"),
     ],
 )
