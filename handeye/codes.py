@@ -86,7 +86,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
-        "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
+        "a motion is to stop on a force or moment that the arm cannot exert", "STOP [0 0 -9000]"
     ),
     "test-without-action": _warning(
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"

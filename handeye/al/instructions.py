@@ -26,14 +26,13 @@ from handeye.al.definition import (
     Unit,
 )
 from handeye.al.syntax import Name, Number, Text, Vector
+from handeye.plan.program import VIAS
 
 AXES: Final = ("X", "Y", "Z")
 """Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
 MOST: Final = 1000
 """What a counter can be set to."""
-VIAS: Final = 4
-"""Positions that a motion can be led by."""
 LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
 
 
@@ -317,7 +316,7 @@ _TABLE = (
     Instruction(
         op="VECT",
         group=PLACES,
-        help="a vector that STOP, FORCE and CHANGE can name; in ounces or of no unit, as its place has it; "
+        help="a vector that STOP, FORCE and CHANGE can name; in ounces, ounce-inches or no unit, as its place has it; "
         "X, Y and Z are there already",
         operands=(_name("name", Refers.NEW), _vector("[x y z]", ONE, ONE, ONE)),
         role=Role.DECLARATION,

@@ -4,11 +4,15 @@ This is the first waist of the system: every arm language ends here, and the pla
 operations, joined by planned motions, make the plan.
 """
 
-from typing import Literal
+from typing import Final, Literal
 
 import msgspec
 
 Vector = tuple[float, float, float]
+
+
+VIAS: Final = 4
+"""Positions that a motion can be led by."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -16,6 +16,7 @@ _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LENSES: Final = (0.025, 0.050)
 _FORCE: Final = (1e-6, 1e4)  # N, or N m
 _LENGTH: Final = (1e-6, 10.0)  # m
+_SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 _BOUNDS: Final[dict[tuple[type, str], tuple[float, float]]] = {
     (op.Change, "speed"): (1e-4, 2.0),
@@ -129,16 +130,19 @@ def _motion(plan: Plan, number: int, step: op.Step) -> Iterator[str]:
         if isinstance(step.operation, op.Move):
             yield "has no planned motion"
         return
-    knots = 4 + len(step.operation.via) if isinstance(step.operation, op.Move) else 2
-    if not moves:
+    via = len(getattr(step.operation, "via", ()))
+    knots = 4 + via if isinstance(step.operation, op.Move) else 2
+    if via > op.VIAS:
+        yield f"is led by {via} positions; {op.VIAS} are the most"
+    elif not moves:
         yield "has a planned motion, and does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:
         yield f"has {len(motion.knots)} knots and {len(motion.times)} times; {knots} and {knots - 1} are right"
-    elif not _can_be_run(motion):
+    elif not _can_be_run(motion, 0.0 if knots == 2 else _SHORTEST):
         yield "has a planned motion with times or joints no arm can have"
 
 
-def _can_be_run(motion: Motion) -> bool:
-    return all(0 <= t <= 600 for t in motion.times) and sum(motion.times) >= 0 and all(
+def _can_be_run(motion: Motion, shortest: float) -> bool:
+    return all(shortest <= t <= 600 for t in motion.times) and all(
         abs(q) <= 10 for knot in motion.knots for q in knot
     )  # fmt: skip

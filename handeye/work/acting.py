@@ -148,7 +148,7 @@ def _finish(run: Run, outcome: Outcome, stop: Stop | None) -> Fault | None:
         return None
     if stop is None:
         return None
-    return Fault(number=unmet(stop))
+    return Fault(number=unmet(stop), detail="or the moment" if stop.moment is not None else "")
 
 
 def _guard(stop: Stop | None) -> Guard | None:

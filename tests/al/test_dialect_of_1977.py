@@ -209,6 +209,9 @@ def test_counter_nothing_sets_is_reported_with_the_nearest_name() -> None:
     assert (diagnostic.code, diagnostic.help) == ("unknown-counter", "did you mean `TRIES`?")
 
 
-def test_axis_of_the_table_cannot_be_written_again() -> None:
-    (diagnostic,) = diagnose("VECT X [0 1 0]\nCHANGE X 1")
-    assert (diagnostic.code, diagnostic.notes) == ("vector-twice", ("`X` is an axis of the table",))
+@pytest.mark.parametrize(
+    ("name", "note"), [("X", "`X` is an axis of the table"), ("NIL", "`NIL` stands for no vector")]
+)
+def test_vector_that_is_there_already_cannot_be_written_again(name: str, note: str) -> None:
+    diagnostic = diagnose(f"VECT {name} [0 1 0]\nCHANGE {name} 1")[0]
+    assert (diagnostic.code, diagnostic.notes) == ("vector-twice", (note,))

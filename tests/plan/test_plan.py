@@ -137,6 +137,12 @@ CHANGE = "program.steps.1.operation"
             ["T"],
             "step 0 (line 2) has 4 knots and 3 times; 5 and 4 are right",
         ),
+        ("program.steps.0.operation.via", ["T"] * 9, "step 0 (line 2) is led by 9 positions; 4 are the most"),
+        (
+            "motions.0.times",
+            [0.0, 0.0, 0.0],
+            "step 0 (line 2) has a planned motion with times or joints no arm",
+        ),
         ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 times; 4 and 3 are right"),
         (
             "motions.0.times",

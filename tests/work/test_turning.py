@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-from bench import Bench, bench, written
+from bench import Bench, at_standard, bench, written
 
-from handeye.errors import NO_FORCE
+from handeye.errors import NO_FORCE, SERVO_LAG
+from handeye.plan.program import Position
 from handeye.pose import Array
-from handeye.units import DEGREE, OUNCE_INCH
+from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.work.compliance import TURN_MOST
 from handeye.work.events import GuardTripped
 
@@ -92,6 +93,22 @@ def test_a_moment_beyond_the_limit_stops_the_motion() -> None:
 def test_a_moment_the_other_way_about_another_axis_or_too_small_does_not(stop: str) -> None:
     run = twisted(f"{stop}\n{DOWN}").go()
     assert (run.all(GuardTripped), run.errors) == ([], [NO_FORCE])
+
+
+def test_a_hand_that_presses_and_may_spin_comes_to_rest() -> None:
+    """On the wall of the large hole, until it gets on no farther."""
+    wall = Position(at=(0.0, 1.5625 * INCH, 1.85 * INCH, 0.0, 90 * DEGREE, 0.0), of="PUMP")
+    script = "MOVE T\nFREE 2 X Y\nSPIN 3 X Y Z\nFORCE [0 0 -30]\nCHANGE Z -.6"
+    run, felt = bench(script, positions={"T": wall}, lay=at_standard()).to("CHANGE"), []
+    run.run.drive.watch = lambda _, __: felt.append(run.run.drive.wrench[2] / OUNCE_FORCE)
+    assert run.go().errors == [SERVO_LAG]
+    assert felt[-60:] == pytest.approx([30] * 60, abs=0.5)
+
+
+def test_neither_force_nor_moment_raises_error_23_and_says_so() -> None:
+    run = twisted(f"STOP [0 0 -50] [60 0 0]\n{DOWN}").go()
+    assert run.called.error == NO_FORCE
+    assert run.called.message.endswith("without meeting the force it was to stop on (or the moment)")
 
 
 def test_force_or_moment_whichever_comes_first_stops_the_motion() -> None:
