@@ -142,6 +142,11 @@ def render(diagnostic: Diagnostic, source: Source) -> str:
     return "\n".join(out)
 
 
+def visible(text: str) -> str:
+    """Lines of text as a terminal may show them: what would steer it is shown as symbols."""
+    return "\n".join(_visible(line)[0] for line in text.split("\n"))
+
+
 def _visible(text: str) -> tuple[str, list[int]]:
     """`text` as a terminal may show it (tabs expanded, control characters as symbols); column by offset."""
     shown, columns = "", []

@@ -307,6 +307,13 @@ def test_a_trace_tells_what_happened(command: Command, folder: Path, what: str) 
     assert "error 23 occurred" in out
 
 
+def test_what_a_trace_says_cannot_steer_a_terminal(command: Command, folder: Path) -> None:
+    told = (folder / "events.jsonl").read_bytes()
+    Path("events.jsonl").write_bytes(told.replace(b'"OPEN    1"', b'"OPEN    1\\u001b[31m"'))
+    code, out, _ = command("trace", "show", "events.jsonl")
+    assert (code, "OPEN    1␛[31m" in out, "\x1b" in out) == (0, True, False)
+
+
 def test_statistics_count_each_stage(command: Command, folder: Path) -> None:
     code, out, _ = command("trace", "stats", str(folder), "--json")
     stages = {stage["stage"]: stage for stage in json.loads(out)["stages"]}

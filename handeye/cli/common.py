@@ -7,7 +7,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from handeye.al import compile_text
-from handeye.diagnostics import Diagnostic, as_json
+from handeye.diagnostics import Diagnostic, as_json, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
@@ -27,6 +27,21 @@ Out = Annotated[
 
 screen = Console(highlight=False, emoji=False)
 notes = Console(stderr=True, highlight=False, emoji=False)
+
+
+def say(text: str, to: Console = screen) -> None:
+    """Print plain text, which may come from a file that nobody trusts."""
+    to.print(visible(text), markup=False, soft_wrap=True)
+
+
+def note(text: str) -> None:
+    """Say something to the person at the terminal that is not the answer."""
+    say(text, notes)
+
+
+def complain(error: object) -> None:
+    """Say why nothing comes of a command."""
+    notes.print(visible(f"handeye: {error}"), style="red", markup=False, soft_wrap=True)
 
 
 def world(seed: int) -> int:

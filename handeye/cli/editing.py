@@ -8,7 +8,7 @@ from cyclopts import App, Parameter
 
 from handeye.al.formatter import format_text
 from handeye.al.parser import parse
-from handeye.cli.common import notes, screen, show
+from handeye.cli.common import note, say, show
 from handeye.diagnostics import has_errors
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
@@ -45,19 +45,19 @@ def _fmt(file: Path, source: Source, *, check: bool) -> int:
     mistakes = parse(source.text)[1]
     if has_errors(mistakes):
         show(mistakes, source, json=False)
-        notes.print(f"{source.name} is left as it is", markup=False, soft_wrap=True)
+        note(f"{source.name} is left as it is")
         return 2
     tidy = format_text(source.text)
     if check:
         if tidy != source.text:
-            screen.print(f"{source.name} would change", markup=False, soft_wrap=True)
+            say(f"{source.name} would change")
         return int(tidy != source.text)
     if file == STANDARD_INPUT:
         sys.stdout.buffer.write(tidy.encode())
         sys.stdout.flush()
     elif tidy != source.text:
         write_whole(file, tidy.encode())
-        screen.print(f"{source.name}: tidied", markup=False, soft_wrap=True)
+        say(f"{source.name}: tidied")
     return 0
 
 
@@ -75,7 +75,7 @@ def explain(word: str | None = None) -> int:
     from handeye.editor.explain import explanation, listing
 
     text = listing() if word is None else explanation(word)
-    screen.print(text, markup=False, soft_wrap=True)
+    say(text)
     return 0
 
 

@@ -10,7 +10,7 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.al import compile_text, extensions
-from handeye.cli.common import compiled, notes, screen, show, taught
+from handeye.cli.common import compiled, complain, say, screen, show, taught
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.plan.store import read_plan, write_plan
@@ -59,7 +59,7 @@ def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _w
                 try:
                     code = check()
                 except InvalidInput as error:
-                    notes.print(f"handeye: {error}", style="red", markup=False, soft_wrap=True)
+                    complain(error)
                     code = 2
             pause()
     except KeyboardInterrupt:
@@ -122,5 +122,5 @@ def stages(
         sys.stdout.flush()
     else:
         for line in listing_text(made):
-            screen.print(line, markup=False, soft_wrap=True)
+            say(line)
     return 0

@@ -10,12 +10,14 @@ import pytest
 from short_runs import GRASP, begin, history, through
 
 from handeye.errors import InvalidInput
+from handeye.plan.world import WorldModel
 from handeye.stepping import checkpoint_file
 from handeye.stepping.checkpoint_file import decode, encode, read_checkpoint, read_head, write_checkpoint
 from handeye.stepping.runner import Runner
 from handeye.stepping.snapshot import Checkpoint
+from handeye.work.drive import ArmDrive
 from handeye.work.executor import Executor
-from handeye.work.memory import Memory
+from handeye.work.memory import DriveMemory, Memory
 from handeye.work.run import Run
 
 pytestmark = pytest.mark.slow
@@ -190,7 +192,14 @@ def test_nothing_that_a_run_remembers_is_left_out() -> None:
     remembered = {field.name for field in msgspec.structs.fields(Memory)}
     run = {field.name for field in dataclasses.fields(Run)} - GIVEN - {"world", "drive"}
     executor = {field.name for field in dataclasses.fields(Executor)} - {"state"}
-    assert remembered == run | executor | {"measured", "moved", "drive"}
+    world = {field.name for field in dataclasses.fields(WorldModel)} - {"parts", "positions"}
+    assert remembered == run | executor | world | {"drive"}
+
+
+def test_nothing_that_the_servo_loop_holds_is_left_out() -> None:
+    remembered = {field.name for field in msgspec.structs.fields(DriveMemory)}
+    held = {field.name for field in dataclasses.fields(ArmDrive)}
+    assert remembered == held - {"cell", "arm", "watch", "halt", "sensed"}
 
 
 @pytest.mark.parametrize("path", ["/dev/zero", "/", "/nowhere"])
