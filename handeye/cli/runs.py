@@ -22,7 +22,8 @@ Break = Annotated[
     list[str] | None,
     Parameter(
         name="--break", negative="", consume_multiple=False,
-        help="Stop at a label, a stage, a line or an instruction word, or behind `error:N`; may be repeated.",
+        help="Stop at a label, a stage, a line (58, or pins.al:3), an instruction word, or behind `error:N`; "
+        "may be repeated.",
     ),
 ]  # fmt: skip
 Step = Annotated[

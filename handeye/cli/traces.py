@@ -79,7 +79,7 @@ def photograph(
     state = Replay(trace).seek(at)
     model, data = posed(World.sample(trace.head.seed), state.poses)
     write_whole(output, photograph_png(model, data, camera, width, height))
-    doing = "" if state.step is None else f", line {state.step.line}: {state.step.text}"
+    doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {state.time:.2f} s{doing}")
     return 0
 

@@ -170,7 +170,7 @@ class _Walk:
         self.problems.append(
             Diagnostic(
                 code=code, message=message, help=help, notes=(note,) if note else (),
-                primary=Label(span=_span(self.program.source, step, word)),
+                primary=Label(span=_span(self.program.whole, step, word)),
             )
         )  # fmt: skip
 
@@ -185,16 +185,20 @@ def _facing(operation: Change) -> Stop | None:
     return Stop(force=(x * scale, y * scale, z * scale), moment=stop.moment)
 
 
-def _span(text: str, step: Step, word: str) -> Span:
+def _span(whole: Source, step: Step, word: str) -> Span:
     """Where `word` stands on the source line of a step, or of a `VIA` above it."""
-    source = Source(name="", text=text)
+    source = next(text for text in whole.texts if text.key == step.file)
+    begin = whole.begin(step.file)
     via = isinstance(step.operation, Move) and word in step.operation.via
     for number in range(step.line, 0, -1) if via else (step.line,):
         line = source.line_span(number)
-        found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", text[line.start : line.end])
+        found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", source.text[line.start : line.end])
         if found is not None:
-            return Span(start=line.start + found.start(), end=line.start + found.end())
-    return source.line_span(step.line)
+            line = Span(start=line.start + found.start(), end=line.start + found.end())
+            break
+    else:
+        line = source.line_span(step.line)
+    return Span(start=begin + line.start, end=begin + line.end)
 
 
 def _joints(q: Array) -> Joints:
