@@ -27,7 +27,7 @@ def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
 
 
 def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
-    texts = {text.key: scan(text.text, source.begin(text.key)) for text in source.texts}
+    texts = {text.key: scan(text.text, source.begins[text.key]) for text in source.texts}
     names = {name for lines in texts.values() for name in _macro_names(lines)}
     parser = _Parser(texts=texts, macro_names=names, requirements=requirements)
     parser.read(source)

@@ -188,7 +188,7 @@ def _facing(operation: Change) -> Stop | None:
 def _span(whole: Source, step: Step, word: str) -> Span:
     """Where `word` stands on the source line of a step, or of a `VIA` above it."""
     source = next(text for text in whole.texts if text.key == step.file)
-    begin = whole.begin(step.file)
+    begin = whole.begins[step.file]
     via = isinstance(step.operation, Move) and word in step.operation.via
     for number in range(step.line, 0, -1) if via else (step.line,):
         line = source.line_span(number)
