@@ -13,11 +13,11 @@ from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.plan.program import Advance, AnyOperation, Countdown, Jump, Move, Step, Test
-from handeye.source import Span
+from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
-_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned"}
+_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
 """What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 
@@ -29,9 +29,11 @@ class Lowered:
     steps: tuple[Step, ...]
     origins: tuple[Statement, ...]
     """The statement each step comes from."""
+    shifts: tuple[tuple[Statement, ...], ...]
+    """The RESTOREs of each step."""
 
 
-def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
+def lower(placed: Sequence[Placed], source: Source, report: Report) -> Lowered:
     """Stages and steps of an expanded program; worth something only if no error was reported."""
     lowering = _Lowering(report=report)
     for item in placed:
@@ -41,18 +43,25 @@ def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
     targets = [lowering.link(index) for index in range(len(drafts))]
     lowering.mark_searching()
     steps = tuple(
-        Step(
-            operation=draft.operation,
-            stage=draft.stage,
-            line=draft.statement.line,
-            text=text[draft.statement.span.start : draft.statement.span.end],
-            next=target,
-        )
+        _step(source, draft.statement, draft.operation, draft.stage, target)
         for draft, target in zip(drafts, targets, strict=True)
         if draft.operation is not None
     )
-    origins = tuple(draft.statement for draft in drafts if draft.operation is not None)
-    return Lowered(stages=tuple(lowering.stages), steps=steps, origins=origins)
+    kept = [draft for draft in drafts if draft.operation is not None]
+    return Lowered(
+        stages=tuple(lowering.stages), steps=steps, origins=tuple(draft.statement for draft in kept),
+        shifts=tuple(tuple(draft.shifts) for draft in kept),
+    )  # fmt: skip
+
+
+def _step(
+    source: Source, statement: Statement, operation: AnyOperation, stage: int, target: int | None
+) -> Step:
+    text, start = source.find(statement.span.start)
+    said = text.text[start : start + statement.span.end - statement.span.start]
+    return Step(
+        operation=operation, stage=stage, file=text.key, line=statement.line, text=said, next=target
+    )  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -66,6 +75,7 @@ class _Draft:
     """None if the statement is broken."""
     modifier: Placed | None
     """The first of its modifiers."""
+    shifts: list[Statement] = field(default_factory=list)
 
     @property
     def word(self) -> str:
@@ -127,8 +137,9 @@ class _Lowering:
         self.shiftable = False
 
     def declare(self, statement: Statement) -> None:
+        assert statement.word is not None
         name = statement.operands[0]
-        if isinstance(name, Text):
+        if statement.word.text == "STAGE" and isinstance(name, Text):
             if name.text in self.stages:
                 first = Label(span=self.stages[name.text], text="first here")
                 message = f"two stages have the name {quoted(name.text)}"
@@ -145,6 +156,7 @@ class _Lowering:
         elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
             shifts = (*move.restore, restore(statement))
             self.drafts[-1].operation = msgspec.structs.replace(move, restore=shifts)
+            self.drafts[-1].shifts.append(statement)
 
     def step(self, item: Placed, role: Role) -> None:
         statement = item.statement
@@ -156,11 +168,6 @@ class _Lowering:
             first = firsts.setdefault(_WAY.get(_word(modifier).text, ""), modifier)
             if self.fits(modifier, first, statement):
                 modifiers.append(modifier)
-        for modifier in modifiers:
-            if _word(modifier).text == "SPIN":
-                help = "`FREE` lets it give way sideways"
-                message = "`SPIN` is not carried out: the hand keeps its angles"
-                self.problem("spin-stays-stiff", message, _word(modifier), help=help)
         self.draft(item, operation(statement, [m.statement for m in modifiers]))
         self.pending.clear()
         self.shiftable = statement.word is not None and statement.word.text == "MOVE"

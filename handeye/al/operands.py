@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from handeye.al.definition import BIGGEST, SMALLEST, Instruction, Operand
+from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.instructions import AXES, FREE
 from handeye.al.scanner import Kind, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
@@ -76,6 +76,7 @@ class _Reader:
             self.values.append(self.operand(operand))
         if self.at < len(self.tokens):
             self.too_many()
+        self.check_nils()
         return tuple(self.values)
 
     def operand(self, operand: Operand) -> Value | None:
@@ -88,6 +89,9 @@ class _Reader:
                 return None
             raise self.missing(operand)
         token = self.tokens[self.at]
+        if operand.nil and token.text.upper() == NIL:
+            self.at += 1
+            return None
         value = self.free(token) if operand.free else self.value(token, operand)
         if not isinstance(value, operand.takes):
             raise self.wrong(value, operand)
@@ -206,6 +210,13 @@ class _Reader:
         if isinstance(low, Number) and low.value > value.value:
             message = f"the maximum {value.value:g} is less than the minimum {low.value:g}"
             raise Mistake("number-out-of-range", message, value.span)
+
+    def check_nils(self) -> None:
+        """What can all be left out, one by one, cannot be left out together."""
+        nils = [o.plain for o in self.definition.operands if o.nil]
+        if nils and not any(v for o, v in zip(self.definition.operands, self.values, strict=True) if o.nil):
+            message = f"`{self.definition.op}` has no {' and no '.join(nils)}"
+            raise Mistake("missing-operand", message, self.tokens[-1].span, help=self.usage())
 
     def missing(self, operand: Operand) -> Mistake:
         message = f"`{self.definition.op}` lacks its {operand.plain}"

@@ -72,19 +72,19 @@ _TOKEN = re.compile(
 _KINDS = {kind.name: kind for kind in Kind}
 
 
-def scan(text: str) -> list[Line]:
-    """The lines of a text; a final newline starts no line of its own."""
+def scan(text: str, offset: int = 0) -> list[Line]:
+    """The lines of a text that begins at an offset; a final newline starts no line of its own."""
     lines: list[Line] = []
     tokens: list[Token] = []
     comment = None
-    start = end = 0
+    start = end = offset
     for match in _TOKEN.finditer(text):
-        kind, behind = match.lastgroup, match.end()
+        kind, behind = match.lastgroup, offset + match.end()
         assert kind is not None
         piece = match[kind]
         if kind == "END":
             if behind > start:
-                indented = text[start] in " \t"
+                indented = text[start - offset] in " \t"
                 lines.append(Line(len(lines) + 1, start, end, tuple(tokens), comment, indented))
             tokens, comment, start, end = [], None, behind, behind
         elif kind == "COMMENT":

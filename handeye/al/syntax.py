@@ -53,6 +53,7 @@ class Statement(msgspec.Struct, frozen=True, gc=False, kw_only=True):
     broken: bool
     """A mistake in it has been reported; `operands` is empty."""
     line: int
+    """In its own text; spans are of the whole."""
     span: Span
     """From the instruction to the last operand."""
 
@@ -66,7 +67,7 @@ class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
 
 
 class Script(msgspec.Struct, frozen=True, gc=False, kw_only=True):
-    """A whole text."""
+    """A whole text, with what it requires."""
 
     statements: tuple[Statement, ...]
     macros: dict[str, Macro]

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Seed, compiled, screen, world
+from handeye.cli.common import Camera, Seed, compiled, say, screen, world
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.resources import plans
@@ -68,7 +68,7 @@ def assembly_trials(
         if result.exit_code == 3:
             detail = "; ".join(f"{c.sentence}: {c.value:.3g}" for c in result.referee.values() if not c.ok)
         speed = f"{result.timing.real_time_factor:4.1f}x"
-        screen.print(f"seed {result.seed:4}  {word:10}  {speed}  {detail}", markup=False, soft_wrap=True)
+        say(f"seed {result.seed:4}  {word:10}  {speed}  {detail}")
     done = sum(result.exit_code == 0 for result in results)
     silent = sum(result.exit_code == 3 for result in results)
     screen.print(f"{done} of {len(results)} assembled, {silent} silent failures")
@@ -170,7 +170,7 @@ def breaking_trials(
         for verdict in ways[kind]():
             verdicts.append(verdict)
             said = "; ".join(verdict.faults) or "as if nothing had happened"
-            screen.print(f"{kind} {verdict.name}: {said}", markup=False, soft_wrap=True)
+            say(f"{kind} {verdict.name}: {said}")
     good = sum(not verdict.faults for verdict in verdicts)
     screen.print(f"{good} of {len(verdicts)}")
     return 0 if good == len(verdicts) else 1

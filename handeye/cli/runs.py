@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, Seed, compiled, notes, world
+from handeye.cli.common import Camera, Json, Out, Seed, compiled, note, world
 from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
 from handeye.plan.store import read_plan
@@ -22,7 +22,8 @@ Break = Annotated[
     list[str] | None,
     Parameter(
         name="--break", negative="", consume_multiple=False,
-        help="Stop at a label, a stage, a line or an instruction word, or behind `error:N`; may be repeated.",
+        help="Stop at a label, a stage, a line (58, or pins.al:3), an instruction word, or behind `error:N`; "
+        "may be repeated.",
     ),
 ]  # fmt: skip
 Step = Annotated[
@@ -157,11 +158,11 @@ def resume(
             raise InvalidInput(f"{path} is the folder of a run and is gone on with; --out goes with a file")
         folder, start = open_again(path)
         for fault in folder.kept.damaged():
-            notes.print(f"left out: {fault}", markup=False, soft_wrap=True)
+            note(f"left out: {fault}")
     else:
         start = read_checkpoint(path)
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
-    notes.print(f"going on from step {max(start.position, 0)}: {stage}", markup=False, soft_wrap=True)
+    note(f"going on from step {max(start.position, 0)}: {stage}")
     stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
     _check_order(start.setup.plan, start.stage, to)
     return work(
@@ -230,9 +231,7 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     found = None if kept is None else Kept(kept).for_stage(start.setup, number)
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
-        notes.print(
-            f"no checkpoint of “{wanted}” with this plan and seed: carrying out what comes before it, from {reached}",
-            markup=False,
-            soft_wrap=True,
+        note(
+            f"no checkpoint of “{wanted}” with this plan and seed: carrying out what comes before it, from {reached}"
         )
     return found or start

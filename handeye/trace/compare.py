@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from itertools import zip_longest
 
-from handeye.trace.channels import EVENTS, LOG
+from handeye.trace.channels import EVENTS, LOG, MOMENTS
 from handeye.trace.continuing import until
 from handeye.trace.records import RawMessage
 from handeye.trace.sentences import sentence
@@ -33,7 +33,7 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
 def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
     count = 0
     for message in until(trace.messages(), events):
-        if count >= unseen or message.topic in (EVENTS, LOG):
+        if count >= unseen or message.topic not in MOMENTS:
             yield message
         count += message.topic == EVENTS
 

@@ -14,7 +14,7 @@ from google.protobuf.message import DecodeError
 from handeye.cell.ports import Picture
 from handeye.errors import InvalidInput
 from handeye.pose import Array
-from handeye.trace.channels import EVENTS, FRAMES, JOINTS, LOG, PICTURE
+from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage, read_messages
 from handeye.work.events import AnyEvent, PictureTaken, RunStarted
@@ -77,7 +77,7 @@ class Trace:
         """
         events = 0
         for message in self.messages():
-            if message.topic not in (EVENTS, LOG):
+            if message.topic in MOMENTS:
                 break
             events += message.topic == EVENTS
         return events

@@ -31,6 +31,7 @@ def is_program(text: str) -> bool:
     return (
         len(set(macros)) == len(macros)
         and calls <= set(macros)
+        and not any([*macro.find_data("require")] for macro in tree.find_data("macro"))
         and not {*INSTRUCTIONS, "DEFINE"} & set(macros)
         and all(float(whole.children[0]).is_integer() for whole in tree.find_data("whole"))
         and all(count == len(letters) == len({*letters} & {"X", "Y", "Z"}) for count, letters in axes)
@@ -69,6 +70,20 @@ PROBES = {
     "CHANGE Z 1 0 0": True,
     "CHANGE Z 1 0 NIL": False,
     "CHANGE [[0 0 1]] 1": False,
+    "STOP NIL [5 0 0]": True,
+    "STOP 50 NIL": True,
+    "STOP NIL NIL": False,
+    "STOP NIL": False,
+    "FORCE F,M": True,
+    "FORCE 50": False,
+    "VIA A B,C D": True,
+    "VIA A B C D E": False,
+    "TOUCH 3": True,
+    "TOUCH 2.5": False,
+    "REQUIRE pins.al": True,
+    'REQUIRE "pins.al" ;mine': True,
+    "REQUIRE": False,
+    "DEFINE A\nREQUIRE a.al\n\nA": False,
     "FREE 2 X,Y": True,
     "FREE 2 X X": False,
     "FREE 1 x": False,
