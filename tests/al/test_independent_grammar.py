@@ -33,6 +33,7 @@ def is_program(text: str) -> bool:
         and calls <= set(macros)
         and not any([*macro.find_data("require")] for macro in tree.find_data("macro"))
         and not {*INSTRUCTIONS, "DEFINE"} & set(macros)
+        and all(some.children[0].upper() != "NIL" for some in tree.find_data("some"))
         and all(float(whole.children[0]).is_integer() for whole in tree.find_data("whole"))
         and all(count == len(letters) == len({*letters} & {"X", "Y", "Z"}) for count, letters in axes)
     )
