@@ -5,6 +5,7 @@ from pathlib import PurePath
 from handeye.al.faint import faint_moments
 from handeye.al.flow import check_flow
 from handeye.al.form import MISSING
+from handeye.al.graph import Graph
 from handeye.al.lower import lower
 from handeye.al.macros import expand
 from handeye.al.names import all_statements, check_names
@@ -37,9 +38,10 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
-        found += check_flow(lowered.steps, lowered.origins)
+        graph = Graph(lowered.steps)
+        found += check_flow(graph, lowered.origins)
         found += faint_moments(resolved)
-        found += check_restores(lowered)
+        found += check_restores(lowered, graph)
         lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
         found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
     if has_errors(found):

@@ -23,9 +23,9 @@ _CURES = {
 _TAKES_TIME = (op.Move, op.Change, op.Turn, op.Open, op.Close, op.Center, op.Lens, op.Aim, op.Look)
 
 
-def check_flow(steps: Sequence[op.Step], origins: Sequence[Statement]) -> list[Diagnostic]:
+def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
     """What is wrong with the flow of a program whose statements are all right; `origins`: those of its steps."""
-    flow = _Flow(Graph(steps), origins)
+    flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
     for check in (flow.tests, *(_order(flow, order) for order in _ORDERS)):
         found += flow.everywhere(check)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.instructions import AXES, FREE
-from handeye.al.scanner import Kind, Token
+from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Span
@@ -58,7 +58,7 @@ def _separated(tokens: Sequence[Token]) -> Sequence[Token]:
 
 def is_unterminated(token: Token) -> bool:
     """Whether it is a string without its closing quote."""
-    return token.kind is Kind.STRING and (len(token.text) == 1 or token.text[-1] != '"')
+    return token.kind is STRING and (len(token.text) == 1 or token.text[-1] != '"')
 
 
 class _Reader:
@@ -70,13 +70,14 @@ class _Reader:
         self.values: list[Value | None] = []
 
     def read(self) -> tuple[Value | None, ...]:
-        if self.definition.axes and self.tokens and self.tokens[0].kind is Kind.NUMBER:
+        if self.definition.axes and self.tokens and self.tokens[0].kind is NUMBER:
             return (self.axes(),)
         for operand in self.definition.operands:
             self.values.append(self.operand(operand))
         if self.at < len(self.tokens):
             self.too_many()
-        self.check_nils()
+        if self.values and self.values[0] is None:
+            self.check_nils()
         return tuple(self.values)
 
     def operand(self, operand: Operand) -> Value | None:
@@ -106,13 +107,13 @@ class _Reader:
         if self.at == len(self.tokens):
             return False
         token = self.tokens[self.at]
-        found = token.kind is Kind.NAME and token.text.upper() == word
+        found = token.kind is NAME and token.text.upper() == word
         self.at += found
         return found
 
     def free(self, token: Token) -> Text:
         rest = self.tokens[self.at :]
-        if len(rest) == 1 and token.kind is Kind.STRING:
+        if len(rest) == 1 and token.kind is STRING:
             return self.string(token)
         for word in rest:
             if is_unterminated(word):
@@ -121,16 +122,16 @@ class _Reader:
         return Text(free_text(rest), Span(start=token.start, end=rest[-1].end))
 
     def value(self, token: Token, operand: Operand) -> Value:
-        if token.kind is Kind.STRING:
+        if token.kind is STRING:
             return self.string(token)
         if token.text == "[":
             return self.vector(token, operand)
         self.at += 1
-        if token.kind is Kind.NUMBER:
+        if token.kind is NUMBER:
             return Number(_number(token), token.span)
         if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
-        if token.kind is Kind.NAME:
+        if token.kind is NAME:
             return Name(token.text, token.span)
         raise _unexpected(token)
 
@@ -159,7 +160,7 @@ class _Reader:
     def vector(self, opening: Token, operand: Operand) -> Vector:
         values: list[float] = []
         for token in self.tokens[self.at + 1 :]:
-            if token.kind is Kind.NUMBER:
+            if token.kind is NUMBER:
                 values.append(_number(token))
             elif token.text == "]":
                 break
@@ -227,7 +228,7 @@ class _Reader:
 
     def too_many(self) -> None:
         first, last = self.tokens[self.at], self.tokens[-1]
-        if first.kind in (Kind.JUNK, Kind.MARK) and first.text != "[":
+        if first.kind in (JUNK, MARK) and first.text != "[":
             raise _unexpected(first)
         if is_unterminated(last):
             raise self.unterminated_string(last)
@@ -262,7 +263,7 @@ def _malformed(token: Token) -> Mistake:
 def _no_number(token: Token) -> Mistake:
     if _NOT_FINITE.fullmatch(token.text):
         return _malformed(token)
-    if token.kind is Kind.NAME:
+    if token.kind is NAME:
         message = f"a vector consists of numbers, not of {quoted(token.text)}"
         return Mistake("wrong-operand", message, token.span)
     return _unexpected(token)

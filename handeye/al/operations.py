@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import Final
+
+import msgspec
+from msgspec.structs import replace
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Vector
@@ -61,8 +63,7 @@ class Operands:
         return value.text
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _How:
+class _How(msgspec.Struct, frozen=True, kw_only=True):
     """What the modifiers say of a motion."""
 
     stop: p.Stop | None = None

@@ -14,7 +14,7 @@ from handeye.plan.program import Move, Save
 from handeye.source import Span
 
 
-def check_restores(lowered: Lowered) -> Iterator[Diagnostic]:
+def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
     """A warning for each that is at fault in every call; a name that no SAVE has is told of with the names."""
     first: dict[str, Name] = {}
     for step, origin in zip(lowered.steps, lowered.origins, strict=True):
@@ -23,7 +23,6 @@ def check_restores(lowered: Lowered) -> Iterator[Diagnostic]:
     bits = {name: 1 << number for number, name in enumerate(first)}
     lost: dict[Span, Name] = {}
     right: set[Span] = set()
-    graph = Graph(lowered.steps)
     for number, saved in _saved(graph, bits).items():
         operation = lowered.steps[number].operation
         restores = operation.restore if isinstance(operation, Move) else ()

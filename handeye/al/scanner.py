@@ -18,6 +18,10 @@ class Kind(Enum):
     JUNK = "junk"
 
 
+NAME, NUMBER, STRING, MARK, JUNK = Kind
+"""For those who ask often: a member of an enumeration takes its time to be found."""
+
+
 class Token(msgspec.Struct, frozen=True, gc=False):
     """A piece of the text; `start` and `end` are offsets into the whole of it."""
 
@@ -46,7 +50,7 @@ class Line(msgspec.Struct, frozen=True, gc=False):
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
         """The names of the labels, and what follows them."""
         tokens, at = self.tokens, 0
-        while at + 1 < len(tokens) and tokens[at + 1].text == ":" and tokens[at].kind is Kind.NAME:
+        while at + 1 < len(tokens) and tokens[at + 1].text == ":" and tokens[at].kind is NAME:
             at += 2
         return tokens[:at:2], tokens[at:]
 
