@@ -5,7 +5,7 @@ al          the program; `al strict`: as `handeye check --strict-1973` reads it
 diagnostic  what `handeye check` says of it; there is none if nothing is said
 plan        what `handeye inspect` says of its plan
 cell        the cell it is carried out in, see `cells.py`; else an empty one
-run         what `handeye replay --account` would tell of that
+run         what `handeye trace show` would tell of that
 """
 
 import re
