@@ -160,7 +160,7 @@ class _Walk:
         self.problems.append(
             Diagnostic(
                 code=code, message=message, help=help, notes=(note,) if note else (),
-                primary=Label(span=_span(self.program.source, step, word)),
+                primary=Label(span=_span(self.program.whole, step, word)),
             )
         )  # fmt: skip
 
@@ -175,12 +175,13 @@ def _facing(operation: Change) -> Stop | None:
     return Stop(force=(x * scale, y * scale, z * scale))
 
 
-def _span(text: str, step: Step, word: str) -> Span:
+def _span(whole: Source, step: Step, word: str) -> Span:
     """Where `word` stands on the source line of a step."""
-    source = Source(name="", text=text)
-    line = source.line_span(step.line)
-    start = text.find(word, line.start, line.end)
-    return line if start < 0 else Span(start=start, end=start + len(word))
+    source = next(text for text in whole.texts if text.key == step.file)
+    line, begin = source.line_span(step.line), whole.begin(step.file)
+    start = source.text.find(word, line.start, line.end)
+    found = line if start < 0 else Span(start=start, end=start + len(word))
+    return Span(start=begin + found.start, end=begin + found.end)
 
 
 def _joints(q: Array) -> Joints:

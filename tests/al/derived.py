@@ -16,6 +16,8 @@ from handeye.plan.raises import raises
 REFERENCE = MANUAL / "reference"
 END = "## Meaning\n"
 """Where what is derived of a page ends."""
+LONGEST = 20
+"""Lines and files of an example that is shown whole."""
 _CALLED = {
     Refers.NEW: "a name",
     Refers.LABEL: "a label",
@@ -132,12 +134,13 @@ _FOUND = {"language": "in the text", "planning": "in planning", "strict": "with 
 
 def _example(entry: Code) -> list[str]:
     strict = entry.phase == "strict"
-    case = Case(name="", program=format_text(entry.example), strict=strict, taught=None)
+    required = {key: format_text(text) for key, text in entry.required.items()}
+    case = Case(name="", program=format_text(entry.example), strict=strict, required=required)
     said = shown(case)["diagnostic"]
-    return [
-        f"```al{' strict' * strict}",
-        *case.program.split("\n")[:-1],
-        "```",
-        "```diagnostic",
-        f"{said}```",
-    ]
+    lines = case.program.split("\n")[:-1]
+    if len(lines) + len(required) > LONGEST:
+        cut = [*lines[:4], "...", *lines[-4:]]
+        lines = cut if len(lines) > LONGEST else [*lines, f"; and so on, {len(required)} files"]
+        return ["```text", *lines, "```", "", "```text", f"{said}```"]
+    files = [line for key, text in required.items() for line in (f"```al {key}", f"{text}```", "")]
+    return [*files, f"```al{' strict' * strict}", *lines, "```", "```diagnostic", f"{said}```"]

@@ -36,7 +36,7 @@ from handeye.work.run import Run
 ROOT = Path(__file__).parents[2]
 MANUAL = ROOT / "docs" / "language"
 SUITES = [*sorted(MANUAL.rglob("*.md")), *sorted(Path(__file__).parent.glob("*.md"))]
-BLOCK = re.compile(r"^```(\w+)( strict)?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 SHOWN = ("diagnostic", "plan", "run")
 
 
@@ -46,8 +46,9 @@ class Case:
 
     name: str
     program: str
-    strict: bool
-    taught: str | None
+    strict: bool = False
+    taught: str | None = None
+    required: dict[str, str] = field(default_factory=dict)
     blocks: dict[str, str] = field(default_factory=dict)
     spans: dict[str, tuple[int, int]] = field(default_factory=dict)
 
@@ -56,13 +57,17 @@ def cases(file: Path) -> list[Case]:
     """The programs of a file."""
     found: list[Case] = []
     text, taught = file.read_text(encoding="utf-8"), None
+    required: dict[str, str] = {}
     for match in BLOCK.finditer(text):
-        kind, strict, content = match.groups()
+        kind, word, content = match.groups()
         if kind == "toml":
             taught = content
+        elif kind == "al" and word not in (None, "strict"):
+            required[word] = content
         elif kind == "al":
-            name = f"{file.stem}-{len(found) + 1}"
-            found.append(Case(name=name, program=content, strict=strict is not None, taught=taught))
+            name, strict = f"{file.stem}-{len(found) + 1}", word is not None
+            found.append(Case(name=name, program=content, strict=strict, taught=taught, required=required))
+            required = {}
         elif kind in (*SHOWN, "cell"):
             assert found, f"{file.name}: {kind} without a program before it"
             assert kind not in found[-1].blocks, f"{found[-1].name}: two of {kind}"
@@ -78,7 +83,7 @@ def shown(case: Case) -> dict[str, str]:
         plan, problems = make_plan(program, ARM)
         found = [*found, *problems]
     if case.strict:
-        found = arranged([*found, *al.extensions(case.program)])
+        found = arranged([*found, *al.extensions(_source(case))])
     out = {"diagnostic": _rendered(found, _source(case))} if found else {}
     if plan is not None and "plan" in case.blocks:
         out["plan"] = "\n".join(inspection_text(inspection(plan))) + "\n"
@@ -109,7 +114,7 @@ def carried_out(plan: Plan, cell: str) -> list[AnyEvent]:
 
 
 def _source(case: Case) -> Source:
-    return Source(name="example.al", text=case.program)
+    return al.sewn_of(Source(name="example.al", text=case.program), case.required)
 
 
 def taught(toml: str | None) -> Taught:

@@ -111,7 +111,8 @@ def test_every_program_shows_its_plan_its_run_or_its_diagnostic(file: Path) -> N
 
 @pytest.mark.parametrize("file", SUITES, ids=lambda file: file.stem)
 def test_programs_are_laid_out_as_the_formatter_does(file: Path) -> None:
-    programs = [case.program for case in cases(file) if not has_errors(parse(case.program)[1])]
+    texts = [text for case in cases(file) for text in (case.program, *case.required.values())]
+    programs = [text for text in texts if not has_errors(parse(text)[1])]
     assert [text for text in programs if al.format_text(text) != text] == []
 
 
