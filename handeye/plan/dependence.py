@@ -43,8 +43,7 @@ def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
 
 def successors(step: op.Step) -> tuple[int, ...]:
     """The steps that may follow a step."""
-    ways = (step.next, getattr(step.operation, "raised", None))
-    return tuple(dict.fromkeys(way for way in ways if way is not None))
+    return tuple(dict.fromkeys(way for way in step.ways if way is not None))
 
 
 def _dependence(program: op.Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
