@@ -56,6 +56,9 @@ CODES: Final[dict[str, Code]] = {
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
+    "faint-moment": _warning(
+        "a moment is less than what joint friction is felt as", "STOP NIL [5 0 0]\nCHANGE X 1"
+    ),
     "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
@@ -97,10 +100,9 @@ CODES: Final[dict[str, Code]] = {
     "specific-without-general": _warning(
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
-    "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
-        "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
+        "a motion is to stop on a force or moment that the arm cannot exert", "STOP [0 0 -9000]"
     ),
     "test-without-action": _warning(
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
@@ -113,6 +115,9 @@ CODES: Final[dict[str, Code]] = {
     ),
     "travel-without-change": _warning(
         "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
+    ),
+    "typed-word": _error(
+        "a word is typed to have something done, and is no instruction of a script", "OPEN 3\nDO PARK"
     ),
     "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
     "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),

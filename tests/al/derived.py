@@ -86,7 +86,8 @@ def _takes(operand: Operand) -> str:
         Name: _CALLED.get(operand.refers, f"the name of a {operand.refers.value}"),
         Text: "words, up to the end of the line" if operand.free else "words in quotes",
     }
-    said = ", or ".join(kinds[kind] for kind in operand.takes) or "the word itself"
+    choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
+    said = ", or ".join(choices) or "the word itself"
     return "; ".join([said, *_limits(operand)])
 
 
