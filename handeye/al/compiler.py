@@ -3,6 +3,7 @@
 from pathlib import PurePath
 
 from handeye.al.flow import check_flow
+from handeye.al.here import check_here
 from handeye.al.lower import lower
 from handeye.al.macros import expand
 from handeye.al.names import all_statements, check_names
@@ -33,16 +34,19 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         found += check_flow(lowered.steps, lowered.origins)
         lost = {source.position(d.primary.span.start)[0] for d in found if d.code == "unreachable-code"}
         found += [d for d in check_unused(script) if source.position(d.primary.span.start)[0] not in lost]
+    written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]
+    if not has_errors(found):
+        positions = {**taught.positions, **dict(map(position, written))}
+        found += check_here(lowered.steps, lowered.origins, positions)
     if has_errors(found):
         return None, arranged(found)
-    written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]
     program = Program(
         name=PurePath(source.name).stem,
         language="wave",
         source=source.text,
         stages=lowered.stages,
         steps=lowered.steps,
-        positions={**taught.positions, **dict(map(position, written))},
+        positions=positions,
         parts=dict(taught.parts),
     )
     return program, arranged(found)

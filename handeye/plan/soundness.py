@@ -67,7 +67,7 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
-    for field in ("goal", "centre"):
+    for field in ("goal", "centre", "position"):
         name = getattr(operation, field, None)
         if name is not None and name not in program.positions:
             yield f"uses position {name}, which the plan does not have"

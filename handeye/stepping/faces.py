@@ -131,7 +131,7 @@ def _positions(positions: dict[str, Taught]) -> list[str]:
     lines = []
     for name, taught in positions.items():
         where = "" if taught.of is None else f" of {taught.of}"
-        moved = ", moved for an experiment" if taught.moved else ""
+        moved = ", defined anew" if taught.moved else ""
         angles = _vector(taught.at[3:], 1)
         lines.append(f"{name:{width}}  {_vector(taught.at[:3], 3)} in, {angles} deg{where}{moved}")
     return lines
