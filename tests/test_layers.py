@@ -52,7 +52,7 @@ LAYERS = [
         "work",
     },
     {"cell", "judge"},
-    {"report", "trace", "stepping", "trials", "editor", "cli", "__main__"},
+    {"report", "trace", "stepping", "doing", "trials", "editor", "cli", "__main__"},
 ]
 """Downwards only: a module may import from its own layer and those above it in this list."""
 
