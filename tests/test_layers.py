@@ -31,6 +31,7 @@ LAYERS = [
         "plan.store",
         "plan.world",
         "plan.taught",
+        "plan.taughttext",
         "cell.__init__",
         "cell.ports",
     },

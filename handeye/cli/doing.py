@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Seed, screen, world
+from handeye.cli.common import Camera, Json, Seed, notes, screen, world
 from handeye.cli.panic import PanicButton
 from handeye.cli.typing import typed_lines
 from handeye.errors import InvalidInput
 from handeye.plan.taught import Taught, load_taught
 from handeye.resources import plans
+from handeye.source import read_source
 
 if TYPE_CHECKING:
     from handeye.doing.answers import Answer
@@ -27,7 +28,7 @@ Keep = Annotated[Path | None, Parameter(help="Keep the cell as it is at the end 
 
 def register(app: App) -> None:
     """Add the commands to the command line."""
-    for command in (do, repl):
+    for command in (do, repl, teach):
         app.command(command)
 
 
@@ -58,7 +59,7 @@ def do(
     if not functions:
         raise InvalidInput('a function is wanted, such as `handeye do "OPEN 3"`')
     with PanicButton() as panic:
-        workplace = _workplace(panic, taught, seed=seed, camera=camera, look=look, first=first)
+        workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
         lines = (f"DO {function}" for function in functions)
         typist = Typist(Repl(workplace=workplace, folder=Path()))
         failed = converse(typist, lines, _say, json=json, strict=True)
@@ -96,7 +97,7 @@ def repl(
         taught = script.with_suffix(".toml")
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
-        workplace = _workplace(panic, taught, seed=seed, camera=camera, look=look, first=first)
+        workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
         words = lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions)  # noqa: E731
         lines = typed_lines("* ", panic.aside, words)
         typist = Typist(Repl(workplace=workplace, folder=folder))
@@ -104,8 +105,44 @@ def repl(
     return 0 if sys.stdin.isatty() else _code(failed)
 
 
+def teach(
+    file: Path,
+    *,
+    seed: Seed = 0,
+    first: From = None,
+    camera: Camera = "auto",
+    json: Json = False,
+) -> int:
+    """Move the arm and name where it is; the file of taught positions gets what was named, and keeps the rest.
+
+    Exit code 0: left; 2: bad input, or a line was refused that came from no terminal, or something was left
+    unsaved; 130: interrupted.
+
+    Parameters
+    ----------
+    file
+        The file of taught positions (TOML), or the script it stands beside. It need not be there yet.
+    """
+    from handeye.doing.answers import converse
+    from handeye.doing.lessons import LESSONS, Pupil
+    from handeye.doing.teaching import Teacher
+
+    path = file if file.suffix == ".toml" else file.with_suffix(".toml")
+    text = read_source(path).text if path.exists() else ""
+    known = load_taught(path) if path.exists() else Taught()
+    with PanicButton() as panic:
+        workplace = _workplace(panic, known, seed=seed, camera=camera, look=False, first=first)
+        teacher = Teacher(workplace=workplace, file=path, saved=text)
+        words = lambda: (*LESSONS, *workplace.taught.positions, *workplace.taught.parts)  # noqa: E731
+        failed = converse(Pupil(teacher), typed_lines("teach> ", panic.aside, words), _say, json=json)
+    if teacher.unsaved:
+        notes.print(f"not saved: {', '.join(teacher.unsaved)}", markup=False, soft_wrap=True)
+    refused = failed is not None and not sys.stdin.isatty()
+    return 2 if refused or (teacher.unsaved and not sys.stdin.isatty()) else 0
+
+
 def _workplace(
-    panic: PanicButton, taught: Path | None, *, seed: int, camera: str, look: bool, first: Path | None
+    panic: PanicButton, taught: Taught | None, *, seed: int, camera: str, look: bool, first: Path | None
 ) -> "Workplace":
     """The cell to work in.
 
@@ -117,17 +154,16 @@ def _workplace(
     from handeye.work.drive import Halted
 
     if first is not None:
-        known = None if taught is None else load_taught(taught)
-        return Workplace.at(read_checkpoint(first), known, panic)
-    known = _taught(taught)
+        return Workplace.at(read_checkpoint(first), taught, panic)
+    known = load_taught(plans() / "water_pump.toml") if taught is None else taught
     try:
         return Workplace(seed=world(seed), camera=camera, taught=known, look=look, halt=panic)
     except Halted:
         raise KeyboardInterrupt from None
 
 
-def _taught(file: Path | None) -> Taught:
-    return load_taught(plans() / "water_pump.toml" if file is None else file)
+def _given(file: Path | None) -> Taught | None:
+    return None if file is None else load_taught(file)
 
 
 def _code(failed: "Answer | None") -> int:

@@ -42,9 +42,9 @@ NO_TEXT: Final = Source(name="", text="")
 class Answer:
     """The answer to a line."""
 
-    typed: str
     time: float
     """s on the cell's clock."""
+    typed: str = ""
     said: Said = NOTHING
     source: Source = NO_TEXT
     diagnostics: Sequence[Diagnostic] = ()

@@ -2,14 +2,15 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.diagnostics import quoted, suggestion
-from handeye.doing.answers import Answer, Said
+from handeye.doing.answers import Answer
+from handeye.doing.carrying import answer
 from handeye.doing.functions import lasting
 from handeye.doing.repl import Repl
 from handeye.errors import HandeyeError, InvalidInput
@@ -46,16 +47,20 @@ class Typist:
 
     def hear(self, line: str) -> Answer:
         """Carry out a command, or collect a function."""
+        try:
+            given = self._given(line)
+        except HandeyeError as error:
+            given = answer(self.repl.workplace, error=str(error))
+        return replace(given, typed=line.strip())
+
+    def _given(self, line: str) -> Answer:
         word, _, rest = line.strip().partition(" ")
         command = COMMANDS.get(word.upper())
-        try:
-            if command is None:
-                return self.repl.collect(line)
-            if rest and command.usage == command.name:
-                raise InvalidInput(f"`{command.name}` takes nothing behind it; {quoted(rest)} is too much")
-            return command.act(self.repl, rest.strip())
-        except HandeyeError as error:
-            return self.repl.answer(line, Said(error=str(error)))
+        if command is None:
+            return self.repl.collect(line)
+        if rest and command.usage == command.name:
+            raise InvalidInput(f"`{command.name}` takes nothing behind it; {quoted(rest)} is too much")
+        return command.act(self.repl, rest.strip())
 
 
 def _do(repl: Repl, rest: str) -> Answer:
@@ -65,20 +70,20 @@ def _do(repl: Repl, rest: str) -> Answer:
             raise InvalidInput(
                 "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"
             )
-        return repl.carry_out("DO", "\n".join(repl.functions))
-    typed, definitions = f"DO {rest}", lasting(repl.functions)
+        return repl.carry_out("\n".join(repl.functions))
+    definitions = lasting(repl.functions)
     name = rest.split(";")[0].strip()
     text = "\n".join([rest, "", *definitions])
     macros = parse("\n".join(definitions))[0].macros
     if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) or name.upper() in (*INSTRUCTIONS, *macros):
-        return repl.carry_out(typed, text, alone=True)
+        return repl.carry_out(text, alone=True)
     file = repl.folder / f"{name}.al"
     if not file.is_file():
         known = suggestion(name, [*INSTRUCTIONS, *macros, *_programs(repl.folder)])
         help = f"; {known}" if known is not None else ""
         raise InvalidInput(f"there is no instruction, macro or program {quoted(name)}{help}")
     source = read_source(file)
-    return repl.carry_out(typed, source.text, name=source.name)
+    return repl.carry_out(source.text, name=source.name)
 
 
 def _programs(folder: Path) -> list[str]:
@@ -87,18 +92,18 @@ def _programs(folder: Path) -> list[str]:
 
 def _list(repl: Repl, _: str) -> Answer:
     lines = tuple(f"{number:3}  {line}" for number, line in enumerate(repl.functions, 1))
-    return repl.answer("LIST", Said(lines=lines) if lines else Said(said="nothing is collected", lines=()))
+    return answer(repl.workplace, lines=lines, **({} if lines else {"said": "nothing is collected"}))
 
 
 def _drop(repl: Repl, _: str) -> Answer:
     if not repl.functions:
         raise InvalidInput("nothing is collected")
-    return repl.answer("DROP", Said(said=f"dropped: {repl.functions.pop().strip()}"))
+    return answer(repl.workplace, said=f"dropped: {repl.functions.pop().strip()}")
 
 
 def _clear(repl: Repl, _: str) -> Answer:
     repl.functions.clear()
-    return repl.answer("CLEAR", Said(said="nothing is collected"))
+    return answer(repl.workplace, said="nothing is collected")
 
 
 def _write(repl: Repl, rest: str) -> Answer:
@@ -108,16 +113,16 @@ def _write(repl: Repl, rest: str) -> Answer:
     if path.exists():
         raise InvalidInput(f"{path} is there already; it is left alone")
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())
-    return repl.answer("WRITE", Said(file=str(path), said=f"written to {path}"))
+    return answer(repl.workplace, file=str(path), said=f"written to {path}")
 
 
 def _show(repl: Repl, rest: str) -> Answer:
-    return repl.answer("SHOW", Said(show=show(repl.workplace.runner, rest)))
+    return answer(repl.workplace, show=show(repl.workplace.runner, rest))
 
 
 def _back(repl: Repl, _: str) -> Answer:
     repl.workplace.back()
-    return repl.answer("BACK", Said(said="the last `DO` is undone"))
+    return answer(repl.workplace, said="the last `DO` is undone")
 
 
 def _answer(choice: Choice) -> Callable[[Repl, str], Answer]:
@@ -126,7 +131,7 @@ def _answer(choice: Choice) -> Callable[[Repl, str], Answer]:
 
 def _quit(repl: Repl, _: str) -> Answer:
     repl.over = True
-    return repl.answer("QUIT")
+    return answer(repl.workplace)
 
 
 def _help(repl: Repl, rest: str) -> Answer:
@@ -135,14 +140,14 @@ def _help(repl: Repl, rest: str) -> Answer:
         if definition is None:
             known = suggestion(rest, INSTRUCTIONS)
             raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
-        return repl.answer("HELP", Said(said=f"{definition.usage}: {definition.help}"))
+        return answer(repl.workplace, said=f"{definition.usage}: {definition.help}")
     width = max(len(command.usage) for command in _TABLE)
     lines = (
         "A line is a function of the arm language, and is collected, or one of",
         *(f"  {command.usage:{width}}  {command.help}" for command in _TABLE),
         "What is collected stays until CLEAR. `HELP MOVE` says what an instruction does.",
     )
-    return repl.answer("HELP", Said(lines=lines))
+    return answer(repl.workplace, lines=lines)
 
 
 _TABLE: Final = (
