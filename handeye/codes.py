@@ -1,6 +1,7 @@
 """Every kind of diagnostic there is."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Final, Literal
 
 Severity = Literal["error", "warning"]
@@ -14,14 +15,16 @@ class Code:
     meaning: str
     example: str
     phase: Literal["language", "planning", "strict"] = "language"
+    required: Mapping[str, str] = field(default_factory=dict)
+    """Files that the example requires."""
 
 
-def _error(meaning: str, example: str) -> Code:
-    return Code(severity="error", meaning=meaning, example=example)
+def _error(meaning: str, example: str, required: Mapping[str, str] | None = None) -> Code:
+    return Code(severity="error", meaning=meaning, example=example, required=required or {})
 
 
-def _warning(meaning: str, example: str) -> Code:
-    return Code(severity="warning", meaning=meaning, example=example)
+def _warning(meaning: str, example: str, required: Mapping[str, str] | None = None) -> Code:
+    return Code(severity="warning", meaning=meaning, example=example, required=required or {})
 
 
 def _planning(meaning: str, example: str) -> Code:
@@ -53,6 +56,9 @@ CODES: Final[dict[str, Code]] = {
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
+    "faint-moment": _warning(
+        "a moment is less than what joint friction is felt as", "STOP NIL [5 0 0]\nCHANGE X 1"
+    ),
     "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
@@ -61,7 +67,9 @@ CODES: Final[dict[str, Code]] = {
     ),
     "modifier-twice": _error("a motion has two modifiers where it can have one", "STOP 9\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
-    "never-saved": _warning("a difference is restored that no SAVE keeps", "MOVE T\nRESTORE H"),
+    "never-saved": _warning(
+        "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
+    ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
     "position-twice": _error(
@@ -72,6 +80,17 @@ CODES: Final[dict[str, Code]] = {
         "\n".join(f"DEFINE M{i}\nM{i + 1}\n" for i in range(25)) + "\nDEFINE M25\nPARK\n\nM0",
     ),
     "recursive-macro": _error("a macro uses itself", "DEFINE A\nOPEN 1\nA\n\nA"),
+    "require-circle": _error(
+        "a file requires itself, or one that requires it",
+        "REQUIRE pins.al\nPARK",
+        {"pins.al": "REQUIRE gasket.al", "gasket.al": "REQUIRE pins.al"},
+    ),
+    "require-in-macro": _error("a macro requires a file", "DEFINE PINS\nREQUIRE pins.al\n\nPARK\nPINS"),
+    "required-twice": _warning(
+        "a file is required that has been read before",
+        "REQUIRE pins.al\nREQUIRE pins.al",
+        {"pins.al": "PARK"},
+    ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
     "save-without-move": _warning("no MOVE comes before a SAVE on any way to it", "CLOSE\nSAVE H"),
     "search-without-aoj": _warning("no AOJ comes after a SEARCH on any way from it", "SEARCH .07\nMOVE T"),
@@ -82,16 +101,24 @@ CODES: Final[dict[str, Code]] = {
     "specific-without-general": _warning(
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
-    "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
+    "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
-        "a motion is to stop on a force that the arm cannot exert", "STOP [0 0 -9000]"
+        "a motion is to stop on a force or moment that the arm cannot exert", "STOP [0 0 -9000]"
     ),
     "test-without-action": _warning(
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
     ),
     "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
+    "too-much-required": _error(
+        "too many files are required, or too large ones",
+        "REQUIRE 1.al\nPARK",
+        {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
+    ),
     "travel-without-change": _warning(
         "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
+    ),
+    "typed-word": _error(
+        "a word is typed to have something done, and is no instruction of a script", "OPEN 3\nDO PARK"
     ),
     "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
     "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
@@ -107,6 +134,7 @@ CODES: Final[dict[str, Code]] = {
     "unknown-vector": _error("a vector is neither an axis nor written with VECT", "CHANGE DOWN 1"),
     "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
+    "unreadable-file": _error("a file that is required cannot be read", "REQUIRE pins.al\nPARK"),
     "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),

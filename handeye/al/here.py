@@ -1,29 +1,35 @@
 """Positions that only a `HERE` defines: each has to be defined before it is used."""
 
 from collections.abc import Container, Iterator, Sequence
+from typing import Final
 
+from handeye.al.definition import Refers
+from handeye.al.macros import Placed
+from handeye.al.names import pairs
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.plan.program import Here, Step
+
+_PLACES: Final = (Refers.POSITION, Refers.TARGET)
 
 
-def check_here(
-    steps: Sequence[Step], origins: Sequence[Statement], known: Container[str]
-) -> Iterator[Diagnostic]:
+def check_here(placed: Sequence[Placed], known: Container[str]) -> Iterator[Diagnostic]:
     """An error for each use that comes, in the order of the text, before the `HERE` it needs.
 
     Args:
-        origins: the statements of the steps.
+        placed: the expanded program.
         known: positions that are taught or written.
     """
     defined: dict[str, int] = {}
-    for number, step in enumerate(steps):
-        if isinstance(step.operation, Here):
-            defined.setdefault(step.operation.position, number)
-    for number, statement in enumerate(origins):
-        for value in statement.operands:
-            if isinstance(value, Name) and value.text not in known and defined.get(value.text, -1) > number:
-                yield _early(value, origins[defined[value.text]])
+    for number, item in enumerate(placed):
+        word, operands = item.statement.word, item.statement.operands
+        if word is not None and word.text == "HERE" and isinstance(operands[0], Name):
+            defined.setdefault(operands[0].text, number)
+    for number, item in enumerate(placed):
+        for operand, value in pairs(item.statement):
+            if isinstance(value, Name) and operand.refers in _PLACES and value.text not in known:
+                here = defined.get(value.text, number)
+                if here > number:
+                    yield _early(value, placed[here].statement)
 
 
 def _early(use: Name, here: Statement) -> Diagnostic:

@@ -6,23 +6,23 @@ from msgspec import UNSET
 
 from handeye.diagnostics import Diagnostic
 from handeye.doing.answers import NOTHING, Answer, Said
-from handeye.doing.functions import TYPED, Planned
+from handeye.doing.functions import Planned
 from handeye.doing.workplace import Workplace
+from handeye.source import Source
 from handeye.stepping.advance import Pause
 from handeye.stepping.telling import deeds
 
 
-def carry_out(workplace: Workplace, text: str, *, name: str = TYPED, alone: bool = False) -> Answer:
+def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
     """Plan a text, and carry the plan out if there is one.
 
     Args:
-        name: what frames of diagnostics call the text.
-        alone: it is only a part of what is done, and need not make sense by itself.
+        alone: the text is only a part of what is done, and need not make sense by itself.
 
     Raises:
         InvalidInput: it looks, and the camera was not set up.
     """
-    checked = workplace.plan(text, name=name, alone=alone)
+    checked = workplace.plan(source, alone=alone)
     said = NOTHING if checked.plan is None else done(workplace, workplace.carry_out(checked.plan))
     return about(workplace, checked, checked.diagnostics, said)
 

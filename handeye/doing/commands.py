@@ -8,6 +8,7 @@ from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
+from handeye.al.sewing import read_script
 from handeye.diagnostics import quoted, suggestion
 from handeye.doing.answers import Answer
 from handeye.doing.carrying import answer
@@ -15,7 +16,6 @@ from handeye.doing.functions import lasting
 from handeye.doing.repl import Repl
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.files import write_whole
-from handeye.source import read_source
 from handeye.stepping.showing import show
 from handeye.work.executor import Choice
 
@@ -70,20 +70,19 @@ def _do(repl: Repl, rest: str) -> Answer:
             raise InvalidInput(
                 "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"
             )
-        return repl.carry_out("\n".join(repl.functions))
+        return repl.carry_out(repl.typed("\n".join(repl.functions)))
     definitions = lasting(repl.functions)
     name = rest.split(";")[0].strip()
     text = "\n".join([rest, "", *definitions])
     macros = parse("\n".join(definitions))[0].macros
     if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) or name.upper() in (*INSTRUCTIONS, *macros):
-        return repl.carry_out(text, alone=True)
+        return repl.carry_out(repl.typed(text), alone=True)
     file = repl.folder / f"{name}.al"
     if not file.is_file():
         known = suggestion(name, [*INSTRUCTIONS, *macros, *_programs(repl.folder)])
         help = f"; {known}" if known is not None else ""
         raise InvalidInput(f"there is no instruction, macro or program {quoted(name)}{help}")
-    source = read_source(file)
-    return repl.carry_out(source.text, name=source.name)
+    return repl.carry_out(read_script(file))
 
 
 def _programs(folder: Path) -> list[str]:

@@ -39,13 +39,7 @@ class Planned:
 
 
 def planned(
-    text: str,
-    taught: Taught,
-    start: Array,
-    *,
-    name: str = TYPED,
-    saved: Collection[str] = (),
-    alone: bool = False,
+    source: Source, taught: Taught, start: Array, *, saved: Collection[str] = (), alone: bool = False
 ) -> Planned:
     """Plan a text.
 
@@ -54,7 +48,6 @@ def planned(
         saved: differences that have been saved before.
         alone: the text is only a part of what is done, and need not make sense by itself.
     """
-    source = Source(name=name, text=text)
     program, found = compile_text(source, taught)
     plan = None
     if program is not None:
@@ -67,15 +60,20 @@ def planned(
 def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bool:
     """Whether it misses a saved difference that there is."""
     span = diagnostic.primary.span
-    return diagnostic.code == "never-saved" and source.text[span.start : span.end] in saved
+    text, start = source.find(span.start)
+    name = text.text[start : start + span.end - span.start]
+    return diagnostic.code == "never-saved" and name in saved
 
 
 def mistakes(checked: Planned, line: int) -> list[Diagnostic]:
-    """What is wrong with a line of a text that is still being typed, as far as the next line cannot put it right."""
-    return [
-        d for d in checked.diagnostics
-        if checked.source.position(d.primary.span.start)[0] == line and d.code not in OPEN | _ALONE
-    ]  # fmt: skip
+    """What is wrong with a line of a text that is still being typed, or with what it requires, as far as the next
+    line cannot put it right."""
+    found = []
+    for diagnostic in checked.diagnostics:
+        text, offset = checked.source.find(diagnostic.primary.span.start)
+        if diagnostic.code not in OPEN | _ALONE and (text.key or text.position(offset)[0] == line):
+            found.append(diagnostic)
+    return found
 
 
 def lasting(lines: Sequence[str]) -> list[str]:

@@ -6,12 +6,14 @@ from typing import Final
 
 import msgspec
 
+from handeye.al.sewing import sewn
 from handeye.diagnostics import has_errors
 from handeye.doing.answers import Answer
 from handeye.doing.carrying import about, answer, carry_out, done
 from handeye.doing.functions import TYPED, is_open, mistakes
 from handeye.doing.workplace import Workplace
 from handeye.errors import InvalidInput
+from handeye.source import Source, read_source
 from handeye.work.executor import Choice
 
 MOST: Final = 500
@@ -44,15 +46,19 @@ class Repl:
         if len(self.functions) >= MOST:
             raise InvalidInput(f"no more than {MOST} lines are collected; write a script for more")
         lines = [*self.functions, line]
-        checked = self.workplace.plan("\n".join(lines))
+        checked = self.workplace.plan(self.typed("\n".join(lines)))
         found = mistakes(checked, len(lines))
         if not has_errors(found):
             self.functions = lines
         return about(self.workplace, checked, found)
 
-    def carry_out(self, text: str, *, name: str = TYPED, alone: bool = False) -> Answer:
+    def typed(self, text: str) -> Source:
+        """What was typed, with the files it requires."""
+        return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
+
+    def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
         """Plan a text and carry it out; what there is to say to a stop is told."""
-        return _advised(carry_out(self.workplace, text, name=name, alone=alone))
+        return _advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
         """Answer for the operator, who was called.

@@ -13,6 +13,7 @@ from handeye.cell.pushing import pushed
 from handeye.diagnostics import quoted
 from handeye.doing.answers import Answer
 from handeye.doing.carrying import carry_out
+from handeye.doing.functions import TYPED
 from handeye.doing.workplace import Workplace
 from handeye.errors import ERRORS, InvalidInput
 from handeye.files import write_whole
@@ -21,6 +22,7 @@ from handeye.plan.planner import SPEED
 from handeye.plan.program import Change, Position, Vector
 from handeye.plan.taught import Taught
 from handeye.plan.taughttext import with_position
+from handeye.source import Source
 from handeye.work.drive import Halted, Outcome
 
 REST = 0.5
@@ -64,7 +66,7 @@ class Teacher:
     def function(self, text: str) -> Answer:
         """Carry out a function of the arm language."""
         marks = len(self.workplace.before)
-        given = carry_out(self.workplace, text, alone=True)
+        given = carry_out(self.workplace, Source(name=TYPED, text=text), alone=True)
         if len(self.workplace.before) > marks:
             self._before.append(None)
         self.afloat = False

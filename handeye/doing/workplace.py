@@ -6,13 +6,14 @@ from typing import Final
 import msgspec
 
 from handeye.cell.simulated import PARK
-from handeye.doing.functions import Planned, planned
+from handeye.doing.functions import TYPED, Planned, planned
 from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
 from handeye.plan.program import Look
 from handeye.plan.store import plan_digest
 from handeye.plan.taught import Taught
 from handeye.pose import Array
+from handeye.source import Source
 from handeye.stepping.advance import Pause, advance
 from handeye.stepping.runner import Runner
 from handeye.stepping.snapshot import Checkpoint, Setup, Snapshot
@@ -78,11 +79,9 @@ class Workplace:
         """Where the arm is held, shape (6,), rad and m."""
         return self.runner.run.drive.q
 
-    def plan(self, text: str, *, name: str | None = None, alone: bool = False) -> Planned:
-        """What the planning phase makes of a text here and now."""
-        saved = self.runner.run.saved
-        named = {} if name is None else {"name": name}
-        return planned(text, self.known, self.q, saved=saved, alone=alone, **named)
+    def plan(self, source: Source, *, alone: bool = False) -> Planned:
+        """What the planning phase makes of a text here and now; `alone` as for `planned`."""
+        return planned(source, self.known, self.q, saved=self.runner.run.saved, alone=alone)
 
     def checkpoint(self) -> Checkpoint:
         """The present state, nothing that happened forgotten."""
@@ -163,7 +162,7 @@ class Workplace:
 
 
 def _plan(text: str, taught: Taught) -> Plan:
-    plan = planned(text, taught, PARK).plan
+    plan = planned(Source(name=TYPED, text=text), taught, PARK).plan
     assert plan is not None
     return plan
 

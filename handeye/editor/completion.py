@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from handeye.al.definition import Operand, Refers
+from handeye.al.definition import NIL, Operand, Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Kind, scan
 from handeye.al.syntax import Name
@@ -11,7 +11,7 @@ from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION
 from handeye.editor.places import expected, instruction
 from handeye.errors import ERRORS
-from handeye.source import Span
+from handeye.source import Span, line_name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +52,10 @@ def names(document: Document, kind: str) -> dict[str, str]:
     for name in document.names:
         if name.kind == kind and name.makes:
             found.setdefault(name.name, f"{kind}, line {document.source.position(name.span.start)[0]}")
+    for text, name in document.required_names:
+        if name.kind == kind and name.makes:
+            line = line_name(text.position(name.span.start)[0], text.key)
+            found.setdefault(name.name, f"{kind}, line {line}")
     return dict(sorted(found.items()))
 
 
@@ -82,6 +86,8 @@ def _operand(document: Document, operand: Operand, *, after: str) -> Iterator[Pr
     if operand.word and after != operand.word:
         yield Proposal(text=operand.word, kind="word", detail=operand.shown)
         return
+    if operand.nil:
+        yield Proposal(text=NIL, kind="word", detail=f"no {operand.name}")
     if Name in operand.takes and operand.refers is not Refers.NEW:
         kinds = (POSITION, PART) if operand.refers is Refers.TARGET else (operand.refers.value,)
         for kind in kinds:

@@ -7,6 +7,7 @@ graph, loops and error edges included.
 from typing import Literal
 
 from handeye.plan import program as op
+from handeye.source import line_name
 
 Kind = Literal["part", "difference", "search"]
 Key = tuple[Kind, str]
@@ -24,8 +25,8 @@ class Dependence(op.Record, frozen=True, kw_only=True):
     """Only its horizontal components count."""
     steps: tuple[int, ...]
     """Steps that may have measured it last. None: a part is where it is planned, a difference is zero."""
-    lines: tuple[int, ...]
-    """Their lines of the source."""
+    lines: tuple[int | str, ...]
+    """Their lines of the source: 12, or `pins.al:12` in a required file."""
 
 
 def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
@@ -47,10 +48,9 @@ def successors(step: op.Step) -> tuple[int, ...]:
 
 
 def _dependence(program: op.Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
-    lines = sorted({program.steps[number].line for number in steps})
-    return Dependence(
-        kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=tuple(lines)
-    )  # fmt: skip
+    places = sorted({(program.steps[number].file, program.steps[number].line) for number in steps})
+    lines = tuple(line_name(line, file) if file else line for file, line in places)
+    return Dependence(kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=lines)
 
 
 def _measures(operation: op.AnyOperation) -> Key | None:
@@ -65,8 +65,8 @@ def _measures(operation: op.AnyOperation) -> Key | None:
 def _uses(program: op.Program, operation: op.AnyOperation) -> list[tuple[Key, bool]]:
     """What an operation is carried out by, and whether only its horizontal components count."""
     found: list[tuple[Key, bool]] = []
-    for field in ("goal", "centre", "target", "part"):
-        name = getattr(operation, field, None)
+    named = [getattr(operation, field, None) for field in ("goal", "centre", "target", "part")]
+    for name in (*named, *getattr(operation, "via", ())):
         if name in program.positions:
             name = program.positions[name].of
         if name is not None and not isinstance(operation, op.General):
@@ -74,7 +74,7 @@ def _uses(program: op.Program, operation: op.AnyOperation) -> list[tuple[Key, bo
     if isinstance(operation, op.Move):
         found += [(("difference", restore.name), restore.level) for restore in operation.restore]
         found += [(("search", ""), False)] if operation.searching else []
-    return found
+    return list(dict.fromkeys(found))
 
 
 def _newest(program: op.Program) -> list[Newest]:

@@ -5,6 +5,7 @@ to end. What cannot be reached, or would go through the table, is found here and
 """
 
 import math
+import re
 from dataclasses import dataclass, field
 
 import msgspec
@@ -15,13 +16,13 @@ from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.cell.ports import TICK
 from handeye.diagnostics import Diagnostic, Label
-from handeye.plan.motions import change_samples, move_trajectory, turn_samples
+from handeye.plan.motions import NoWay, change_samples, move_trajectory, turn_samples
 from handeye.plan.plan import Joints, Motion, Plan
 from handeye.plan.program import Change, Here, Move, Program, Step, Stop, Turn
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
 from handeye.source import Source, Span
-from handeye.units import INCH, OUNCE_FORCE
+from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 SPEED = 0.40
 """Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
@@ -113,17 +114,19 @@ class _Walk:
         return False
 
     def _move(self, number: int, step: Step, operation: Move) -> None:
-        X_WT = self.world.position(operation.goal)
-        if X_WT[2, 3] < 0:
-            self._problem(
-                step, operation.goal, "hand-through-table",
-                f"the hand would be {-X_WT[2, 3] / INCH:.2f} in below the table at {operation.goal}",
-                help="the table top is z = 0; raise the position",
-            )  # fmt: skip
-            return
-        trajectory = move_trajectory(self.arm, self.q, X_WT, operation, self.speed)
-        if isinstance(trajectory, IKResult):
-            self._unreachable(step, operation.goal, trajectory)
+        places = (*operation.via, operation.goal)
+        *via, X_WT = (self.world.position(name) for name in places)
+        for name, X in zip(places, (*via, X_WT), strict=True):
+            if X[2, 3] < 0:
+                self._problem(
+                    step, name, "hand-through-table",
+                    f"the hand would be {-X[2, 3] / INCH:.2f} in below the table at {name}",
+                    help="the table top is z = 0; raise the position",
+                )  # fmt: skip
+                return
+        trajectory = move_trajectory(self.arm, self.q, via, X_WT, operation, self.speed)
+        if isinstance(trajectory, NoWay):
+            self._unreachable(step, trajectory.name, trajectory.why)
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
@@ -148,20 +151,27 @@ class _Walk:
         self.q = end
 
     def _check_stop(self, step: Step, stop: Stop | None) -> None:
-        """A force the arm cannot exert can never stop it."""
-        if stop is None or stop.force is None:
-            return
-        torque = np.abs(jacobian(self.arm, self.q)[:3].T @ np.array(stop.force))
+        """A force or moment the arm cannot exert can never stop it."""
+        J = jacobian(self.arm, self.q)
+        if stop is not None and stop.force is not None:
+            self._check_exerted(step, "press", J[:3], np.array(stop.force) / OUNCE_FORCE, OUNCE_FORCE, "oz")
+        if stop is not None and stop.moment is not None:
+            self._check_exerted(step, "turn", J[3:], np.array(stop.moment) / OUNCE_INCH, OUNCE_INCH, "oz-in")
+
+    def _check_exerted(self, step: Step, verb: str, J: Array, wanted: Array, si: float, unit: str) -> None:
+        """What is wanted, along or about the rows of a Jacobian, in a unit and its SI value."""
+        torque = np.abs(J.T @ wanted) * si
         limit = np.array([joint.effort for joint in self.arm.joints])
-        if (torque > limit).any():
-            joint = int(np.argmax(torque / limit))
-            ounces = float(np.linalg.norm(stop.force)) / OUNCE_FORCE
-            self._problem(
-                step, step.text.split()[0], "stop-beyond-arm",
-                f"the arm cannot press with {ounces:.0f} oz here, so the stop would never fire",
-                note=RIDDLE if round(ounces) == 600 else None,
-                help=f"{self.arm.joints[joint].name} gives out at {ounces * limit[joint] / torque[joint]:.0f} oz",
-            )  # fmt: skip
+        if (torque <= limit).all():
+            return
+        joint = int(np.argmax(torque / limit))
+        size = float(np.linalg.norm(wanted))
+        self._problem(
+            step, step.text.split()[0], "stop-beyond-arm",
+            f"the arm cannot {verb} with {size:.0f} {unit} here, so the stop would never fire",
+            note=RIDDLE if round(size) == 600 and verb == "press" else None,
+            help=f"{self.arm.joints[joint].name} gives out at {size * limit[joint] / torque[joint]:.0f} {unit}",
+        )  # fmt: skip
 
     def _unreachable(self, step: Step, word: str, failure: IKResult) -> None:
         self._problem(
@@ -182,7 +192,7 @@ class _Walk:
         self.problems.append(
             Diagnostic(
                 code=code, message=message, help=help, notes=(note,) if note else (),
-                primary=Label(span=_span(self.program.source, step, word)),
+                primary=Label(span=_span(self.program.whole, step, word)),
             )
         )  # fmt: skip
 
@@ -194,15 +204,23 @@ def _facing(operation: Change) -> Stop | None:
         return stop
     x, y, z = operation.displacement
     scale = stop.against / math.hypot(x, y, z)
-    return Stop(force=(x * scale, y * scale, z * scale))
+    return Stop(force=(x * scale, y * scale, z * scale), moment=stop.moment)
 
 
-def _span(text: str, step: Step, word: str) -> Span:
-    """Where `word` stands on the source line of a step."""
-    source = Source(name="", text=text)
-    line = source.line_span(step.line)
-    start = text.find(word, line.start, line.end)
-    return line if start < 0 else Span(start=start, end=start + len(word))
+def _span(whole: Source, step: Step, word: str) -> Span:
+    """Where `word` stands on the source line of a step, or of a `VIA` above it."""
+    source = next(text for text in whole.texts if text.key == step.file)
+    begin = whole.begins[step.file]
+    via = isinstance(step.operation, Move) and word in step.operation.via
+    for number in range(step.line, 0, -1) if via else (step.line,):
+        line = source.line_span(number)
+        found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", source.text[line.start : line.end])
+        if found is not None:
+            line = Span(start=line.start + found.start(), end=line.start + found.end())
+            break
+    else:
+        line = source.line_span(step.line)
+    return Span(start=begin + line.start, end=begin + line.end)
 
 
 def _joints(q: Array) -> Joints:

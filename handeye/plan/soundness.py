@@ -16,6 +16,7 @@ _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LENSES: Final = (0.025, 0.050)
 _FORCE: Final = (1e-6, 1e4)  # N, or N m
 _LENGTH: Final = (1e-6, 10.0)  # m
+_SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 _BOUNDS: Final[dict[tuple[type, str], tuple[float, float]]] = {
     (op.Change, "speed"): (1e-4, 2.0),
@@ -40,6 +41,10 @@ def faults(plan: Plan) -> Iterator[str]:
     program = plan.program
     if not program.steps:
         yield "it has no steps"
+    if "" in program.required:
+        yield "it requires a file that has no name"
+    if len(set(program.stages)) < len(program.stages):
+        yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
         yield f"its speed is {plan.speed:g}; a share of the arm's limits is above 0 and at most 1"
     for key, position in program.positions.items():
@@ -52,7 +57,7 @@ def faults(plan: Plan) -> Iterator[str]:
             yield f"part {key} is not on this table"
     for number, step in enumerate(program.steps):
         for fault in (*_references(plan, step), *_numbers(step.operation), *_motion(plan, number, step)):
-            yield f"step {number} (line {step.line}) {fault}"
+            yield f"step {number} (line {step.place}) {fault}"
     for number in plan.motions:
         if not 0 <= number < len(program.steps):
             yield f"it has a motion for step {number}, and no such step"
@@ -65,10 +70,12 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
     for target in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
         if target is not None and not 0 <= target < count:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
+    if step.file and step.file not in program.required:
+        yield f"stands in {step.file!r}, a file whose text the plan does not have"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
-    for field in ("goal", "centre", "position"):
-        name = getattr(operation, field, None)
+    named = [getattr(operation, field, None) for field in ("goal", "centre", "position")]
+    for name in (*named, *getattr(operation, "via", ())):
         if name is not None and name not in program.positions:
             yield f"uses position {name}, which the plan does not have"
     part = getattr(operation, "part", None)
@@ -90,16 +97,27 @@ def _numbers(operation: op.AnyOperation) -> Iterator[str]:
             yield f"has {field} {value:g}; it has to be from {low:g} to {high:g}"
     if isinstance(operation, op.Change):
         yield from _size("displacement", operation.displacement, _LENGTH)
-        if operation.press is not None:
-            yield from _size("press", operation.press, _FORCE)
+        for field in ("press", "moment"):
+            value = getattr(operation, field)
+            if value is not None:
+                yield from _size(field, value, _FORCE)
     if isinstance(operation, op.Lens) and not any(math.isclose(operation.focal_length, f) for f in _LENSES):
         yield f"wants a lens of {operation.focal_length * 1000:g} mm; the turret has 25 and 50 mm"
     stop = getattr(operation, "stop", None)
     if stop is not None:
-        given = [value for value in (stop.force, stop.against, stop.torque) if value is not None]
-        if len(given) != 1:
-            yield f"has a stop with {len(given)} conditions; it has to have one"
-        for value in given:
+        yield from _stop(stop)
+
+
+def _stop(stop: op.Stop) -> Iterator[str]:
+    """What is wrong with what ends a motion."""
+    given = [value for value in (stop.force, stop.against, stop.torque, stop.touch) if value is not None]
+    beside = stop.moment is not None and (stop.torque is not None or stop.touch is not None)
+    if len(given) > 1 or (not given and stop.moment is None) or beside:
+        yield f"has a stop with {len(given) + (stop.moment is not None)} conditions; it has to have one"
+    if stop.touch not in (None, 1, 2, 3):
+        yield f"has a stop on finger switches {stop.touch}; there are 1, 2, and 3 for either"
+    for value in (stop.force, stop.moment, stop.against, stop.torque):
+        if value is not None:
             yield from _size("stop", value if isinstance(value, tuple) else (value, 0.0, 0.0), _FORCE)
 
 
@@ -116,16 +134,19 @@ def _motion(plan: Plan, number: int, step: op.Step) -> Iterator[str]:
         if isinstance(step.operation, op.Move):
             yield "has no planned motion"
         return
-    knots = 4 if isinstance(step.operation, op.Move) else 2
-    if not moves:
+    via = len(getattr(step.operation, "via", ()))
+    knots = 4 + via if isinstance(step.operation, op.Move) else 2
+    if via > op.VIAS:
+        yield f"is led by {via} positions; {op.VIAS} are the most"
+    elif not moves:
         yield "has a planned motion, and does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:
         yield f"has {len(motion.knots)} knots and {len(motion.times)} times; {knots} and {knots - 1} are right"
-    elif not _can_be_run(motion):
+    elif not _can_be_run(motion, 0.0 if knots == 2 else _SHORTEST):
         yield "has a planned motion with times or joints no arm can have"
 
 
-def _can_be_run(motion: Motion) -> bool:
-    return all(0 <= t <= 600 for t in motion.times) and sum(motion.times) >= 0 and all(
+def _can_be_run(motion: Motion, shortest: float) -> bool:
+    return all(shortest <= t <= 600 for t in motion.times) and all(
         abs(q) <= 10 for knot in motion.knots for q in knot
     )  # fmt: skip

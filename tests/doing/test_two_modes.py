@@ -8,6 +8,7 @@ from typists import Session, workplace
 from handeye.doing import workplace as workplaces
 from handeye.doing.commands import COMMANDS
 from handeye.doing.workplace import Workplace
+from handeye.source import Source
 from handeye.work.events import StepFinished
 
 pytestmark = pytest.mark.slow
@@ -30,9 +31,9 @@ def plannings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     found: list[str] = []
     planned = workplaces.planned
 
-    def counted(text: str, *rest: object, **named: object) -> object:
-        found.append(text)
-        return planned(text, *rest, **named)
+    def counted(source: Source, *rest: object, **named: object) -> object:
+        found.append(source.text)
+        return planned(source, *rest, **named)
 
     monkeypatch.setattr(workplaces, "planned", counted)
     return found
@@ -116,6 +117,15 @@ def test_a_macro_is_carried_out_by_its_name(session: Session) -> None:
     session.type("DEFINE WIDE", "OPEN 3.5", "", "PARK", "DO WIDE")
     assert session.steps == ["OPEN 3.5"]
     assert session.gap == pytest.approx(3.5, abs=0.05)
+
+
+def test_what_a_line_requires_is_read_from_the_folder_of_the_session(
+    session: Session, tmp_path: Path
+) -> None:
+    (tmp_path / "hand.al").write_text("DEFINE WIDE\nOPEN 3.2\n\n")
+    assert not session.type("REQUIRE hand.al", "WIDE", "DO").refused
+    assert session.gap == pytest.approx(3.2, abs=0.05)
+    assert "cannot be read" in session.read("REQUIRE foot.al")
 
 
 def test_positions_and_vectors_collected_hold_for_a_function_done_alone(session: Session) -> None:
