@@ -73,6 +73,12 @@ def test_a_countdown_says_where_it_leads() -> None:
     assert (step.counter, step.positive, step.next) == ("N", 1, 3)
 
 
+def test_a_goal_that_was_kept_depends_on_where_that_was() -> None:
+    text = f"{PLACE}MOVE T\nCHANGE Z -1\nHERE F\nMOVE F\nMOVE T\n"
+    assert [depends_text(one) for one in step_of(text, 3).depends] == ["F kept at line 4"]
+    assert step_of(text, 4).depends == ()
+
+
 def test_what_is_saved_behind_a_countdown_is_known_where_it_leads_back() -> None:
     program = compiled(f"{PLACE}ASSIGN N 2\nL: MOVE T\nRESTORE H\nOPEN 1\nSAVE H\nSOJG N L\n")
     assert [depends_text(one) for one in dependences(program)[1]] == ["H saved at line 6"]
