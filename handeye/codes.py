@@ -72,6 +72,7 @@ CODES: Final[dict[str, Code]] = {
         "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
     ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
+    "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
     "position-twice": _error(
         "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"
     ),

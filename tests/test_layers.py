@@ -31,6 +31,7 @@ LAYERS = [
         "plan.store",
         "plan.world",
         "plan.taught",
+        "plan.taughttext",
         "cell.__init__",
         "cell.ports",
     },
@@ -52,7 +53,7 @@ LAYERS = [
         "work",
     },
     {"cell", "judge"},
-    {"report", "trace", "stepping", "trials", "editor", "cli", "__main__"},
+    {"report", "trace", "stepping", "doing", "trials", "editor", "cli", "__main__"},
 ]
 """Downwards only: a module may import from its own layer and those above it in this list."""
 

@@ -94,11 +94,15 @@ def _declared(statements: list[Statement]) -> dict[str, list[Name]]:
     return found
 
 
+def written_names(script: Script) -> set[str]:
+    """Positions that a script writes, its macros included."""
+    return {name.text for name in _declared(list(all_statements(script))).get("TRANS", [])}
+
+
 def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[str]]:
-    by = {
-        op: {name.text for name in declared.get(op, [])} for op in ("TRANS", "LOOK", "VECT", "ASSIGN", "SAVE")
-    }
-    positions = by["TRANS"] | set(taught.positions)
+    ops = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
+    by = {op: {name.text for name in declared.get(op, [])} for op in ops}
+    positions = by["TRANS"] | by["HERE"] | set(taught.positions)
     return {
         Refers.POSITION: positions,
         Refers.PART: set(taught.parts),

@@ -8,6 +8,7 @@ import math
 import re
 from dataclasses import dataclass, field
 
+import msgspec
 import numpy as np
 
 from handeye.arm.kinematics import IKResult, forward, jacobian, solve
@@ -17,7 +18,7 @@ from handeye.cell.ports import TICK
 from handeye.diagnostics import Diagnostic, Label
 from handeye.plan.motions import NoWay, change_samples, move_trajectory, turn_samples
 from handeye.plan.plan import Joints, Motion, Plan
-from handeye.plan.program import Change, Move, Program, Step, Stop, Turn
+from handeye.plan.program import Change, Here, Move, Program, Step, Stop, Turn
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
 from handeye.source import Source, Span
@@ -38,15 +39,24 @@ RIDDLE = (
 
 
 def make_plan(
-    program: Program, arm: ArmModel, *, speed: float = SPEED
+    program: Program, arm: ArmModel, *, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program for an arm, or what stands in its way."""
+    """The plan of a program for an arm, or what stands in its way.
+
+    A position that only a `HERE` defines is in the plan where the hand is planned to be then.
+
+    Args:
+        start: where the arm stands when the program begins, shape (6,), rad and m; by default at `HOME`, or at
+            the first goal of a program that has none.
+    """
     walk = _Walk(program=program, arm=arm, speed=speed, world=WorldModel.of(program))
-    walk.go()
+    walk.go(start)
     if walk.problems:
         return None, walk.problems
+    positions = {**walk.world.moved, **program.positions}
     plan = Plan(
-        arm=arm.name, arm_digest=digest(arm), speed=speed, program=program, motions=walk.motions
+        arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
+        program=msgspec.structs.replace(program, positions=positions),
     )  # fmt: skip
     return plan, []
 
@@ -57,12 +67,15 @@ class _Walk:
     arm: ArmModel
     speed: float
     world: WorldModel
+    """Nothing in it is measured; what has moved in it, a `HERE` has defined."""
     q: Array = field(init=False)
     motions: dict[int, Motion] = field(default_factory=dict)
     problems: list[Diagnostic] = field(default_factory=list)
 
-    def go(self) -> None:
-        if not self._start():
+    def go(self, start: Array | None) -> None:
+        if start is not None:
+            self.q = start
+        elif not self._start():
             return
         for number, step in enumerate(self.program.steps):
             operation = step.operation
@@ -71,17 +84,26 @@ class _Walk:
             elif isinstance(operation, Change):
                 self._sampled(number, step, change_samples(self.arm, self.q, operation), _facing(operation))
             elif isinstance(operation, Turn):
-                centre = self.world.planned_position(operation.centre)
+                centre = self.world.position(operation.centre)
                 self._sampled(number, step, turn_samples(self.arm, self.q, centre, operation), operation.stop)
+            elif isinstance(operation, Here):
+                self._define(operation.position)
+
+    def _define(self, name: str) -> None:
+        known = self.program.positions.get(name)
+        of = None if known is None else known.of
+        self.world.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
 
     def _start(self) -> bool:
         """Begin at the rest position, or at the first goal of a program that has none."""
-        goals = [s.operation.goal for s in self.program.steps if isinstance(s.operation, Move)]
-        first = HOME if HOME in self.program.positions else (goals[0] if goals else None)
+        known = self.program.positions
+        moves = [s.operation for s in self.program.steps if isinstance(s.operation, Move)]
+        goals = [move.goal for move in moves if move.goal in known]
+        first = HOME if HOME in known else (goals[0] if goals else None)
         self.q = (self.arm.lower + self.arm.upper) / 2
         if first is None:
             return True
-        start = solve(self.arm, self.world.planned_position(first), self.q)
+        start = solve(self.arm, self.world.position(first), self.q)
         if start.q is not None:
             self.q = start.q
             return True
@@ -93,7 +115,7 @@ class _Walk:
 
     def _move(self, number: int, step: Step, operation: Move) -> None:
         places = (*operation.via, operation.goal)
-        *via, X_WT = (self.world.planned_position(name) for name in places)
+        *via, X_WT = (self.world.position(name) for name in places)
         for name, X in zip(places, (*via, X_WT), strict=True):
             if X[2, 3] < 0:
                 self._problem(

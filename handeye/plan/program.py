@@ -170,6 +170,12 @@ class Save(Operation, frozen=True, kw_only=True):
     name: str
 
 
+class Here(Operation, frozen=True, kw_only=True):
+    """Define a position as where the hand is; one that belongs to a part keeps to it."""
+
+    position: str
+
+
 class Where(Operation, frozen=True, kw_only=True):
     """Tell where the hand is."""
 
@@ -243,7 +249,7 @@ class Inspect(Operation, frozen=True, kw_only=True):
 
 AnyOperation = (
     Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Assign | Countdown | Jump | Save
-    | Where | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
+    | Here | Where | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
 )  # fmt: skip
 
 ACTIONS = (
@@ -266,6 +272,14 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     """The source statement, for people."""
     next: int | None
     """Step that follows; None ends the program."""
+
+    @property
+    def ways(self) -> tuple[int | None, ...]:
+        """The steps that may follow, `next` first."""
+        match self.operation:
+            case Test(raised=elsewhere) | Countdown(positive=elsewhere):
+                return self.next, elsewhere
+        return (self.next,)
 
     @property
     def place(self) -> str:

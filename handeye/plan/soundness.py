@@ -67,14 +67,14 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
     """Steps, stages, positions, parts and pictures a step names."""
     program, operation = plan.program, step.operation
     count = len(program.steps)
-    for target in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
+    for target in step.ways:
         if target is not None and not 0 <= target < count:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
     if step.file and step.file not in program.required:
         yield f"stands in {step.file!r}, a file whose text the plan does not have"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
-    named = [getattr(operation, field, None) for field in ("goal", "centre")]
+    named = [getattr(operation, field, None) for field in ("goal", "centre", "position")]
     for name in (*named, *getattr(operation, "via", ())):
         if name is not None and name not in program.positions:
             yield f"uses position {name}, which the plan does not have"

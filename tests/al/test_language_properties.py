@@ -1,17 +1,25 @@
 """What holds for every text whatsoever."""
 
+import re
 import string
+from pathlib import Path
 
 from al_support import LISTING, TAUGHT, diagnose, said
-from any_texts import texts
-from hypothesis import example, given
+from any_texts import PUMP, ROOT, spoiled, texts
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from handeye import al
 from handeye.al.parser import parse
 from handeye.al.scanner import scan
-from handeye.diagnostics import render
-from handeye.source import Source
+from handeye.arm.stanford import STANFORD
+from handeye.diagnostics import has_errors, render
+from handeye.errors import InvalidInput
+from handeye.plan.planner import make_plan
+from handeye.plan.taught import load_taught
+from handeye.source import Source, read_source
+
+PUMP_TAUGHT = load_taught(ROOT / "plans" / "water_pump.toml")
 
 
 @given(texts)
@@ -20,6 +28,37 @@ def test_no_text_makes_the_compiler_fail(text: str) -> None:
     program, diagnostics = al.compile_text(source, TAUGHT)
     assert (program is None) == any(d.severity == "error" for d in diagnostics)
     assert all(render(d, source) for d in diagnostics)
+
+
+@settings(max_examples=40)
+@given(spoiled([PUMP]))
+def test_no_spoiling_of_the_pump_script_makes_checker_or_planner_fail(text: str) -> None:
+    source = Source(name="water_pump.al", text=text)
+    program, diagnostics = al.compile_text(source, PUMP_TAUGHT)
+    if program is not None:
+        plan, problems = make_plan(program, STANFORD)
+        assert (plan is None) == has_errors(problems)
+        diagnostics += problems
+    assert all(render(d, source) for d in [*diagnostics, *al.extensions(source)])
+
+
+@given(spoiled([PUMP]))
+def test_tidying_a_spoiled_pump_script_keeps_what_it_says(text: str) -> None:
+    assert said(parse(al.format_text(text))[0]) == said(parse(text)[0])
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.binary(max_size=80))
+@example(b"\xef\xbb\xbfPARK")
+@example(b"PARK\0\r\n\xff")
+def test_any_bytes_in_a_file_are_a_text_or_refused_in_a_sentence(tmp_path: Path, data: bytes) -> None:
+    file = tmp_path / "any.al"
+    file.write_bytes(data)
+    try:
+        assert read_source(file).text.encode() == data.removeprefix(b"\xef\xbb\xbf")
+    except InvalidInput as refused:
+        pattern = r"any\.al is not UTF-8 text: byte \d+ is 0x[0-9a-f]{2}$"
+        assert re.search(pattern, str(refused))  # noqa: PT017
 
 
 @given(texts)
