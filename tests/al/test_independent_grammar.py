@@ -79,6 +79,8 @@ PROBES = {
     "FORCE 50": False,
     "VIA A B,C D": True,
     "VIA A B C D E": False,
+    "HERE A": True,
+    "HERE": False,
     "TOUCH 3": True,
     "TOUCH 2.5": False,
     "REQUIRE pins.al": True,
