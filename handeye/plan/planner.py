@@ -1,26 +1,28 @@
 """The planning phase: a program and an arm make a plan. No clock, no randomness, no simulator.
 
 The planner walks the program in the order of its text, each motion beginning where the one before was planned
-to end. What cannot be reached, or would go through the table, is found here and not at run time.
+to end. What cannot be reached, held or pressed, or would go through the table or a fixture, is found here and not at
+run time.
 """
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, forward, jacobian, solve
+from handeye.arm.kinematics import IKResult, solve
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.cell.ports import TICK
-from handeye.diagnostics import Diagnostic, Label
+from handeye.diagnostics import Diagnostic, arranged, has_errors
+from handeye.plan.checks import Checks, Force, to_press, to_stop
 from handeye.plan.motions import change_samples, move_trajectory, turn_samples
+from handeye.plan.objections import Objections
 from handeye.plan.plan import Joints, Motion, Plan
-from handeye.plan.program import Change, Move, Program, Step, Stop, Turn
+from handeye.plan.program import Center, Change, Close, Move, Open, Program, Step, Turn, Vector
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
-from handeye.source import Source, Span
-from handeye.units import INCH, OUNCE_FORCE
 
 SPEED = 0.40
 """Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
@@ -28,26 +30,27 @@ invented acceleration limits it makes the whole job take about the four minutes 
 5); one datum, so no evidence of how slow the real arm was."""
 HOME = "PARK"
 """The position a program starts from."""
-
-RIDDLE = (
-    "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
-    "60 it must have been, for at 600 the search would never end"
-)
-"""Reference D1."""
+_LOOK = 2 * TICK
+"""s between the places of a free motion at which its surroundings are looked at; under .6 in at the pump's speeds."""
 
 
 def make_plan(
     program: Program, arm: ArmModel, *, speed: float = SPEED
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program for an arm, or what stands in its way."""
-    walk = _Walk(program=program, arm=arm, speed=speed, world=WorldModel.of(program))
+    """The plan of a program for an arm, and what there is to say about it. There is none if any of that is an error."""
+    objections = Objections(arm=arm, source=program.source)
+    walk = _Walk(
+        program=program, arm=arm, speed=speed, world=WorldModel.of(program), objections=objections,
+        checks=Checks(arm, program, objections),
+    )  # fmt: skip
     walk.go()
-    if walk.problems:
-        return None, walk.problems
+    found = arranged(objections.found)
+    if has_errors(found):
+        return None, found
     plan = Plan(
         arm=arm.name, arm_digest=digest(arm), speed=speed, program=program, motions=walk.motions
     )  # fmt: skip
-    return plan, []
+    return plan, found
 
 
 @dataclass(slots=True, kw_only=True)
@@ -56,131 +59,113 @@ class _Walk:
     arm: ArmModel
     speed: float
     world: WorldModel
+    objections: Objections
+    checks: Checks
     q: Array = field(init=False)
+    known: bool = True
+    """Whether the arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
     motions: dict[int, Motion] = field(default_factory=dict)
-    problems: list[Diagnostic] = field(default_factory=list)
 
     def go(self) -> None:
-        if not self._start():
-            return
+        self._start()
+        ahead = {0}
         for number, step in enumerate(self.program.steps):
-            operation = step.operation
-            if isinstance(operation, Move):
-                self._move(number, step, operation)
-            elif isinstance(operation, Change):
-                self._sampled(number, step, change_samples(self.arm, self.q, operation), _facing(operation))
-            elif isinstance(operation, Turn):
-                centre = self.world.planned_position(operation.centre)
-                self._sampled(number, step, turn_samples(self.arm, self.q, centre, operation), operation.stop)
+            self.known = self.known and number in ahead
+            if isinstance(step.operation, _PLACES_THE_ARM):
+                ahead = set()
+            ahead.update(_ways(step))
+            self._step(number, step)
+            self.checks.follow(step)
 
-    def _start(self) -> bool:
+    def _step(self, number: int, step: Step) -> None:
+        operation = step.operation
+        if isinstance(operation, Move):
+            self._move(number, step, operation)
+        elif isinstance(operation, Change):
+            samples = change_samples(self.arm, self.q, operation)
+            forces = [*to_stop(_facing(operation)), *to_press(operation.press)]
+            self._sampled(
+                number, step, samples, operation.stop is not None or operation.press is not None, forces
+            )
+        elif isinstance(operation, Turn):
+            centre = self.world.planned_position(operation.centre)
+            samples = turn_samples(self.arm, self.q, centre, operation)
+            self._sampled(number, step, samples, operation.stop is not None, [])
+
+    def _start(self) -> None:
         """Begin at the rest position, or at the first goal of a program that has none."""
         goals = [s.operation.goal for s in self.program.steps if isinstance(s.operation, Move)]
         first = HOME if HOME in self.program.positions else (goals[0] if goals else None)
         self.q = (self.arm.lower + self.arm.upper) / 2
         if first is None:
-            return True
+            return
         start = solve(self.arm, self.world.planned_position(first), self.q)
         if start.q is not None:
             self.q = start.q
-            return True
-        step = next((s for s in self.program.steps if getattr(s.operation, "goal", None) == first), None)
-        if step is None:
-            step = self.program.steps[0]
-        self._unreachable(step, first, start)
-        return False
+            return
+        self.known = False
+        if first not in goals:
+            self.objections.unreachable(self.program.steps[0], first, start)
 
     def _move(self, number: int, step: Step, operation: Move) -> None:
         X_WT = self.world.planned_position(operation.goal)
         if X_WT[2, 3] < 0:
-            self._problem(
-                step, operation.goal, "hand-through-table",
-                f"the hand would be {-X_WT[2, 3] / INCH:.2f} in below the table at {operation.goal}",
-                help="the table top is z = 0; raise the position",
-            )  # fmt: skip
+            self.known = False
+            self.objections.below_table(step, operation.goal, -float(X_WT[2, 3]))
             return
         trajectory = move_trajectory(self.arm, self.q, X_WT, operation, self.speed)
         if isinstance(trajectory, IKResult):
-            self._unreachable(step, operation.goal, trajectory)
+            self.known = False
+            self.objections.unreachable(step, operation.goal, trajectory)
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
-        self.q = np.array(knots[-1])
-        self._check_stop(step, operation.stop)
+        begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is always that one
+        count = 2 + int((trajectory.duration - begin) / _LOOK)
+        q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
+        if operation.stop is None:
+            self.checks.clear(step, q)
+        self.checks.strong(step, q, to_stop(operation.stop.force if operation.stop else None))
+        self.q, self.known = np.array(knots[-1]), True
 
-    def _sampled(self, number: int, step: Step, samples: Samples | IKResult, stop: Stop | None) -> None:
-        if isinstance(samples, IKResult):
-            self._unreachable(step, step.text.split()[0], samples)
-            return
-        end = samples.q[-1] if len(samples.q) else self.q
-        height = float(forward(self.arm, end)[2, 3])
-        if height < 0 and stop is None:
-            self._problem(
-                step, step.text.split()[0], "hand-through-table",
-                f"the hand would end {-height / INCH:.2f} in below the table",
-                help="shorten the motion, or give it a STOP if it is to meet something",
-            )  # fmt: skip
-            return
-        self._check_stop(step, stop)
-        self.motions[number] = Motion(knots=(_joints(self.q), _joints(end)), times=(len(samples.q) * TICK,))
-        self.q = end
-
-    def _check_stop(self, step: Step, stop: Stop | None) -> None:
-        """A force the arm cannot exert can never stop it."""
-        if stop is None or stop.force is None:
-            return
-        torque = np.abs(jacobian(self.arm, self.q)[:3].T @ np.array(stop.force))
-        limit = np.array([joint.effort for joint in self.arm.joints])
-        if (torque > limit).any():
-            joint = int(np.argmax(torque / limit))
-            ounces = float(np.linalg.norm(stop.force)) / OUNCE_FORCE
-            self._problem(
-                step, step.text.split()[0], "stop-beyond-arm",
-                f"the arm cannot press with {ounces:.0f} oz here, so the stop would never fire",
-                note=RIDDLE if round(ounces) == 600 else None,
-                help=f"{self.arm.joints[joint].name} gives out at {ounces * limit[joint] / torque[joint]:.0f} oz",
-            )  # fmt: skip
-
-    def _unreachable(self, step: Step, word: str, failure: IKResult) -> None:
-        self._problem(
-            step, word, "unreachable-position", f"{word} cannot be reached by the {self.arm.name} arm",
-            note=failure.message(self.arm),
-        )  # fmt: skip
-
-    def _problem(
-        self,
-        step: Step,
-        word: str,
-        code: str,
-        message: str,
-        *,
-        note: str | None = None,
-        help: str | None = None,
+    def _sampled(
+        self, number: int, step: Step, samples: Samples | IKResult, guarded: bool, forces: Sequence[Force]
     ) -> None:
-        self.problems.append(
-            Diagnostic(
-                code=code, message=message, help=help, notes=(note,) if note else (),
-                primary=Label(span=_span(self.program.source, step, word)),
-            )
-        )  # fmt: skip
+        """A motion of which every set-point is there; a guarded one is meant to meet something."""
+        if isinstance(samples, IKResult):
+            if self.known:
+                self.objections.unreachable(step, step.text.split()[0], samples)
+            self.known = False
+            return
+        q = np.vstack([self.q, samples.q])
+        if self.known:
+            if not guarded:
+                self.checks.clear(step, q)
+            self.checks.strong(step, q, forces)
+        self.motions[number] = Motion(knots=(_joints(self.q), _joints(q[-1])), times=(len(samples.q) * TICK,))
+        self.q = q[-1]
 
 
-def _facing(operation: Change) -> Stop | None:
+_PLACES_THE_ARM = (Move, Change, Turn, Open, Close, Center)
+"""Operations after which the arm, or its hand, stands otherwise than before."""
+
+
+def _ways(step: Step) -> Iterator[int]:
+    """The steps that may follow a step."""
+    operation = step.operation
+    for way in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
+        if way is not None:
+            yield way
+
+
+def _facing(operation: Change) -> Vector | None:
     """The stop of a straight motion as a force along a vector, if it is one: a stop on whatever opposes it, too."""
     stop = operation.stop
     if stop is None or stop.against is None:
-        return stop
+        return None if stop is None else stop.force
     x, y, z = operation.displacement
     scale = stop.against / math.hypot(x, y, z)
-    return Stop(force=(x * scale, y * scale, z * scale))
-
-
-def _span(text: str, step: Step, word: str) -> Span:
-    """Where `word` stands on the source line of a step."""
-    source = Source(name="", text=text)
-    line = source.line_span(step.line)
-    start = text.find(word, line.start, line.end)
-    return line if start < 0 else Span(start=start, end=start + len(word))
+    return x * scale, y * scale, z * scale
 
 
 def _joints(q: Array) -> Joints:

@@ -8,6 +8,8 @@ from typing import Literal
 
 import msgspec
 
+from handeye.boxes import Box
+
 Vector = tuple[float, float, float]
 
 
@@ -280,6 +282,21 @@ class Part(Record, frozen=True, kw_only=True):
     """Box around it in part coordinates: x from, y from, x to, y to (m)."""
 
 
+class Fixture(Record, frozen=True, kw_only=True):
+    """What stands fast in the cell, as boxes."""
+
+    at: tuple[float, float, float, float]
+    """x, y, z (m) and yaw (rad) of its frame on the table."""
+    boxes: tuple[Box, ...]
+
+
+class Held(Record, frozen=True, kw_only=True):
+    """What the hand holds when it has closed at one of some positions, as boxes in the hand's frame T."""
+
+    positions: tuple[str, ...]
+    boxes: tuple[Box, ...]
+
+
 class Program(Record, frozen=True, kw_only=True):
     """A checked program."""
 
@@ -291,3 +308,7 @@ class Program(Record, frozen=True, kw_only=True):
     steps: tuple[Step, ...]
     positions: dict[str, Position]
     parts: dict[str, Part]
+    fixtures: dict[str, Fixture] = {}
+    """What no motion may lead through."""
+    held: dict[str, Held] = {}
+    """What is carried, by name."""

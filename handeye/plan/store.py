@@ -5,7 +5,7 @@ script did to the arm. What is read is checked before anything uses it.
 import hashlib
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import msgspec
 
@@ -14,6 +14,9 @@ from handeye.files import read_whole, write_whole
 from handeye.plan.migrations import migrated, oldest
 from handeye.plan.plan import VERSION, Plan
 from handeye.plan.soundness import faults
+
+_LATER: Final = ("fixtures", "held")
+"""Keys that not every plan has: what was written before they came stays the same to the byte."""
 
 
 def encode(plan: Plan) -> str:
@@ -24,8 +27,9 @@ def encode(plan: Plan) -> str:
     lines = ["{"]
     lines += [f' "{key}": {_line(value)},' for key, value in data.items()]
     lines.append(' "program": {')
-    for key, value in program.items():
-        comma = "" if key == "parts" else ","
+    program = {key: value for key, value in program.items() if value or key not in _LATER}
+    for number, (key, value) in enumerate(program.items(), 1):
+        comma = "" if number == len(program) else ","
         if isinstance(value, dict):
             body = [f'   "{name}": {_line(item)}' for name, item in value.items()]
             lines += [f'  "{key}": {{', *_separated(body), f"  }}{comma}"]

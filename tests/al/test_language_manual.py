@@ -58,8 +58,12 @@ def test_manual_explains_every_diagnostic() -> None:
     rows = re.findall(
         r"^\| `([a-z-]+)` \| (error|warning) \| (.*) \|$", MANUAL.read_text(encoding="utf-8"), re.MULTILINE
     )
-    language = {code: entry for code, entry in CODES.items() if entry.phase == "language"}
-    assert rows == [(code, entry.severity, entry.meaning) for code, entry in sorted(language.items())]
+    assert rows == [
+        (code, entry.severity, entry.meaning)
+        for phase in ("language", "planning")
+        for code, entry in sorted(CODES.items())
+        if entry.phase == phase
+    ]
 
 
 def test_every_instruction_can_be_carried_out_as_the_manual_shows_it() -> None:

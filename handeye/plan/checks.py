@@ -1,0 +1,84 @@
+"""The checks of each planned motion: what is in its way, and whether the arm is strong enough for it."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import forward
+from handeye.arm.model import ArmModel
+from handeye.plan.clearance import Surroundings, table_crossing
+from handeye.plan.grip import Grip
+from handeye.plan.objections import Objections
+from handeye.plan.program import Load, Program, Step, Vector
+from handeye.plan.strength import weakness
+from handeye.pose import Array
+
+SPARSE: Final = 8
+"""Of so many configurations of a motion, one is enough for what a load asks of the joints."""
+
+Force = tuple[str, str, Vector]
+"""A code, what the arm cannot do if it is beyond it, and the force (N) that the hand is to exert."""
+
+
+def to_stop(force: Vector | None) -> list[Force]:
+    """The force of a stop, if it is one along a vector."""
+    saying = "press with {ounces} here, so the stop would never fire"
+    return [] if force is None else [("stop-beyond-arm", saying, force)]
+
+
+def to_press(force: Vector | None) -> list[Force]:
+    """The force of a motion that presses, if it does."""
+    return [] if force is None else [("force-beyond-arm", "press with {ounces} here", force)]
+
+
+@dataclass(slots=True)
+class Checks:
+    """Follows a program step by step, and says what it finds."""
+
+    arm: ArmModel
+    program: Program
+    objections: Objections
+    _grip: Grip = field(init=False)
+    _surroundings: Surroundings = field(init=False)
+    _load: tuple[float, Step] | None = None
+    """Weight (N), and the step that says so; None once it was found too heavy."""
+
+    def __post_init__(self) -> None:
+        self._grip = Grip(self.program)
+        self._surroundings = Surroundings(self.program)
+
+    def follow(self, step: Step) -> None:
+        """What a step does to the hand, and to what is in it."""
+        self._grip.follow(step)
+        if isinstance(step.operation, Load):
+            self._load = (step.operation.weight, step) if step.operation.weight > 0 else None
+
+    def clear(self, step: Step, q: Array) -> None:
+        """Whether the hand and its load are clear of everything over configurations `q`, shape (N, 6)."""
+        X_WT, grip = forward(self.arm, q), self._grip
+        for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
+            crossing = table_crossing(X_WT, boxes) or self._surroundings.crossing(X_WT, boxes)
+            if crossing is not None:
+                self.objections.crosses(step, crossing, held, grip.taken)
+                return  # the worst of a motion is enough
+
+    def strong(self, step: Step, q: Array, forces: Sequence[Force]) -> None:
+        """Whether the arm holds its load up over configurations `q`, and can exert forces at both ends."""
+        weight = 0.0
+        if self._load is not None:
+            weight, because = self._load
+            weak = weakness(self.arm, q[::SPARSE], np.array([0.0, 0.0, weight]))
+            if weak is not None:
+                self._load = None
+                self.objections.too_weak(
+                    "load-beyond-arm", step, "hold {ounces} up on this motion", weight, weak, because
+                )
+                return
+        for code, cannot, force in forces:
+            weak = weakness(self.arm, q[[0, -1]], np.array(force), weight)
+            if weak is not None:
+                self.objections.too_weak(code, step, cannot, math.hypot(*force), weak)
+                return

@@ -1,0 +1,160 @@
+"""What the planner has to say against a motion, in the words of the script: inches, degrees, ounces, joints by name."""
+
+from dataclasses import InitVar, dataclass, field
+
+from handeye.arm.kinematics import IKResult
+from handeye.arm.model import ArmModel
+from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.plan.clearance import Crossing
+from handeye.plan.program import Move, Step
+from handeye.plan.strength import Weakness
+from handeye.source import Source, Span
+from handeye.units import DEGREE, INCH, OUNCE_FORCE
+
+RIDDLE = (
+    "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
+    "60 it must have been, for at 600 the search would never end"
+)
+"""Reference D1."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Objections:
+    """Collects them, each at the place in the text it is about."""
+
+    arm: ArmModel
+    source: InitVar[str]
+    found: list[Diagnostic] = field(default_factory=list)
+
+    _source: Source = field(init=False)
+
+    def __post_init__(self, source: str) -> None:
+        self._source = Source(name="", text=source)
+
+    def unreachable(self, step: Step, word: str, failure: IKResult) -> None:
+        """There are no joint positions for a goal, or for the way to it."""
+        if failure.along is not None:
+            self._off_the_way(step, failure, failure.along)
+        elif failure.reason == "joint limit":
+            self._joint_limit(step, f"{step.text.split()[0]} {word}", word, failure)
+        else:
+            away, help = "too near to the column of", "farther from"
+            if failure.reason == "out of reach" and failure.amount > failure.limit:
+                away, help = "beyond the reach of", "nearer to"
+            inches = f"{failure.excess / INCH:.2f} in"
+            self._add(
+                "unreachable-position", step, word, f"{word} is {inches} {away} the {self.arm.name} arm",
+                note=failure.message(self.arm), help=f"bring it at least {inches} {help} the arm",
+            )  # fmt: skip
+
+    def _off_the_way(self, step: Step, failure: IKResult, along: float) -> None:
+        word, place = _word(step), _along(step, along)
+        if failure.reason == "joint limit":
+            self._joint_limit(step, word, word, failure)
+            return
+        code, message, help = {
+            "singular": (
+                "wrist-in-line", "the hand could not keep its angles",
+                "tilt the hand a little, or go there with a `MOVE`",
+            ),
+            "too fast": (
+                "joint-too-fast", f"{self._joint(failure.joint)} would have to move too fast",
+                "move more slowly, or begin elsewhere",
+            ),
+        }.get(
+            failure.reason,
+            ("path-leaves-reach", "the hand would leave the arm's reach", "shorten the motion, or begin elsewhere"),
+        )  # fmt: skip
+        self._add(code, step, word, f"{message} {place}", note=failure.message(self.arm), help=help)
+
+    def _joint_limit(self, step: Step, motion: str, word: str, failure: IKResult) -> None:
+        beyond, limit = f"{failure.excess / DEGREE:.1f} degrees", f"{failure.limit / DEGREE:.0f} degrees"
+        help = "turn the hand otherwise: other angles O, A, T can be within the limits"
+        if failure.along is not None:
+            help = f"end the motion before it comes to its limit {_along(step, failure.along)}"
+        self._add(
+            "joint-limit", step, word,
+            f"`{motion}` would take {self._joint(failure.joint)} {beyond} beyond its limit of {limit}", help=help,
+        )  # fmt: skip
+
+    def below_table(self, step: Step, word: str, depth: float) -> None:
+        """A goal is below the table top."""
+        self._add(
+            "hand-through-table", step, word,
+            f"the hand would be {depth / INCH:.2f} in below the table at {word}",
+            help="the table top is z = 0; raise the position",
+        )  # fmt: skip
+
+    def crosses(self, step: Step, crossing: Crossing, held: str | None, grasp: Step | None) -> None:
+        """The hand, or what it holds, would go through something."""
+        what = "the hand" if held is None else f"{quoted(held)} in the hand"
+        depth = f"{crossing.depth / INCH:.2f} in"
+        if crossing.what is None:
+            code, message = "through-table", f"{what} would be {depth} below the table"
+        else:
+            code, message = "through-fixture", f"{what} would go {depth} into {quoted(crossing.what)}"
+        word, place, help = (
+            _word(step),
+            _along(step, crossing.along),
+            "go round by a position between, or higher",
+        )
+        if not isinstance(step.operation, Move):
+            help = "shorten the motion, or give it a `STOP` if it is to meet something"
+        if crossing.at_end and isinstance(step.operation, Move):
+            word, help = step.operation.goal, "raise the position, or put it elsewhere"
+            place = f"at {word}"
+        elif crossing.at_end:
+            place = f"at the end of this `{word}`"
+        self._add(
+            ("hand-" if held is None else "carries-") + code, step, word, f"{message} {place}",
+            secondary=() if held is None or grasp is None else (self._label(grasp, "taken here"),), help=help,
+        )  # fmt: skip
+
+    def too_weak(
+        self, code: str, step: Step, cannot: str, asked: float, weak: Weakness, because: Step | None = None
+    ) -> None:
+        """A force is beyond the arm; `cannot` says what it is for."""
+        ounces = asked / OUNCE_FORCE
+        riddle = code == "stop-beyond-arm" and round(ounces) == 600
+        self._add(
+            code, step, _word(step), f"the arm cannot {cannot.format(ounces=f'{ounces:.0f} oz')}",
+            secondary=() if because is None else (self._label(because, "said here"),),
+            note=RIDDLE if riddle else None,
+            help=f"{self._joint(weak.joint)} gives out at {weak.most / OUNCE_FORCE:.0f} oz",
+        )  # fmt: skip
+
+    def _joint(self, joint: int | None) -> str:
+        assert joint is not None
+        return f"joint {joint + 1} ({self.arm.joints[joint].name})"
+
+    def _label(self, step: Step, text: str) -> Label:
+        return Label(span=self._span(step, _word(step)), text=text)
+
+    def _add(
+        self, code: str, step: Step, word: str, message: str, *,
+        secondary: tuple[Label, ...] = (), note: str | None = None, help: str | None = None,
+    ) -> None:  # fmt: skip
+        primary = Label(span=self._span(step, word))
+        notes = (note,) if note else ()
+        self.found.append(
+            Diagnostic(
+                code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help
+            )
+        )
+
+    def _span(self, step: Step, word: str) -> Span:
+        """Where `word` stands on the source line of a step."""
+        line = self._source.line_span(step.line)
+        start = self._source.text.find(word, line.start, line.end)
+        return line if start < 0 else Span(start=start, end=start + len(word))
+
+
+def _word(step: Step) -> str:
+    return step.text.split()[0]
+
+
+def _along(step: Step, along: float) -> str:
+    inches = f"{along / INCH:.1f} in along"
+    if isinstance(step.operation, Move):
+        return f"{inches} its way to {step.operation.goal}"
+    return f"{inches} this `{_word(step)}`"
