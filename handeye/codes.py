@@ -1,6 +1,7 @@
 """Every kind of diagnostic there is."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Final, Literal
 
 Severity = Literal["error", "warning"]
@@ -14,14 +15,16 @@ class Code:
     meaning: str
     example: str
     phase: Literal["language", "planning", "strict"] = "language"
+    required: Mapping[str, str] = field(default_factory=dict)
+    """Files that the example requires."""
 
 
-def _error(meaning: str, example: str) -> Code:
-    return Code(severity="error", meaning=meaning, example=example)
+def _error(meaning: str, example: str, required: Mapping[str, str] | None = None) -> Code:
+    return Code(severity="error", meaning=meaning, example=example, required=required or {})
 
 
-def _warning(meaning: str, example: str) -> Code:
-    return Code(severity="warning", meaning=meaning, example=example)
+def _warning(meaning: str, example: str, required: Mapping[str, str] | None = None) -> Code:
+    return Code(severity="warning", meaning=meaning, example=example, required=required or {})
 
 
 def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
@@ -82,7 +85,9 @@ CODES: Final[dict[str, Code]] = {
     ),
     "modifier-twice": _error("a motion has two modifiers where it can have one", "STOP 9\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
-    "never-saved": _warning("a difference is restored that no SAVE keeps", "MOVE T\nRESTORE H"),
+    "never-saved": _warning(
+        "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
+    ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
     "position-twice": _error(
@@ -93,6 +98,17 @@ CODES: Final[dict[str, Code]] = {
         "\n".join(f"DEFINE M{i}\nM{i + 1}\n" for i in range(25)) + "\nDEFINE M25\nPARK\n\nM0",
     ),
     "recursive-macro": _error("a macro uses itself", "DEFINE A\nOPEN 1\nA\n\nA"),
+    "require-circle": _error(
+        "a file requires itself, or one that requires it",
+        "REQUIRE pins.al\nPARK",
+        {"pins.al": "REQUIRE gasket.al", "gasket.al": "REQUIRE pins.al"},
+    ),
+    "require-in-macro": _error("a macro requires a file", "DEFINE PINS\nREQUIRE pins.al\n\nPARK\nPINS"),
+    "required-twice": _warning(
+        "a file is required that has been read before",
+        "REQUIRE pins.al\nREQUIRE pins.al",
+        {"pins.al": "PARK"},
+    ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
     "save-without-move": _warning("no MOVE comes before a SAVE on any way to it", "CLOSE\nSAVE H"),
     "search-without-aoj": _warning("no AOJ comes after a SEARCH on any way from it", "SEARCH .07\nMOVE T"),
@@ -104,6 +120,7 @@ CODES: Final[dict[str, Code]] = {
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
     "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
+    "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force that the arm cannot exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
@@ -112,6 +129,11 @@ CODES: Final[dict[str, Code]] = {
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
     ),
     "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
+    "too-much-required": _error(
+        "too many files are required, or too large ones",
+        "REQUIRE 1.al\nPARK",
+        {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
+    ),
     "travel-without-change": _warning(
         "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
     ),
@@ -129,6 +151,7 @@ CODES: Final[dict[str, Code]] = {
     "unknown-vector": _error("a vector is neither an axis nor written with VECT", "CHANGE DOWN 1"),
     "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
+    "unreadable-file": _error("a file that is required cannot be read", "REQUIRE pins.al\nPARK"),
     "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),

@@ -3,9 +3,9 @@
 A wrong text is never an exception: checkers collect `Diagnostic`s, callers render or serialise them.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from handeye.codes import CODES, Severity
 from handeye.source import Source, Span
@@ -58,15 +58,16 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
     """The diagnostic as plain data; lines and columns from 1, `end` exclusive."""
 
     def place(label: Label) -> dict[str, object]:
-        line, column = source.position(label.span.start)
+        text, offset = source.find(label.span.start)
+        line, column = text.position(offset)
         end = column + label.span.end - label.span.start
-        return {"line": line, "column": column, "end": end, "text": label.text}
+        return {"file": text.name, "line": line, "column": column, "end": end, "text": label.text}
 
     return {
         "code": diagnostic.code,
         "severity": diagnostic.severity,
         "message": diagnostic.message,
-        "file": source.name,
+        "file": source.find(diagnostic.primary.span.start)[0].name,
         "primary": place(diagnostic.primary),
         "secondary": [place(label) for label in diagnostic.secondary],
         "notes": list(diagnostic.notes),
@@ -117,29 +118,50 @@ WIDTH: Final = 110
 
 
 def render(diagnostic: Diagnostic, source: Source) -> str:
-    """The diagnostic with its code frame, for people; no final newline."""
-    lines: dict[int, list[tuple[Label, str]]] = {}
+    """The diagnostic with its code frame, for people; no final newline. Other files come below the primary's."""
+    texts: dict[str, tuple[Source, list[_Mark]]] = {}
     for label, mark in ((diagnostic.primary, "^"), *((s, "-") for s in diagnostic.secondary)):
-        lines.setdefault(source.position(label.span.start)[0], []).append((label, mark))
-    line, column = source.position(diagnostic.primary.span.start)
-    pad = " " * len(str(max(lines)))
-    out = [
-        f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}",
-        f"{pad}┌─ {source.name}:{line}:{column}",
-        f"{pad}│",
-    ]
-    previous = None
-    for number in sorted(lines):
-        if previous is not None and number > previous + 1:
-            out.append(f"{pad}·")
-        text, rows = _frame(source, number, lines[number])
-        out.append(f"{number:>{len(pad)}}│ {text}".rstrip())
-        out.extend(f"{pad}│ {row}" for row in rows)
-        previous = number
-    out.extend(f"{pad}= note: {note}" for note in diagnostic.notes)
+        text, start = source.find(label.span.start)
+        line, column = text.position(start)
+        marked = _Mark(line, column - 1, label.span.end - label.span.start, mark, label.text)
+        texts.setdefault(text.key, (text, []))[1].append(marked)
+    pad = " " * len(str(max(mark.line for _, marks in texts.values() for mark in marks)))
+    out = [f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"]
+    for number, (text, marks) in enumerate(texts.values()):
+        corner, name = "├" if number else "┌", _visible(text.name)[0]
+        out += [f"{pad}{corner}─ {name}:{marks[0].line}:{marks[0].column + 1}", f"{pad}│"]
+        out += _lines(text, marks, pad)
+    out.extend(f"{pad}= note: {_visible(note)[0]}" for note in diagnostic.notes)
     if diagnostic.help is not None:
         out.append(f"{pad}= help: {diagnostic.help}")
     return "\n".join(out)
+
+
+class _Mark(NamedTuple):
+    """Characters of a line to be marked, the first of them counted from 0, and what is said of them."""
+
+    line: int
+    column: int
+    length: int
+    mark: str
+    text: str
+
+
+def _lines(source: Source, marks: Sequence[_Mark], pad: str) -> Iterator[str]:
+    """The marked lines of one text."""
+    previous = None
+    for number in sorted({mark.line for mark in marks}):
+        if previous is not None and number > previous + 1:
+            yield f"{pad}·"
+        text, rows = _frame(source.line(number), [mark for mark in marks if mark.line == number])
+        yield f"{number:>{len(pad)}}│ {text}".rstrip()
+        yield from (f"{pad}│ {row}" for row in rows)
+        previous = number
+
+
+def visible(text: str) -> str:
+    """Lines of text as a terminal may show them: what would steer it is shown as symbols."""
+    return "\n".join(_visible(line)[0] for line in text.split("\n"))
 
 
 def _visible(text: str) -> tuple[str, list[int]]:
@@ -157,14 +179,14 @@ def _visible(text: str) -> tuple[str, list[int]]:
     return shown, columns
 
 
-def _frame(source: Source, number: int, labels: Sequence[tuple[Label, str]]) -> tuple[str, list[str]]:
+def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
     """A source line, cut to a width, and the rows of marks and words under it."""
-    shown, columns = _visible(source.line(number))
+    shown, columns = _visible(line)
     marks = []
-    for label, mark in labels:
-        start = min(source.position(label.span.start)[1] - 1, len(columns) - 1)
-        end = min(start + label.span.end - label.span.start, len(columns) - 1)
-        marks.append((columns[start], max(columns[end], columns[start] + 1), mark, label.text))
+    for label in labels:
+        start = min(label.column, len(columns) - 1)
+        end = min(start + label.length, len(columns) - 1)
+        marks.append((columns[start], max(columns[end], columns[start] + 1), label.mark, label.text))
     marks.sort(key=lambda m: (m[0], m[2] == "^"))
     cut = max(0, marks[0][0] - WIDTH // 2) if len(shown) > WIDTH else 0
     text = ("…" if cut else "") + shown[cut : cut + WIDTH] + ("…" if len(shown) > cut + WIDTH else "")

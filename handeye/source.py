@@ -3,6 +3,7 @@
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from pathlib import Path
 from typing import Final
 
@@ -23,10 +24,38 @@ class Span:
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """A named text. Lines and columns count from 1."""
+    """A named text, with the texts it requires. Lines and columns count from 1, in its own text."""
 
     name: str
     text: str
+    key: str = ""
+    """What a required text is called from the folder of the text that all are required by; empty: that text."""
+    problem: str = ""
+    """Why a required text could not be read."""
+    required: "tuple[Source, ...]" = ()
+    """Offsets of the whole go on through them, in this order, each text one character behind the one before."""
+
+    @property
+    def texts(self) -> "tuple[Source, ...]":
+        """Its own text, and those required."""
+        return self, *self.required
+
+    def find(self, offset: int) -> "tuple[Source, int]":
+        """The text that an offset of the whole lies in, and the offset in that text alone."""
+        number = bisect_right(self._begins, offset) - 1
+        return self.texts[number], offset - self._begins[number]
+
+    def begin(self, key: str) -> int:
+        """The offset of the whole at which a text begins.
+
+        Raises:
+            StopIteration: there is no text of that key.
+        """
+        return next(begin for begin, text in zip(self._begins, self.texts, strict=True) if text.key == key)
+
+    @cached_property
+    def _begins(self) -> list[int]:
+        return [0, *accumulate(len(text.text) + 1 for text in self.texts[:-1])]
 
     @cached_property
     def _starts(self) -> list[int]:
@@ -50,6 +79,12 @@ class Source:
         text = self.line(number)
         start = self._starts[number - 1]
         return Span(start=start + len(text) - len(text.lstrip()), end=start + len(text.rstrip()))
+
+
+def line_name(line: int, file: str = "") -> str:
+    """`12`, or `pins.al:12` in a required file."""
+    shown = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in file)
+    return f"{shown}:{line}" if file else f"{line}"
 
 
 def read_source(path: str | Path) -> Source:

@@ -93,6 +93,8 @@ def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
         (("--stage", "feel", "--to", "feel"), "--from and --to do not go with it"),
         (("--until", "99"), "99"),
         (("--break", "NOWHERE"), "NOWHERE"),
+        (("--stage", ""), "there is no stage"),
+        (("--from", "3", "--to", "1"), "the run begins with “feel”, and “to and fro” comes before that"),
         (("--break", "error:99"), "99"),
         (("--on-stop", "sleep"), "sleep"),
         (("--on-stop", "retry:x"), "retry:x"),
@@ -115,6 +117,39 @@ def test_checkpoints_of_another_plan_end_with_two(command: Command, planned: Pla
 
 
 # -- stopping and stepping ----------------------------------------------------------------------------
+
+
+def test_a_wrong_option_costs_nobody_the_record_of_a_run(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    assert command("run", plan, "--out", "it")[0] == 0
+    before = {file: file.read_bytes() for file in Path("it").rglob("*.*")}
+    for words in (("--on-stop", "sleep"), ("--step", "--on-stop", "sleep"), ("--seed", "1")):
+        assert command("run", plan, "--out", "it", *words)[0] == 2
+    assert {file: file.read_bytes() for file in Path("it").rglob("*.*")} == before
+
+
+def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, planned: Planned) -> None:
+    assert command("run", planned(SCRIPT), "--to", "2", "--out", "it")[0] == 0
+    code, _, err = command("resume", "it", "--to", "1")
+    assert (code, "the run begins with “feel”, and “to and fro” comes before that" in err) == (2, True)
+
+
+def test_a_break_leaves_a_checkpoint_to_go_on_from_even_without_a_folder(
+    command: Command, planned: Planned
+) -> None:
+    code, _, err = command("run", planned(SCRIPT), "--break", "8", "--seed", "3")
+    (left,) = Path().glob("*.checkpoint")
+    assert (code, f"go on with: handeye resume {left}" in err) == (0, True)
+    assert "-3-" in left.name
+    assert command("resume", str(left), "--no-judge")[0] == 0
+
+
+def test_leaving_a_run_that_has_ended_leaves_nothing_behind(command: Command, planned: Planned) -> None:
+    before = sorted(Path().iterdir())
+    plan = planned("OPEN 1\n")
+    made = sorted(Path().iterdir())
+    assert command("run", plan, "--step", typed="continue\nquit\n")[0] == 0
+    assert sorted(Path().iterdir()) == made != before
 
 
 @pytest.mark.parametrize(
@@ -143,7 +178,7 @@ def test_stepping_from_standard_input_answers_every_command(command: Command, pl
 def test_stepping_as_json_gives_one_object_a_line(command: Command, planned: Planned) -> None:
     _, out, _ = command("run", planned(SCRIPT), "--step", "--json", typed="step\nshow\nstage\nquit\n")
     replies = [json.loads(line) for line in out.splitlines()[:4]]
-    assert all(isinstance(reply, dict) for reply in replies)
+    assert [reply["command"] for reply in replies] == ["step", "show", "stage", "quit"]
 
 
 def test_a_stop_ends_with_one_and_can_be_tried_again(command: Command, planned: Planned) -> None:
@@ -270,6 +305,13 @@ def test_a_trace_tells_what_happened(command: Command, folder: Path, what: str) 
     assert code == 0
     assert "CHANGE  [0 0 -1] .3" in out
     assert "error 23 occurred" in out
+
+
+def test_what_a_trace_says_cannot_steer_a_terminal(command: Command, folder: Path) -> None:
+    told = (folder / "events.jsonl").read_bytes()
+    Path("events.jsonl").write_bytes(told.replace(b'"OPEN    1"', b'"OPEN    1\\u001b[31m"'))
+    code, out, _ = command("trace", "show", "events.jsonl")
+    assert (code, "OPEN    1␛[31m" in out, "\x1b" in out) == (0, True, False)
 
 
 def test_statistics_count_each_stage(command: Command, folder: Path) -> None:

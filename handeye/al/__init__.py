@@ -4,5 +4,15 @@ from handeye.al.compiler import compile_text
 from handeye.al.extensions import extensions
 from handeye.al.formatter import format_text
 from handeye.al.instructions import INSTRUCTIONS, manual
+from handeye.al.sewing import read_script, sewn, sewn_of
 
-__all__ = ["INSTRUCTIONS", "compile_text", "extensions", "format_text", "manual"]
+__all__ = [
+    "INSTRUCTIONS",
+    "compile_text",
+    "extensions",
+    "format_text",
+    "manual",
+    "read_script",
+    "sewn",
+    "sewn_of",
+]

@@ -3,11 +3,13 @@
 from pathlib import PurePath
 
 from handeye.al.flow import check_flow
+from handeye.al.form import MISSING
 from handeye.al.lower import lower
 from handeye.al.macros import expand
 from handeye.al.names import all_statements, check_names
 from handeye.al.operations import position
-from handeye.al.parser import parse
+from handeye.al.parser import parse_whole
+from handeye.al.restores import check_restores
 from handeye.al.unused import check_unused
 from handeye.al.vectors import with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
@@ -17,22 +19,26 @@ from handeye.source import Source, Span
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
-    """The program of a text in the arm language, and what there is to say about it.
+    """The program of a text in the arm language, and what there is to say about it; spans are of the whole.
 
-    The program has the taught positions and parts in it, and those the text adds. There is none if any
-    diagnostic is an error. Diagnostics are sorted by position, at most `diagnostics.LIMIT`.
+    What the text requires is in `source.required`, where `sewing.sewn` puts it. The program has the taught positions
+    and parts in it, and those the text adds. There is none if any diagnostic is an error. Diagnostics are sorted by
+    position, at most `diagnostics.LIMIT`.
     """
-    script, found = parse(source.text)
-    if len(found) >= LIMIT:
+    script, found = parse_whole(source)
+    if any(d.code in MISSING for d in found):
+        return None, arranged(d for d in found if d.code != "unknown-instruction")
+    if sum(d.severity == "error" for d in found) >= LIMIT:
         return None, arranged(found)
     found += check_names(script, taught)
-    lowered = lower(expand(with_vectors(script), found.append), source.text, found.append)
+    lowered = lower(expand(with_vectors(script), found.append), source, found.append)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
         found += check_flow(lowered.steps, lowered.origins)
-        lost = {source.position(d.primary.span.start)[0] for d in found if d.code == "unreachable-code"}
-        found += [d for d in check_unused(script) if source.position(d.primary.span.start)[0] not in lost]
+        found += check_restores(lowered)
+        lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
+        found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
     if has_errors(found):
         return None, arranged(found)
     written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]
@@ -46,8 +52,20 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         parts=dict(taught.parts),
         fixtures=dict(taught.fixtures),
         held=dict(taught.held),
+        required={text.key: text.text for text in source.required},
     )
     return program, arranged(found)
+
+
+def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
+    """The text a diagnostic is about, and the line in it."""
+    text, offset = source.find(diagnostic.primary.span.start)
+    return text.key, text.position(offset)[0]
+
+
+def _is_for_us(source: Source, unused: Diagnostic) -> bool:
+    """A required file may make things for other scripts; what it jumps to is its own."""
+    return unused.code == "unused-label" or not _line(source, unused)[0]
 
 
 def _empty() -> Diagnostic:

@@ -4,21 +4,21 @@ from collections.abc import Iterator
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.names import all_statements, pairs
-from handeye.al.parser import parse
+from handeye.al.parser import parse_whole
 from handeye.al.syntax import Number
 from handeye.diagnostics import Diagnostic, Label, arranged, quoted
-from handeye.source import Span
+from handeye.source import Source, Span
 
 _AGAINST = "the period stops on a vector: `STOP [0 0 -50]`"
 
 
-def extensions(text: str) -> list[Diagnostic]:
-    """An error for each word and operand of a text that is ours; of what can be read of it."""
-    return arranged(_found(text))
+def extensions(source: Source) -> list[Diagnostic]:
+    """An error for each word and operand of a text that is ours, required texts included; of what can be read."""
+    return arranged(_found(source))
 
 
-def _found(text: str) -> Iterator[Diagnostic]:
-    for statement in all_statements(parse(text)[0]):
+def _found(source: Source) -> Iterator[Diagnostic]:
+    for statement in all_statements(parse_whole(source)[0]):
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
         if statement.word is None or definition is None:
             continue

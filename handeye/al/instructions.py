@@ -355,6 +355,13 @@ _TABLE = (
         ours=True,
     ),
     Instruction(
+        op="REQUIRE",
+        group=RUN,
+        help="read a file of instructions, as if its lines stood here; from the folder of the text that says so",
+        operands=(Operand(name="file", takes=(Text,), free=True),),
+        role=Role.DECLARATION,
+    ),
+    Instruction(
         op="STAGE",
         group=RUN,
         help="begin a stage of the work, under this name in the reports",

@@ -13,6 +13,7 @@ from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
+from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
@@ -28,9 +29,11 @@ class Lowered:
     steps: tuple[Step, ...]
     origins: tuple[Statement, ...]
     """The statement each step comes from."""
+    shifts: tuple[tuple[Statement, ...], ...]
+    """The RESTOREs of each step."""
 
 
-def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
+def lower(placed: Sequence[Placed], source: Source, report: Report) -> Lowered:
     """Stages and steps of an expanded program; worth something only if no error was reported."""
     lowering = _Lowering(report=report)
     for item in placed:
@@ -40,18 +43,25 @@ def lower(placed: Sequence[Placed], text: str, report: Report) -> Lowered:
     targets = [lowering.link(index) for index in range(len(drafts))]
     lowering.mark_searching()
     steps = tuple(
-        Step(
-            operation=draft.operation,
-            stage=draft.stage,
-            line=draft.statement.line,
-            text=text[draft.statement.span.start : draft.statement.span.end],
-            next=target,
-        )
+        _step(source, draft.statement, draft.operation, draft.stage, target)
         for draft, target in zip(drafts, targets, strict=True)
         if draft.operation is not None
     )
-    origins = tuple(draft.statement for draft in drafts if draft.operation is not None)
-    return Lowered(stages=tuple(lowering.stages), steps=steps, origins=origins)
+    kept = [draft for draft in drafts if draft.operation is not None]
+    return Lowered(
+        stages=tuple(lowering.stages), steps=steps, origins=tuple(draft.statement for draft in kept),
+        shifts=tuple(tuple(draft.shifts) for draft in kept),
+    )  # fmt: skip
+
+
+def _step(
+    source: Source, statement: Statement, operation: AnyOperation, stage: int, target: int | None
+) -> Step:
+    text, start = source.find(statement.span.start)
+    said = text.text[start : start + statement.span.end - statement.span.start]
+    return Step(
+        operation=operation, stage=stage, file=text.key, line=statement.line, text=said, next=target
+    )  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -65,6 +75,7 @@ class _Draft:
     """None if the statement is broken."""
     modifier: Placed | None
     """The first of its modifiers."""
+    shifts: list[Statement] = field(default_factory=list)
 
     @property
     def word(self) -> str:
@@ -75,7 +86,8 @@ class _Draft:
 class _Lowering:
     report: Report
     drafts: list[_Draft] = field(default_factory=list)
-    stages: list[str] = field(default_factory=list)
+    stages: dict[str, Span] = field(default_factory=dict)
+    """Their names, and where they stand."""
     stage: int = 0
     labels: dict[tuple[Call, str], tuple[int, Name]] = field(default_factory=dict)
     pending: list[Placed] = field(default_factory=list)
@@ -125,11 +137,16 @@ class _Lowering:
         self.shiftable = False
 
     def declare(self, statement: Statement) -> None:
+        assert statement.word is not None
         name = statement.operands[0]
-        if isinstance(name, Text):
-            if name.text not in self.stages:
-                self.stages.append(name.text)
-            self.stage = self.stages.index(name.text)
+        if statement.word.text == "STAGE" and isinstance(name, Text):
+            if name.text in self.stages:
+                first = Label(span=self.stages[name.text], text="first here")
+                message = f"two stages have the name {quoted(name.text)}"
+                help = "give each a name of its own: runs are told, stopped and gone on with by it"
+                self.problem("stage-twice", message, name, first, help=help)
+            self.stages.setdefault(name.text, name.span)
+            self.stage = list(self.stages).index(name.text)
 
     def restore(self, statement: Statement) -> None:
         assert statement.word is not None
@@ -139,6 +156,7 @@ class _Lowering:
         elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
             shifts = (*move.restore, restore(statement))
             self.drafts[-1].operation = msgspec.structs.replace(move, restore=shifts)
+            self.drafts[-1].shifts.append(statement)
 
     def step(self, item: Placed, role: Role) -> None:
         statement = item.statement
@@ -156,7 +174,7 @@ class _Lowering:
 
     def draft(self, item: Placed, made: AnyOperation | None) -> None:
         if not self.stages:
-            self.stages.append(FIRST_STAGE)
+            self.stages[FIRST_STAGE] = item.statement.span
         modifier = self.pending[0] if self.pending else None
         self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier))
 
@@ -278,7 +296,9 @@ class _Lowering:
             help="jump over both with the opposite test and `JUMP`",
         )
 
-    def problem(self, code: str, message: str, at: Name, *secondary: Label, help: str | None = None) -> None:
+    def problem(
+        self, code: str, message: str, at: Name | Text, *secondary: Label, help: str | None = None
+    ) -> None:
         primary = Label(span=at.span)
         self.report(Diagnostic(code=code, message=message, primary=primary, secondary=secondary, help=help))
 

@@ -42,8 +42,8 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
 
 
 def _references(statements: list[Statement]) -> Iterator[tuple[Name, Refers]]:
-    """Every use of a name, in the order of the text."""
-    for statement in sorted(statements, key=lambda s: s.line):
+    """Every use of a name, in the order of the texts."""
+    for statement in sorted(statements, key=lambda s: s.span):
         for operand, value in pairs(statement):
             if isinstance(value, Name) and operand.refers in _CODES:
                 yield value, operand.refers

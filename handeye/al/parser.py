@@ -4,21 +4,29 @@ from dataclasses import dataclass, field, replace
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands
+from handeye.al.requirements import Requirements
 from handeye.al.scanner import Kind, Line, Token, scan
-from handeye.al.syntax import Macro, Name, Script, Statement
+from handeye.al.sewing import REQUIRE
+from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.source import Span
+from handeye.source import Source, Span
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
-    """The tree of a text and what is wrong with its form; reading ends after `LIMIT` mistakes."""
-    lines = scan(text)
-    parser = _Parser(macro_names=_macro_names(lines))
-    for line in lines:
-        parser.line(line)
-        if len(parser.diagnostics) >= LIMIT:
-            break
-    parser.end()
+    """The tree of a text alone and what is wrong with its form; reading ends after `LIMIT` mistakes."""
+    return _parsed(Source(name="", text=text), None)
+
+
+def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
+    """The tree of a text, that of a required one where it is required, and what is wrong with their form."""
+    return _parsed(source, Requirements(source))
+
+
+def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
+    texts = {text.key: scan(text.text, source.begin(text.key)) for text in source.texts}
+    names = {name for lines in texts.values() for name in _macro_names(lines)}
+    parser = _Parser(texts=texts, macro_names=names, requirements=requirements)
+    parser.read(source)
     return Script(statements=tuple(parser.statements), macros=parser.macros), parser.diagnostics
 
 
@@ -34,13 +42,30 @@ def _macro_names(lines: list[Line]) -> set[str]:
 
 @dataclass(slots=True)
 class _Parser:
+    texts: dict[str, list[Line]]
     macro_names: set[str]
+    requirements: Requirements | None
+    """None: what is required is not read."""
+    errors: int = 0
     statements: list[Statement] = field(default_factory=list)
     macros: dict[str, Macro] = field(default_factory=dict)
     diagnostics: list[Diagnostic] = field(default_factory=list)
     opened: Name | None = None
     """The macro whose body is being read."""
     body: list[Statement] = field(default_factory=list)
+
+    @property
+    def full(self) -> bool:
+        """There are as many errors as anybody reads."""
+        return self.errors >= LIMIT
+
+    def read(self, source: Source) -> None:
+        """A text from its beginning to its end."""
+        for line in self.texts[source.key]:
+            self.line(line)
+            if self.full:
+                break
+        self.end()
 
     def line(self, line: Line) -> None:
         if line.is_blank and self.opened is not None:
@@ -53,12 +78,31 @@ class _Parser:
                 # They belong to what follows the macro.
                 self.statements.append(self.statement(line, labels, ()))
         elif line.tokens:
-            (self.statements if self.opened is None else self.body).append(
-                self.statement(line, labels, tokens)
+            statement = self.statement(line, labels, tokens)
+            (self.statements if self.opened is None else self.body).append(statement)
+            if statement.word is not None and statement.word.text == REQUIRE and not statement.broken:
+                self.require(statement.word, statement.operands[0])
+
+    def require(self, word: Name, file: Value | None) -> None:
+        assert isinstance(file, Text)
+        if self.opened is not None:
+            self.report(
+                "require-in-macro",
+                "a macro cannot require a file",
+                word.span,
+                help="require it before the macro",
             )
+            return
+        found = None if self.requirements is None else self.requirements.find(file)
+        if isinstance(found, Diagnostic):
+            self.tell(found)
+        elif found is not None and self.requirements is not None:
+            self.requirements.reading.append(found.key)
+            self.read(found)
+            self.requirements.reading.pop()
 
     def end(self) -> None:
-        if self.opened is not None and len(self.diagnostics) < LIMIT:
+        if self.opened is not None and not self.full:
             self.unterminated("the text ends before it does")
         self.close()
 
@@ -81,12 +125,7 @@ class _Parser:
             return
         name = Name(tokens[1].text.upper(), tokens[1].span)
         if len(tokens) > 2:
-            self.report(
-                "too-many-operands",
-                "`DEFINE` takes a name only",
-                Span(start=tokens[2].start, end=tokens[-1].end),
-                help="the instructions of a macro stand on the lines below",
-            )
+            self.beyond(name, tokens[2:])
         elif name.text in INSTRUCTIONS or name.text == "DEFINE":
             self.report("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span)
         elif name.text in self.macros:
@@ -95,6 +134,15 @@ class _Parser:
                 "macro-twice", f"macro {quoted(name.text)} is defined twice", name.span, secondary=(first,)
             )
         self.opened = name
+
+    def beyond(self, name: Name, rest: tuple[Token, ...]) -> None:
+        """More than a name behind a DEFINE: an instruction, or arguments."""
+        message, help = f"macro {quoted(name.text)} can have no arguments", "write a macro for each use of it"
+        if rest[0].text.upper() in INSTRUCTIONS:
+            message = "`DEFINE` takes a name only"
+            help = "the instructions of a macro stand on the lines below"
+        span = Span(start=rest[0].start, end=rest[-1].end)
+        self.report("too-many-operands", message, span, help=help)
 
     def unterminated(self, why: str) -> None:
         if self.opened is None or not self.opened.text:
@@ -123,7 +171,7 @@ class _Parser:
         try:
             operands = read_operands(definition, head, rest)
         except Mistake as mistake:
-            self.diagnostics.append(mistake.diagnostic)
+            self.tell(mistake.diagnostic)
             # What it would have named is not missing as well.
             named = tuple(Name(t.text, t.span) for t in rest[:1] if t.kind is Kind.NAME)
             broken = _statement(labels, word, line, span, broken=True)
@@ -162,9 +210,11 @@ class _Parser:
         secondary: tuple[Label, ...] = (),
     ) -> None:
         primary = Label(span=span, text=text)
-        self.diagnostics.append(
-            Diagnostic(code=code, message=message, primary=primary, help=help, secondary=secondary)
-        )
+        self.tell(Diagnostic(code=code, message=message, primary=primary, help=help, secondary=secondary))
+
+    def tell(self, diagnostic: Diagnostic) -> None:
+        self.errors += diagnostic.severity == "error"
+        self.diagnostics.append(diagnostic)
 
 
 def _statement(

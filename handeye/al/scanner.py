@@ -73,10 +73,9 @@ _TOKEN = re.compile(
 _KINDS = {kind.name: kind for kind in Kind}
 
 
-def scan(text: str) -> list[Line]:
-    """The lines of a text; a final newline starts no line of its own."""
+def scan(text: str, start: int = 0) -> list[Line]:
+    """The lines of a text that begins at an offset; a final newline starts no line of its own."""
     lines: list[Line] = []
-    start = 0
     pieces = text.split("\n")
     if pieces[-1] == "":
         pieces.pop()

@@ -57,6 +57,7 @@ class Statement:
     broken: bool
     """A mistake in it has been reported; `operands` is empty."""
     line: int = field(compare=False)
+    """In its own text; spans are of the whole."""
     span: Span = field(compare=False)
     """From the instruction to the last operand."""
 
@@ -72,7 +73,7 @@ class Macro:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Script:
-    """A whole text."""
+    """A whole text, with what it requires."""
 
     statements: tuple[Statement, ...]
     macros: dict[str, Macro]

@@ -8,7 +8,7 @@ from cyclopts import App, CycloptsError
 
 from handeye import __version__
 from handeye.cli import editing, measuring, plans, runs, scripts, traces
-from handeye.cli.common import notes
+from handeye.cli.common import complain, notes
 from handeye.errors import HandeyeError
 
 app = App(
@@ -28,7 +28,7 @@ def main() -> NoReturn:
     except CycloptsError:
         sys.exit(2)
     except HandeyeError as error:
-        notes.print(f"handeye: {error}", style="red", markup=False, soft_wrap=True)
+        complain(error)
         sys.exit(2)
     except KeyboardInterrupt:
         notes.print("\nhandeye: interrupted", markup=False)
@@ -37,6 +37,6 @@ def main() -> NoReturn:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(141)
     except OSError as error:  # a path that is too long, a folder that may not be looked into
-        notes.print(f"handeye: {error.filename or error}: {error.strerror}", markup=False, soft_wrap=True)
+        complain(f"{error.filename or error}: {error.strerror}")
         sys.exit(2)
     sys.exit(code if isinstance(code, int) else 0)

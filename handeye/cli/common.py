@@ -6,13 +6,13 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 from rich.console import Console
 
-from handeye.al import compile_text
-from handeye.diagnostics import Diagnostic, as_json
+from handeye.al import compile_text, read_script
+from handeye.diagnostics import Diagnostic, as_json, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
 from handeye.plan.taught import Taught, load_taught
-from handeye.source import Source, read_source
+from handeye.source import Source
 
 CameraKind = Literal["auto", "gl", "ray"]
 Seed = Annotated[int, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
@@ -27,6 +27,21 @@ Out = Annotated[
 
 screen = Console(highlight=False, emoji=False)
 notes = Console(stderr=True, highlight=False, emoji=False)
+
+
+def say(text: str, to: Console = screen) -> None:
+    """Print plain text, which may come from a file that nobody trusts."""
+    to.print(visible(text), markup=False, soft_wrap=True)
+
+
+def note(text: str) -> None:
+    """Say something to the person at the terminal that is not the answer."""
+    say(text, notes)
+
+
+def complain(error: object) -> None:
+    """Say why nothing comes of a command."""
+    notes.print(visible(f"handeye: {error}"), style="red", markup=False, soft_wrap=True)
 
 
 def world(seed: int) -> int:
@@ -49,7 +64,7 @@ def compiled(file: Path) -> Plan:
     from handeye.arm.stanford import STANFORD
     from handeye.plan.planner import make_plan
 
-    source = read_source(file)
+    source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
         made, problems = make_plan(program, STANFORD)

@@ -6,13 +6,14 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
+from handeye.al.form import check_form
 from handeye.al.formatter import format_text
-from handeye.al.parser import parse
-from handeye.cli.common import notes, screen, show
+from handeye.al.sewing import read_script
+from handeye.cli.common import note, say, show
 from handeye.diagnostics import has_errors
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
-from handeye.source import Source, read_source
+from handeye.source import Source
 
 STANDARD_INPUT = Path("-")
 
@@ -36,28 +37,28 @@ def fmt(
         raise InvalidInput("fmt needs the name of a script, or - for standard input")
     code = 0
     for file in files:
-        source = _standard_input() if file == STANDARD_INPUT else read_source(file)
+        source = _standard_input() if file == STANDARD_INPUT else read_script(file)
         code = max(code, _fmt(file, source, check=check))
     return code
 
 
 def _fmt(file: Path, source: Source, *, check: bool) -> int:
-    mistakes = parse(source.text)[1]
+    mistakes = check_form(source)
     if has_errors(mistakes):
         show(mistakes, source, json=False)
-        notes.print(f"{source.name} is left as it is", markup=False, soft_wrap=True)
+        note(f"{source.name} is left as it is")
         return 2
     tidy = format_text(source.text)
     if check:
         if tidy != source.text:
-            screen.print(f"{source.name} would change", markup=False, soft_wrap=True)
+            say(f"{source.name} would change")
         return int(tidy != source.text)
     if file == STANDARD_INPUT:
         sys.stdout.buffer.write(tidy.encode())
         sys.stdout.flush()
     elif tidy != source.text:
         write_whole(file, tidy.encode())
-        screen.print(f"{source.name}: tidied", markup=False, soft_wrap=True)
+        say(f"{source.name}: tidied")
     return 0
 
 
@@ -75,7 +76,7 @@ def explain(word: str | None = None) -> int:
     from handeye.editor.explain import explanation, listing
 
     text = listing() if word is None else explanation(word)
-    screen.print(text, markup=False, soft_wrap=True)
+    say(text)
     return 0
 
 

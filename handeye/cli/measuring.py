@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Seed, compiled, notes, screen, world
+from handeye.cli.common import Camera, Seed, compiled, notes, say, screen, world
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.resources import plans
@@ -123,7 +123,7 @@ def assembly_trials(
         if result.exit_code == 3:
             detail = "; ".join(f"{c.sentence}: {c.value:.3g}" for c in result.referee.values() if not c.ok)
         speed = f"{result.timing.real_time_factor:4.1f}x"
-        screen.print(f"seed {result.seed:4}  {word:10}  {speed}  {detail}", markup=False, soft_wrap=True)
+        say(f"seed {result.seed:4}  {word:10}  {speed}  {detail}")
     done = sum(result.exit_code == 0 for result in results)
     silent = sum(result.exit_code == 3 for result in results)
     screen.print(f"{done} of {len(results)} assembled, {silent} silent failures")
@@ -193,8 +193,11 @@ def _range(text: str) -> list[int]:
 
 def breaking_trials(
     kind: Annotated[
-        Literal["killed", "interrupted", "alone"],
-        Parameter(help="Killed in each stage, Ctrl-C at random moments, or each stage by itself."),
+        Literal["killed", "interrupted", "alone", "stepped"],
+        Parameter(
+            help="Killed in each stage, Ctrl-C at random moments, each stage by itself, or stepped through with "
+            "ten ways back."
+        ),
     ],
     *,
     seed: Seed = 0,
@@ -205,21 +208,24 @@ def breaking_trials(
 
     Exit code 0: all of them do; 1: not all.
     """
-    from handeye.trials import breaking
+    from handeye.trials import breaking, detours
 
+    _some(jobs, "process")
+    _some(count, "time")
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folder = Path(name)
         whole = breaking.whole_run(folder / "whole", world(seed))
         ways = {
-            "killed": lambda: breaking.killed(whole, folder, _some(jobs, "process")),
-            "interrupted": lambda: breaking.interrupted(whole, folder, _some(count, "time"), jobs),
+            "killed": lambda: breaking.killed(whole, folder, jobs),
+            "interrupted": lambda: breaking.interrupted(whole, folder, count, jobs),
             "alone": lambda: breaking.alone(whole, folder, jobs),
+            "stepped": lambda: detours.stepped(whole, folder),
         }
         verdicts = []
         for verdict in ways[kind]():
             verdicts.append(verdict)
             said = "; ".join(verdict.faults) or "as if nothing had happened"
-            screen.print(f"{kind} {verdict.name}: {said}", markup=False, soft_wrap=True)
+            say(f"{kind} {verdict.name}: {said}")
     good = sum(not verdict.faults for verdict in verdicts)
     screen.print(f"{good} of {len(verdicts)}")
     return 0 if good == len(verdicts) else 1

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, screen
+from handeye.cli.common import Json, say
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.plan.store import read_plan
@@ -53,7 +53,7 @@ def inspect(
         _json(msgspec.structs.replace(found, stages=kept))
     else:
         for line in inspection_text(inspection(plan), number):
-            screen.print(line, markup=False, soft_wrap=True)
+            say(line)
     return 0
 
 
@@ -70,7 +70,7 @@ def diff(before: Path, after: Path, *, json: Json = False) -> int:
         _json(found)
     else:
         for line in difference_text(found):
-            screen.print(line, markup=False, soft_wrap=True)
+            say(line)
     return 0 if found.same else 1
 
 

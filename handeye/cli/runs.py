@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, Seed, compiled, notes, world
+from handeye.cli.common import Camera, Json, Out, Seed, compiled, note, world
 from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
 from handeye.plan.store import read_plan
@@ -22,7 +22,8 @@ Break = Annotated[
     list[str] | None,
     Parameter(
         name="--break", negative="", consume_multiple=False,
-        help="Stop at a label, a stage, a line or an instruction word, or behind `error:N`; may be repeated.",
+        help="Stop at a label, a stage, a line (58, or pins.al:3), an instruction word, or behind `error:N`; "
+        "may be repeated.",
     ),
 ]  # fmt: skip
 Step = Annotated[
@@ -105,10 +106,11 @@ def run(
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
     start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera))
+    stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
+    _check_order(plan, first, to)
     kept = _checkpoint_folder(checkpoints, out)
     if stage is not None or first is not None:
         start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
-    stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
     return work(
         Job(
             start=start,
@@ -116,6 +118,7 @@ def run(
             checkpoints=None if checkpoints is None else kept,
             stops=stops,
             breaks=breaks or (),
+            halfway=not step and bool(breaks or until),
             step=step,
             on_stop=on_stop,
             json=json,
@@ -155,12 +158,13 @@ def resume(
             raise InvalidInput(f"{path} is the folder of a run and is gone on with; --out goes with a file")
         folder, start = open_again(path)
         for fault in folder.kept.damaged():
-            notes.print(f"left out: {fault}", markup=False, soft_wrap=True)
+            note(f"left out: {fault}")
     else:
         start = read_checkpoint(path)
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
-    notes.print(f"going on from step {max(start.position, 0)}: {stage}", markup=False, soft_wrap=True)
+    note(f"going on from step {max(start.position, 0)}: {stage}")
     stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
+    _check_order(start.setup.plan, start.stage, to)
     return work(
         Job(
             start=start,
@@ -168,6 +172,7 @@ def resume(
             out=out,
             stops=stops,
             breaks=breaks or (),
+            halfway=not step and bool(breaks or until),
             step=step,
             on_stop=on_stop,
             json=json,
@@ -188,6 +193,18 @@ def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) 
     if until is not None:
         stops.append(UntilStep(step_number(until, plan)))
     return stops
+
+
+def _check_order(plan: Plan, first: str | None, last: str | None) -> None:
+    """Raises InvalidInput if a run that begins with one stage cannot end with another."""
+    from handeye.stepping.breakpoints import stage_number
+
+    if first is None or last is None:
+        return
+    stages = plan.program.stages
+    begin, end = stages[stage_number(first, plan)], stages[stage_number(last, plan)]
+    if stages.index(end) < stages.index(begin):
+        raise InvalidInput(f"the run begins with “{begin}”, and “{end}” comes before that")
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
@@ -214,9 +231,7 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     found = None if kept is None else Kept(kept).for_stage(start.setup, number)
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
-        notes.print(
-            f"no checkpoint of “{wanted}” with this plan and seed: carrying out what comes before it, from {reached}",
-            markup=False,
-            soft_wrap=True,
+        note(
+            f"no checkpoint of “{wanted}” with this plan and seed: carrying out what comes before it, from {reached}"
         )
     return found or start

@@ -9,12 +9,13 @@ from typing import Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.al import compile_text, extensions
-from handeye.cli.common import compiled, notes, screen, show, taught
+from handeye.al import compile_text, extensions, read_script
+from handeye.cli.common import compiled, complain, say, screen, show, taught
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.plan.store import read_plan, write_plan
-from handeye.source import read_source
+
+Version = tuple[int, int, int] | None
 
 
 def register(app: App) -> None:
@@ -31,7 +32,7 @@ def check(
         bool, Parameter(name="--strict-1973", negative="", help="Refuse words and operands that are ours.")
     ] = False,
     watch: Annotated[
-        bool, Parameter(help="Check again whenever the script or what is taught changes.")
+        bool, Parameter(help="Check again whenever the script, what it requires or what is taught changes.")
     ] = False,
 ) -> int:
     """Check a script and its taught positions, the arm's reach included; nothing moves."""
@@ -45,28 +46,37 @@ def _wait() -> None:
 
 
 def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _wait) -> int:
-    """Check a script now and whenever it or the file of its taught positions changes, until Ctrl-C.
+    """Check a script now and whenever it, what it requires or the file of what is taught changes, until Ctrl-C.
 
     Returns:
         the code of the last check; 2 if a file could not be used.
     """
-    code, seen = 2, None
+    code = 2
+    seen: dict[Path, Version] = {}
     try:
         while True:
-            found = [_version(path) for path in (file, file.with_suffix(".toml"))]
-            if found != seen:
-                seen = found
+            if not seen or seen != {path: _version(path) for path in seen}:
+                seen = {path: _version(path) for path in _files(file)}
                 try:
                     code = check()
                 except InvalidInput as error:
-                    notes.print(f"handeye: {error}", style="red", markup=False, soft_wrap=True)
+                    complain(error)
                     code = 2
             pause()
     except KeyboardInterrupt:
         return code
 
 
-def _version(path: Path) -> tuple[int, int, int] | None:
+def _files(file: Path) -> list[Path]:
+    """The files that a check of a script looks at."""
+    try:
+        required = [Path(text.name) for text in read_script(file).required]
+    except InvalidInput:
+        required = []
+    return [file, file.with_suffix(".toml"), *required]
+
+
+def _version(path: Path) -> Version:
     """What changes when a file does; editors often put another file in its place."""
     try:
         status = path.stat()
@@ -79,12 +89,12 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
     from handeye.arm.stanford import STANFORD
     from handeye.plan.planner import make_plan
 
-    source = read_source(file)
+    source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
         diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
     if strict:
-        diagnostics = arranged([*diagnostics, *extensions(source.text)])
+        diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)
     if has_errors(diagnostics):
         return 2
@@ -122,5 +132,5 @@ def stages(
         sys.stdout.flush()
     else:
         for line in listing_text(made):
-            screen.print(line, markup=False, soft_wrap=True)
+            say(line)
     return 0

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, notes, screen
+from handeye.cli.common import Json, note, notes, say, screen
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 
@@ -38,7 +38,7 @@ def show(file: File, *, json: Annotated[bool, Parameter(help="Events as JSON lin
         sys.stdout.flush()
         return 0
     for line in account(events):
-        screen.print(line, markup=False, soft_wrap=True)
+        say(line)
     return 0
 
 
@@ -79,8 +79,8 @@ def photograph(
     state = Replay(trace).seek(at)
     model, data = posed(World.sample(trace.head.seed), state.poses)
     write_whole(output, photograph_png(model, data, camera, width, height))
-    doing = "" if state.step is None else f", line {state.step.line}: {state.step.text}"
-    screen.print(f"{output}: {state.time:.2f} s{doing}", markup=False, soft_wrap=True)
+    doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
+    say(f"{output}: {state.time:.2f} s{doing}")
     return 0
 
 
@@ -92,19 +92,28 @@ def verify(file: File) -> int:
 
     Exit code 0: it comes out the same; 1: it does not; 2: bad input.
     """
-    from handeye.stepping.verify import difference
+    from handeye.stepping.verify import difference, settled
+    from handeye.versions import versions
 
     trace, events = _read(file)
     if trace is None:
         raise InvalidInput(
             f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too"
         )
+    changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
+    if changed:
+        sentence = (
+            f"it was recorded with other versions of {', '.join(changed)}; it need not come out the same"
+        )
+        note(sentence)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("carrying it out again"):
         found = difference(trace, Path(folder) / "run")
     if found is not None:
-        screen.print(f"{file} does not come out the same: {found}", markup=False, soft_wrap=True)
+        say(f"{file} does not come out the same: {found}")
         return 1
-    screen.print(f"{file}: the same {len(events)} events, to the byte", markup=False, soft_wrap=True)
+    count = settled(events)
+    ended = "" if count == len(events) else " up to the step that was interrupted"
+    say(f"{file}: the same {count} events{ended}, to the byte")
     return 0
 
 
@@ -118,7 +127,7 @@ def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
     if file.is_dir():
         growing = part(file / TRACE)
         if growing.exists():  # newer than the whole one of before the run was gone on with
-            notes.print(f"the run in {file} was broken off; this is what its trace holds", markup=False)
+            note(f"the run in {file} was broken off; this is what its trace holds")
             file = growing
         elif (file / TRACE).exists():
             file = file / TRACE

@@ -8,7 +8,7 @@ from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from handeye.cli.common import notes, screen
+from handeye.cli.common import note, notes, say, screen
 from handeye.cli.panic import PanicButton
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
@@ -50,6 +50,8 @@ class Job:
     """Where it ends, for now."""
     breaks: Sequence[str] = ()
     """Where it stops besides, as after --break."""
+    halfway: bool = False
+    """It is to stop where somebody will want to go on from."""
     step: bool = False
     """Ask before every step."""
     on_stop: str | None = None
@@ -68,7 +70,7 @@ class _KeepStages(Observer):
         except OSError as error:
             raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
         self._kept = Kept(folder)
-        self._kept.check(setup)
+        self._kept.claim(setup)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         if checkpoint.between_stages and not checkpoint.touched:
@@ -96,10 +98,11 @@ class _Work:
         except KeyboardInterrupt:
             pause = PANIC
             if self.folder is not None:
-                self.folder.keep_if_traced(runner.checkpoint())
+                self.folder.checkpoint(runner.checkpoint())
         if pause.kind == "panic":
             return self._interrupted(runner)
-        return self._finished(runner, pause)
+        with self.panic.aside():
+            return self._finished(runner, pause)
 
     def _built(self) -> Runner | None:
         """The cell, ready for its first step; None if the panic button was hit meanwhile."""
@@ -129,7 +132,7 @@ class _Work:
         with self.progress:
             breaks = [breakpoint(text, runner.setup.plan) for text in self.job.breaks]
             return attend(
-                runner, self.policy or Ask(self._lines("> "), _note), [*breaks, *self.job.stops], self._kept
+                runner, self.policy or Ask(self._lines("> "), note), [*breaks, *self.job.stops], self._kept
             )
 
     def _policy(self) -> Operator | None:
@@ -150,7 +153,7 @@ class _Work:
             pictures=pictures,
         )
         terminal = sys.stdin.isatty()
-        return interact(stepper, self._lines("handeye> "), _say, json=self.job.json, prompt=terminal)
+        return interact(stepper, self._lines("handeye> "), say, json=self.job.json, prompt=terminal)
 
     def _lines(self, prompt: str) -> Iterator[str]:
         """What a person types, or what is piped in, line by line."""
@@ -165,6 +168,8 @@ class _Work:
                     return
             if not line and not sys.stdin.isatty():
                 return
+            if sys.stdin.isatty():
+                self.panic()  # what was pressed while nothing moved must not stop what comes
             yield line.rstrip("\n")
 
     def _kept(self, position: int) -> Checkpoint | None:
@@ -172,6 +177,7 @@ class _Work:
 
     def _keep(self, checkpoint: Checkpoint) -> Path:
         if self.folder is not None:
+            self.folder.check_traced()
             return self.folder.kept.save(checkpoint)
         name = re.sub(r"[^A-Za-z0-9_.-]+", "-", checkpoint.setup.plan.program.name).lstrip(".")
         path = Path(f"{name}-{checkpoint.setup.seed}-{file_name(checkpoint)}")
@@ -182,21 +188,23 @@ class _Work:
 
     def _interrupted(self, runner: Runner | None) -> int:
         where = "while the cell was set up" if runner is None else f"at {runner.run.time:.1f} s"
-        _note(f"interrupted {where}; the brakes are set")
+        note(f"interrupted {where}; the brakes are set")
         kept = self.folder.path if self.folder is not None else None
         if kept is None and runner is not None:
             try:
                 kept = self._keep(runner.checkpoint())
             except InvalidInput as fault:
-                _note(str(fault))
+                note(str(fault))
         if kept is not None:
-            _note(f"go on with: handeye resume {kept}")
+            note(f"go on with: handeye resume {kept}")
         return 130
 
     def _finished(self, runner: Runner, pause: Pause) -> int:
         job = self.job
         if pause.kind != "break":
             runner.finish()
+        elif job.halfway and self.folder is None:
+            note(f"go on with: handeye resume {self._keep(runner.checkpoint())}")
         findings = None
         if job.referee and pause.kind != "break":
             findings = judge(runner.cell.truth) if pause.kind == "end" else {}
@@ -236,17 +244,9 @@ def _warn(runner: Runner) -> None:
     if begun is None:
         return
     if begun.camera != runner.cell.camera.renderer:
-        _note(
+        note(
             f"the run was begun with pictures by {begun.camera}; now they are by {runner.cell.camera.renderer}"
         )
     changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
     if changed:
-        _note(f"the run was begun with other versions of {', '.join(changed)}; it need not come out the same")
-
-
-def _say(text: str) -> None:
-    screen.print(text, markup=False, soft_wrap=True)
-
-
-def _note(text: str) -> None:
-    notes.print(text, markup=False, soft_wrap=True)
+        note(f"the run was begun with other versions of {', '.join(changed)}; it need not come out the same")

@@ -8,7 +8,6 @@ from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
 
 from handeye.al.formatter import format_text
-from handeye.editor import wire
 from handeye.editor.completion import completions
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
@@ -51,12 +50,18 @@ async def _opened(server: ArmServer, params: lsp.DidOpenTextDocumentParams) -> N
 
 
 async def _changed(server: ArmServer, params: lsp.DidChangeTextDocumentParams) -> None:
-    await server.check(params.text_document.uri)
+    uri = params.text_document.uri
+    requiring = [other for other in _scripts(server) if other != uri and server.script(other).requires(uri)]
+    await asyncio.gather(*map(server.check, (uri, *requiring)))
 
 
 async def _files_changed(server: ArmServer, _: lsp.DidChangeWatchedFilesParams) -> None:
-    scripts = [uri for uri in server.workspace.text_documents if uri.endswith(".al")]
-    await asyncio.gather(*map(server.check, scripts))
+    await asyncio.gather(*map(server.check, _scripts(server)))
+
+
+def _scripts(server: ArmServer) -> list[str]:
+    """The scripts that are open."""
+    return [uri for uri in server.workspace.text_documents if uri.endswith(".al")]
 
 
 def _closed(server: ArmServer, params: lsp.DidCloseTextDocumentParams) -> None:
@@ -149,7 +154,7 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
         span = found.primary.span
         if span.end < first or span.start > last:
             continue
-        cured = wire.diagnostic(script.document.source, script.uri, found, script.units)
+        cured = script.told(found)
         for number, fix in enumerate(fixes(script.document, found)):
             actions.append(
                 lsp.CodeAction(

@@ -11,7 +11,7 @@ from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION
 from handeye.editor.places import expected, instruction
 from handeye.errors import ERRORS
-from handeye.source import Span
+from handeye.source import Span, line_name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +52,10 @@ def names(document: Document, kind: str) -> dict[str, str]:
     for name in document.names:
         if name.kind == kind and name.makes:
             found.setdefault(name.name, f"{kind}, line {document.source.position(name.span.start)[0]}")
+    for text, name in document.required_names:
+        if name.kind == kind and name.makes:
+            line = line_name(text.position(name.span.start)[0], text.key)
+            found.setdefault(name.name, f"{kind}, line {line}")
     return dict(sorted(found.items()))
 
 

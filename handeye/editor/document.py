@@ -7,10 +7,11 @@ from functools import cached_property
 from handeye.al.compiler import compile_text
 from handeye.al.names import all_statements
 from handeye.al.operations import position
-from handeye.al.parser import parse
+from handeye.al.parser import parse_whole
 from handeye.al.scanner import Line, scan
+from handeye.al.sewing import Read, sewn
 from handeye.diagnostics import Diagnostic
-from handeye.editor.occurrences import PART, POSITION, Occurrence, occurrences
+from handeye.editor.occurrences import PART, POSITION, Occurrence, macros_of, occurrences
 from handeye.editor.taughtfile import taught_occurrences
 from handeye.plan.program import Position, Program
 from handeye.plan.taught import Taught
@@ -25,11 +26,18 @@ class Document:
     taught: Taught = field(default_factory=Taught)
     taught_text: str = ""
     """The text of the file beside the script; empty if there is none."""
+    read: Read | None = None
+    """Reads what the script requires; None: there is nothing to read from."""
 
     @property
     def text(self) -> str:
         """The text of the script."""
         return self.source.text
+
+    @cached_property
+    def whole(self) -> Source:
+        """The script with everything it requires."""
+        return self.source if self.read is None else sewn(self.source, self.read)
 
     @cached_property
     def lines(self) -> list[Line]:
@@ -39,7 +47,15 @@ class Document:
     @cached_property
     def names(self) -> list[Occurrence]:
         """Every name in the script."""
-        return occurrences(self.text, self.taught.parts)
+        macros = {macro for text in self.whole.required for macro in macros_of(text.text)}
+        return occurrences(self.text, self.taught.parts, macros)
+
+    @cached_property
+    def required_names(self) -> list[tuple[Source, Occurrence]]:
+        """Every name in what it requires, with the text; spans are of that text."""
+        macros = {macro for text in self.whole.texts for macro in macros_of(text.text)}
+        parts = self.taught.parts
+        return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, macros)]
 
     @cached_property
     def taught_names(self) -> list[Occurrence]:
@@ -49,14 +65,13 @@ class Document:
     @cached_property
     def compiled(self) -> tuple[Program | None, list[Diagnostic]]:
         """The program, if there is no error, and what there is to say about the text."""
-        return compile_text(self.source, self.taught)
+        return compile_text(self.whole, self.taught)
 
     @cached_property
     def positions(self) -> dict[str, Position]:
         """Hand positions by name: taught, and written in whatever lines of the text are right."""
-        written = [
-            s for s in all_statements(parse(self.text)[0]) if s.word is not None and s.word.text == "TRANS"
-        ]
+        statements = all_statements(parse_whole(self.whole)[0])
+        written = [s for s in statements if s.word is not None and s.word.text == "TRANS"]
         return {**self.taught.positions, **dict(position(s) for s in written if not s.broken)}
 
     def taught_of(self, kind: str) -> Collection[str]:

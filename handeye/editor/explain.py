@@ -4,6 +4,7 @@ from functools import cache
 
 from handeye.al.compiler import compile_text
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.sewing import sewn_of
 from handeye.boxes import Box
 from handeye.codes import CODES
 from handeye.diagnostics import Diagnostic, quoted, render, suggestion
@@ -17,6 +18,8 @@ from handeye.plan.taught import Taught
 from handeye.source import Source
 from handeye.units import DEGREE, INCH
 
+_FILES = 2
+"""Required files of an example that are shown."""
 _DOWN = (90 * DEGREE, 90 * DEGREE, 0.0)
 
 
@@ -84,6 +87,10 @@ def _code(code: str) -> str:
     found = "while the script is checked" if entry.phase == "language" else "when its motions are planned"
     out = [f"{entry.severity}[{code}]: {entry.meaning}", f"found {found}", "", "for example"]
     out += ["", *(f"    {line}".rstrip() for line in _shortened(entry.example.split("\n"))), ""]
+    for file, text in [*entry.required.items()][:_FILES]:
+        out += [f"where {file} says", "", *(f"    {line}".rstrip() for line in text.split("\n")), ""]
+    if len(entry.required) > _FILES:
+        out += ["and so on", ""]
     source, diagnostic = example(code)
     if diagnostic is not None:
         out += ["gives", "", *(f"    {line}".rstrip() for line in render(diagnostic, source).split("\n")), ""]
@@ -101,7 +108,7 @@ def _shortened(lines: list[str], most: int = 16) -> list[str]:
 @cache
 def example(code: str) -> tuple[Source, Diagnostic | None]:
     """The example of a code, and the diagnostic it gets; None if it takes more than the example to get it."""
-    source = Source(name="example.al", text=CODES[code].example)
+    source = sewn_of(Source(name="example.al", text=CODES[code].example), CODES[code].required)
     program, found = compile_text(source, SAMPLE)
     if program is not None:
         found = [*found, *planning(program)]

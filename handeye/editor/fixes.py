@@ -19,6 +19,8 @@ _UNUSED: Final = "unused-"
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
     """The cures of a diagnostic of the document; none if none is known."""
+    if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
+        return []  # some of it stands in a required file
     cure = _CURES.get(diagnostic.code)
     if cure is None and diagnostic.code.startswith(_UNUSED):
         cure = fix_lines.remove_unused
@@ -45,6 +47,7 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "modifier-without-motion": fix_lines.remove_line,
     "never-saved": fix_lines.remove_line,
     "number-out-of-range": fix_operands.nearest_number,
+    "required-twice": fix_lines.remove_line,
     "restore-without-move": fix_lines.remove_line,
     "search-without-aoj": fix_lines.remove_line,
     "skip-at-end": fix_lines.remove_line,

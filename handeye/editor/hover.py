@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Final
 
 import numpy as np
@@ -13,13 +14,13 @@ from handeye.arm.kinematics import solve
 from handeye.arm.model import ArmModel
 from handeye.arm.stanford import STANFORD
 from handeye.editor.document import Document
-from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence
+from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
 from handeye.editor.places import Place, instruction, places
 from handeye.errors import ERRORS
 from handeye.plan.program import Position
 from handeye.plan.world import WorldModel
 from handeye.pose import Pose, hand_angles
-from handeye.source import Span
+from handeye.source import Source, Span, line_name
 from handeye.units import DEGREE, INCH
 
 SI: Final = {
@@ -112,23 +113,19 @@ def _about_name(document: Document, name: Occurrence) -> str | None:
         x, y, z, turn = document.taught.parts[name.name].at
         at = f"planned at {_inches(x, y, z)} in, turned {turn / DEGREE:g} degrees"
         return f"{title}\n\n{at}"
-    made = [
-        n
-        for n in document.names
-        if n.makes and (n.kind, n.name, n.scope) == (name.kind, name.name, name.scope)
-    ]
+    everywhere = [*((document.source, own) for own in document.names), *document.required_names]
+    made = [(text, text.position(o.span.start)[0]) for text, o in everywhere if o.makes and same(o, name)]
     if not made:
         return None
-    lines = [document.source.position(n.span.start)[0] for n in made]
-    last = _macro_end(document, lines[0]) if name.kind == MACRO else lines[0]
-    shown = [document.source.line(n) for n in (range(lines[0], last + 1) if name.kind == MACRO else lines)]
-    return f"{title}, line {', '.join(map(str, lines))}\n\n```armal\n" + "\n".join(shown) + "\n```"
+    lines = ", ".join(line_name(line, text.key) for text, line in made)
+    shown = [text.line(line) for text, line in made] if name.kind != MACRO else _macro(*made[0])
+    return f"{title}, line {lines}\n\n```armal\n" + "\n".join(shown) + "\n```"
 
 
-def _macro_end(document: Document, number: int) -> int:
-    while number < len(document.lines) and not document.lines[number].is_blank:
-        number += 1
-    return number
+def _macro(text: Source, line: int) -> list[str]:
+    """The lines of a macro, from its first."""
+    body = text.text.split("\n")[line - 1 :]
+    return list(takewhile(lambda each: each.strip(), body))
 
 
 def _position(document: Document, name: str) -> list[str]:

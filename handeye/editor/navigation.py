@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.sewing import key_of, own_key, required_by
 from handeye.diagnostics import quoted
 from handeye.editor.document import Document
 from handeye.editor.occurrences import LABEL, MACRO, PARK, PART, POSITION, Occurrence, same
@@ -17,10 +18,12 @@ _WORDS: Final = {operand.word for i in INSTRUCTIONS.values() for operand in i.op
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:
-    """A place in the script, or in the file of what was taught."""
+    """A place in the script, in the file of what was taught, or in a required one."""
 
     span: Span
     taught: bool = False
+    file: str = ""
+    """The key of a required file."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,18 +34,25 @@ class Edit:
     text: str
     taught: bool = False
     """In the file of what was taught."""
+    file: str = ""
+    """In the required file of that key."""
 
 
 def definition(document: Document, offset: int) -> list[Found]:
-    """Where the thing named at an offset is made; a difference may be saved in several places."""
+    """Where the thing named at an offset is made; a difference may be saved in several places, a file begins."""
+    for file in required_by(document.text):
+        key = key_of(file.text, own_key(document.source))
+        if file.span.start <= offset <= file.span.end:
+            there = [text for text in document.whole.required if text.key == key and not text.problem]
+            return [Found(span=Span(start=0, end=0), file=text.key) for text in there]
     name = document.name_at(offset)
-    return [] if name is None else [_found(place) for place in _all(document, name) if place[0].makes]
+    return [] if name is None else [f for o, f in _all(document, name) if o.makes]
 
 
 def references(document: Document, offset: int) -> list[Found]:
     """Where the thing named at an offset is made or used."""
     name = document.name_at(offset)
-    return [] if name is None else [_found(place) for place in _all(document, name)]
+    return [] if name is None else [found for _, found in _all(document, name)]
 
 
 def renamable(document: Document, offset: int) -> Occurrence:
@@ -64,7 +74,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Edits of the script and the taught file that call a thing otherwise.
+    """Edits of the script, the taught file and the required ones that call a thing otherwise.
 
     Raises:
         InvalidInput: it cannot be called otherwise, or not so.
@@ -76,9 +86,10 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
         )
     if (name.kind in (MACRO, LABEL) and new.upper() in (*INSTRUCTIONS, "DEFINE")) or new.upper() in _WORDS:
         raise InvalidInput(f"{quoted(new)} is a word of the language")
-    if new != name.name and any(_meets(other, name, new) for other in document.names + document.taught_names):
+    others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
+    if new != name.name and any(_meets(other, name, new) for other in others):
         raise InvalidInput(f"there is a {name.kind} {quoted(new)} already")
-    return [Edit(span=o.span, text=new, taught=taught) for o, taught in _all(document, name)]
+    return [Edit(span=f.span, text=new, taught=f.taught, file=f.file) for _, f in _all(document, name)]
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
@@ -94,11 +105,9 @@ def _is_taught(document: Document, name: Occurrence) -> bool:
     return name.name in document.taught_of(name.kind)
 
 
-def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, bool]]:
-    return [(o, False) for o in document.names if same(o, name)] + [
-        (o, True) for o in document.taught_names if same(o, name)
-    ]
-
-
-def _found(place: tuple[Occurrence, bool]) -> Found:
-    return Found(span=place[0].span, taught=place[1])
+def _all(document: Document, name: Occurrence) -> list[tuple[Occurrence, Found]]:
+    """Every occurrence of a name, with its place."""
+    own = [(o, Found(span=o.span)) for o in document.names]
+    taught = [(o, Found(span=o.span, taught=True)) for o in document.taught_names]
+    required = [(o, Found(span=o.span, file=text.key)) for text, o in document.required_names]
+    return [place for place in (*own, *taught, *required) if same(place[0], name)]

@@ -35,13 +35,23 @@ class Occurrence:
     """A word of the language, which cannot be called otherwise."""
 
 
-def occurrences(text: str, parts: Iterable[str] = ()) -> list[Occurrence]:
-    """Every name in a text, in its order; `parts` tells parts from positions where either may stand."""
+def occurrences(text: str, parts: Iterable[str] = (), macros: Iterable[str] = ()) -> list[Occurrence]:
+    """Every name in a text, in its order.
+
+    Args:
+        parts: tells parts from positions where either may stand.
+        macros: those made elsewhere.
+    """
     lines = scan(text)
-    macros = {o.name for o in _macros(lines) if o.makes}
-    found = list(_walk(lines, macros, set(parts)))
+    known = {o.name for o in _macros(lines)} | set(macros)
+    found = list(_walk(lines, known, set(parts)))
     own = {(o.name, o.scope) for o in found if o.kind == LABEL and o.makes}
     return [_in_scope(occurrence, own) for occurrence in found]
+
+
+def macros_of(text: str) -> set[str]:
+    """The macros that a text makes."""
+    return {macro.name for macro in _macros(scan(text))}
 
 
 def same(one: Occurrence, other: Occurrence) -> bool:

@@ -1,5 +1,6 @@
-"""A script in a client's workspace, with what is taught beside it."""
+"""A script in a client's workspace, with what is taught beside it and what it requires."""
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -7,14 +8,15 @@ from lsprotocol import types as lsp
 from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import Workspace
 
-from handeye.al.parser import parse
+from handeye.al.form import check_form
+from handeye.al.sewing import led_by
 from handeye.diagnostics import Diagnostic, arranged
 from handeye.editor import wire
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit, Found
 from handeye.errors import InvalidInput
 from handeye.plan.taught import Taught, load_taught
-from handeye.source import Source, Span, read_source
+from handeye.source import Source, Span, line_name, read_source
 
 
 class Script:
@@ -22,10 +24,11 @@ class Script:
 
     def __init__(self, workspace: Workspace, uri: str) -> None:
         text = workspace.get_text_document(uri)
-        self.uri, self.version = uri, text.version
+        self.uri, self.version, self._workspace = uri, text.version, workspace
         self.units: wire.Units = text.position_codec.client_num_units
         self.problem: str | None = None
         path = to_fs_path(uri) if uri.startswith("file:") else None
+        self._folder = Path(path).parent if path else None
         beside = Path(path).with_suffix(".toml") if path else None
         taught, taught_text, self.taught_uri = Taught(), "", ""
         if beside is not None and beside.is_file():
@@ -37,12 +40,13 @@ class Script:
             except InvalidInput as error:
                 self.problem = str(error)
         source = Source(name=Path(path).name if path else uri, text=text.source)
-        self.document = Document(source=source, taught=taught, taught_text=taught_text)
+        read = self._read if path else None
+        self.document = Document(source=source, taught=taught, taught_text=taught_text, read=read)
 
     def diagnostics(self) -> list[Diagnostic]:
         """What the text tells; its form alone, if what is taught cannot be used."""
         if self.problem is not None:
-            return arranged(parse(self.document.text)[1])
+            return arranged(check_form(self.document.whole))
         return self.document.compiled[1]
 
     def offset(self, position: lsp.Position) -> int:
@@ -53,19 +57,54 @@ class Script:
         """The range of a span of the script."""
         return wire.range_(self.document.source, span, self.units)
 
+    def told(self, found: Diagnostic) -> lsp.Diagnostic:
+        """A diagnostic as the client takes it; one about a required file stands where that is required."""
+        related = [(self.place(label.span), label.text) for label in found.secondary]
+        text, start = self.document.whole.find(found.primary.span.start)
+        place = self.place(found.primary.span)
+        if not text.key:
+            return wire.diagnostic(found, place.range, related)
+        where = line_name(text.position(start)[0], text.key)
+        at = led_by(self.document.whole, text.key) or Span(start=0, end=0)
+        return wire.diagnostic(found, self.range(at), [(place, ""), *related], f"{where}: ")
+
+    def place(self, span: Span) -> lsp.Location:
+        """Where a span of the whole is."""
+        text, start = self.document.whole.find(span.start)
+        local = Span(start=start, end=start + span.end - span.start)
+        return lsp.Location(uri=self._uri(text), range=wire.range_(text, local, self.units))
+
     def location(self, found: Found) -> lsp.Location:
-        """Where a place is, in whichever of the two files."""
+        """Where a place is, in whichever of the files."""
         if found.taught:
             return lsp.Location(uri=self.taught_uri, range=wire.range_(self._taught, found.span, self.units))
-        return lsp.Location(uri=self.uri, range=self.range(found.span))
+        text = next(text for text in self.document.whole.texts if text.key == found.file)
+        return lsp.Location(uri=self._uri(text), range=wire.range_(text, found.span, self.units))
 
     def edit(self, edits: Iterable[Edit]) -> lsp.WorkspaceEdit:
-        """Edits of both files."""
+        """Edits of all files."""
         changes: dict[str, list[lsp.TextEdit]] = {}
         for edit in edits:
-            place = self.location(Found(span=edit.span, taught=edit.taught))
+            place = self.location(Found(span=edit.span, taught=edit.taught, file=edit.file))
             changes.setdefault(place.uri, []).append(lsp.TextEdit(range=place.range, new_text=edit.text))
         return lsp.WorkspaceEdit(changes=changes)
+
+    def requires(self, uri: str) -> bool:
+        """Whether the script is sewn of a file, among others."""
+        return uri in map(self._uri, self.document.whole.required)
+
+    def _uri(self, text: Source) -> str:
+        return self._uri_of(text.key) if text.key else self.uri
+
+    def _uri_of(self, key: str) -> str:
+        assert self._folder is not None
+        return from_fs_path(os.path.normpath(self._folder / key)) or ""
+
+    def _read(self, key: str) -> str:
+        """A required file, as it is in the editor if it is open there."""
+        opened = self._workspace.text_documents.get(self._uri_of(key))
+        assert self._folder is not None
+        return read_source(self._folder / key).text if opened is None else opened.source
 
     @property
     def _taught(self) -> Source:

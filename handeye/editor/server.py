@@ -8,11 +8,10 @@ from pygls.lsp.server import LanguageServer
 
 from handeye import __version__
 from handeye.diagnostics import Diagnostic
-from handeye.editor import wire
 from handeye.editor.checking import planning
 from handeye.editor.script import Script
 from handeye.plan.taught import Taught
-from handeye.source import Span
+from handeye.source import Source, Span
 
 PAUSE: Final = 0.3
 """Seconds without a keystroke after which motions are planned; what the text alone tells comes at once."""
@@ -23,7 +22,7 @@ class ArmServer(LanguageServer):
 
     def __init__(self) -> None:
         super().__init__("handeye", __version__)
-        self.planned: dict[str, tuple[str, Taught, list[Diagnostic]]] = {}
+        self.planned: dict[str, tuple[Source, Taught, list[Diagnostic]]] = {}
 
     def script(self, uri: str) -> Script:
         """A script as it is now."""
@@ -31,15 +30,13 @@ class ArmServer(LanguageServer):
 
     def diagnostics(self, script: Script) -> list[Diagnostic]:
         """What is known about a script by now: the planner's part only if it is about this very text."""
-        text, taught, problems = self.planned.get(script.uri, ("", Taught(), []))
-        known = problems if (text, taught) == (script.document.text, script.document.taught) else []
+        whole, taught, problems = self.planned.get(script.uri, (None, None, []))
+        known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]
 
     def publish(self, script: Script) -> None:
         """Tell the client what is known about a script."""
-        source = script.document.source
-        problems = self.diagnostics(script)
-        found = [wire.diagnostic(source, script.uri, problem, script.units) for problem in problems]
+        found = [script.told(problem) for problem in self.diagnostics(script)]
         if script.problem is not None:
             start = script.range(Span(start=0, end=0))
             found.append(lsp.Diagnostic(range=start, message=script.problem, source="handeye"))
@@ -59,7 +56,7 @@ class ArmServer(LanguageServer):
             return
         problems = await asyncio.to_thread(planning, program)
         if not self._is_old(script):
-            self.planned[uri] = (script.document.text, script.document.taught, problems)
+            self.planned[uri] = (script.document.whole, script.document.taught, problems)
             self.publish(script)
 
     def _is_old(self, script: Script) -> bool:

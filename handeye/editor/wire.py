@@ -1,10 +1,10 @@
 """Offsets of our texts and positions of the language server protocol, which count code units from 0."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from lsprotocol import types as lsp
 
-from handeye.diagnostics import Diagnostic, Label
+from handeye.diagnostics import Diagnostic
 from handeye.source import Source, Span
 
 Units = Callable[[str], int]
@@ -36,22 +36,27 @@ def range_(source: Source, span: Span, units: Units) -> lsp.Range:
     return lsp.Range(start=position(source, span.start, units), end=position(source, span.end, units))
 
 
-def diagnostic(source: Source, uri: str, found: Diagnostic, units: Units) -> lsp.Diagnostic:
-    """A diagnostic as editors show it: what is said beside the mark, notes and help are lines of the message."""
+def diagnostic(
+    found: Diagnostic, at: lsp.Range, related: Sequence[tuple[lsp.Location, str]], where: str = ""
+) -> lsp.Diagnostic:
+    """A diagnostic as editors show it: what is said beside the mark, notes and help are lines of the message.
+
+    Args:
+        related: other places, and what there is to say about them.
+        where: stands before the message, if it is about another file than the one it is shown in.
+    """
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]
     unused = found.code.startswith("unused-") or found.code == "unreachable-code"
-
-    def related(label: Label) -> lsp.DiagnosticRelatedInformation:
-        place = lsp.Location(uri=uri, range=range_(source, label.span, units))
-        return lsp.DiagnosticRelatedInformation(location=place, message=label.text or found.message)
-
     return lsp.Diagnostic(
-        range=range_(source, found.primary.span, units),
-        message="\n".join(line for line in said if line),
+        range=at,
+        message=where + "\n".join(line for line in said if line),
         severity=severity,
         code=found.code,
         source="handeye",
-        related_information=[related(label) for label in found.secondary],
-        tags=[lsp.DiagnosticTag.Unnecessary] if unused else None,
+        related_information=[
+            lsp.DiagnosticRelatedInformation(location=place, message=text or found.message)
+            for place, text in related
+        ],
+        tags=[lsp.DiagnosticTag.Unnecessary] if unused and not where else None,
     )

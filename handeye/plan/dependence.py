@@ -7,6 +7,7 @@ graph, loops and error edges included.
 from typing import Literal
 
 from handeye.plan import program as op
+from handeye.source import line_name
 
 Kind = Literal["part", "difference", "search"]
 Key = tuple[Kind, str]
@@ -24,8 +25,8 @@ class Dependence(op.Record, frozen=True, kw_only=True):
     """Only its horizontal components count."""
     steps: tuple[int, ...]
     """Steps that may have measured it last. None: a part is where it is planned, a difference is zero."""
-    lines: tuple[int, ...]
-    """Their lines of the source."""
+    lines: tuple[int | str, ...]
+    """Their lines of the source: 12, or `pins.al:12` in a required file."""
 
 
 def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
@@ -47,10 +48,9 @@ def successors(step: op.Step) -> tuple[int, ...]:
 
 
 def _dependence(program: op.Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
-    lines = sorted({program.steps[number].line for number in steps})
-    return Dependence(
-        kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=tuple(lines)
-    )  # fmt: skip
+    places = sorted({(program.steps[number].file, program.steps[number].line) for number in steps})
+    lines = tuple(line_name(line, file) if file else line for file, line in places)
+    return Dependence(kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=lines)
 
 
 def _measures(operation: op.AnyOperation) -> Key | None:

@@ -36,6 +36,8 @@ class StepChange(Record, frozen=True, kw_only=True):
     before: int | None
     after: int | None
     stage: str
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
     line: int
     text: str
     changes: tuple[tuple[str, str, str], ...] = ()
@@ -119,8 +121,8 @@ def _change(
 ) -> StepChange:  # fmt: skip
     step = plan.program.steps[number]
     return StepChange(
-        kind=kind, before=pair[0], after=pair[1], stage=plan.program.stages[step.stage], line=step.line,
-        text=one_line(step.text), changes=changes, motion=motion,
+        kind=kind, before=pair[0], after=pair[1], stage=plan.program.stages[step.stage], file=step.file,
+        line=step.line, text=one_line(step.text), changes=changes, motion=motion,
     )  # fmt: skip
 
 

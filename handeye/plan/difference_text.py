@@ -6,6 +6,7 @@ from handeye.arm.stanford import STANFORD
 from handeye.plan.difference import Difference, MotionChange, StepChange
 from handeye.plan.places import PlaceChange
 from handeye.plan.wording import degrees, figure, inches
+from handeye.source import line_name
 from handeye.units import INCH
 
 _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}
@@ -43,7 +44,7 @@ def _place(change: PlaceChange) -> str:
 
 def _step(change: StepChange) -> list[str]:
     number = change.before if change.after is None else change.after
-    out = [f"{_SIGNS[change.kind]} {number:5}  line {change.line:<4}  {change.text}"]
+    out = [f"{_SIGNS[change.kind]} {number:5}  line {line_name(change.line, change.file):<4}  {change.text}"]
     indent = " " * 20
     out += [f"{indent}{what}: {was} -> {now}" for what, was, now in change.changes]
     if change.motion is not None:

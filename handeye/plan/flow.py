@@ -25,7 +25,8 @@ class Node:
     step: int
     stage: int
     """Index of its stage."""
-    line: int
+    line: str
+    """As people are told: `12`, or `pins.al:12`."""
     text: str
     notes: tuple[str, ...]
     """What guards it."""
@@ -94,7 +95,7 @@ def _node(plan: Plan, number: int) -> Node:
     step, motion = plan.program.steps[number], plan.motions.get(number)
     kinds = (kind for kind, operations in KINDS.items() if isinstance(step.operation, operations))
     return Node(
-        step=number, stage=step.stage, line=step.line, text=one_line(step.text),
+        step=number, stage=step.stage, line=step.place, text=one_line(step.text),
         notes=conditions(step.operation), kind=next(kinds, "other"),
         seconds=None if motion is None else sum(motion.times),
     )  # fmt: skip

@@ -4,12 +4,15 @@ from handeye.plan import program as op
 from handeye.plan.dependence import Dependence, dependences
 from handeye.plan.plan import Plan
 from handeye.plan.wording import conditions, counted, one_line
+from handeye.source import line_name
 
 
 class InspectedStep(op.Record, frozen=True, kw_only=True):
     """A step, by its number in the plan."""
 
     step: int
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
     line: int
     text: str
     operation: str
@@ -80,7 +83,8 @@ def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
     width = max((len(step.text) for s in shown for step in s.steps), default=0)
     for one in shown:
         out += ["", f"{one.number:3}  {one.name}: {counted(len(one.steps), 'step')}, {one.seconds:.1f} s"]
-        out += [_line(step, width) for step in one.steps]
+        column = max([4, *(len(line_name(step.line, step.file)) for step in one.steps)])
+        out += [_line(step, width, column) for step in one.steps]
     return out
 
 
@@ -100,7 +104,8 @@ def _step(plan: Plan, number: int, depends: tuple[Dependence, ...]) -> Inspected
     operation = step.operation
     test = operation if isinstance(operation, op.Test) else None
     return InspectedStep(
-        step=number, line=step.line, text=one_line(step.text), operation=type(operation).__name__.lower(),
+        step=number, file=step.file, line=step.line, text=one_line(step.text),
+        operation=type(operation).__name__.lower(),
         seconds=None if motion is None else round(sum(motion.times), 6),
         stop=getattr(operation, "stop", None), press=getattr(operation, "press", None),
         conditions=conditions(operation), depends=depends,
@@ -113,14 +118,17 @@ def _seconds(steps: tuple[InspectedStep, ...]) -> float:
     return round(sum(step.seconds or 0.0 for step in steps), 6)
 
 
-def _line(step: InspectedStep, width: int) -> str:
+def _line(step: InspectedStep, width: int, column: int) -> str:
     time = "" if step.seconds is None else f"{step.seconds:.2f} s"
     facts = [*step.conditions, *map(depends_text, step.depends)]
     if step.error is not None:
         facts.append(f"error {step.error}: to {_place(step.raised)}, else to {_place(step.next)}")
     elif step.next != step.step + 1:
         facts.append(f"to {_place(step.next)}")
-    return f"{step.step:8}  line {step.line:<4}  {step.text:{width}}  {time:>7}  {'; '.join(facts)}".rstrip()
+    place = line_name(step.line, step.file)
+    return (
+        f"{step.step:8}  line {place:{column}}  {step.text:{width}}  {time:>7}  {'; '.join(facts)}".rstrip()
+    )
 
 
 def _place(step: int | None) -> str:

@@ -1,6 +1,7 @@
 """What the planner has to say against a motion, in the words of the script: inches, degrees, ounces, joints by name."""
 
-from dataclasses import InitVar, dataclass, field
+import re
+from dataclasses import dataclass, field
 
 from handeye.arm.kinematics import IKResult
 from handeye.arm.model import ArmModel
@@ -23,13 +24,11 @@ class Objections:
     """Collects them, each at the place in the text it is about."""
 
     arm: ArmModel
-    source: InitVar[str]
+    whole: Source
+    """The script, with what it requires."""
     found: list[Diagnostic] = field(default_factory=list)
-
-    _source: Source = field(init=False)
-
-    def __post_init__(self, source: str) -> None:
-        self._source = Source(name="", text=source)
+    _goals: set[tuple[str, str]] = field(default_factory=set)
+    """Codes and positions that have been told: a wrong position is one mistake, however often it is gone to."""
 
     def unreachable(self, step: Step, word: str, failure: IKResult) -> None:
         """There are no joint positions for a goal, or for the way to it."""
@@ -93,18 +92,15 @@ class Objections:
             code, message = "through-table", f"{what} would be {depth} below the table"
         else:
             code, message = "through-fixture", f"{what} would go {depth} into {quoted(crossing.what)}"
-        word, place, help = (
-            _word(step),
-            _along(step, crossing.along),
-            "go round by a position between, or higher",
-        )
+        word, place = _word(step), _along(step, crossing.along)
         if not isinstance(step.operation, Move):
+            place = f"at the end of this `{word}`" if crossing.at_end else place
             help = "shorten the motion, or give it a `STOP` if it is to meet something"
-        if crossing.at_end and isinstance(step.operation, Move):
-            word, help = step.operation.goal, "raise the position, or put it elsewhere"
-            place = f"at {word}"
         elif crossing.at_end:
-            place = f"at the end of this `{word}`"
+            word, place = step.operation.goal, f"at {step.operation.goal}"
+            help = "raise the position, or put it elsewhere"
+        else:
+            help = "go round by a position between, or higher"
         self._add(
             ("hand-" if held is None else "carries-") + code, step, word, f"{message} {place}",
             secondary=() if held is None or grasp is None else (self._label(grasp, "taken here"),), help=help,
@@ -134,6 +130,10 @@ class Objections:
         self, code: str, step: Step, word: str, message: str, *,
         secondary: tuple[Label, ...] = (), note: str | None = None, help: str | None = None,
     ) -> None:  # fmt: skip
+        if isinstance(step.operation, Move) and word == step.operation.goal:
+            if (code, word) in self._goals:
+                return
+            self._goals.add((code, word))
         primary = Label(span=self._span(step, word))
         notes = (note,) if note else ()
         self.found.append(
@@ -143,10 +143,15 @@ class Objections:
         )
 
     def _span(self, step: Step, word: str) -> Span:
-        """Where `word` stands on the source line of a step."""
-        line = self._source.line_span(step.line)
-        start = self._source.text.find(word, line.start, line.end)
-        return line if start < 0 else Span(start=start, end=start + len(word))
+        """Where a word of a step stands in the text: its instruction, or what comes after that."""
+        text = next(text for text in self.whole.texts if text.key == step.file)
+        line, begin = text.line_span(step.line), self.whole.begin(step.file)
+        found = line
+        for searched in dict.fromkeys((_word(step), word)):
+            pattern = re.compile(rf"(?<!\w){re.escape(searched)}(?!\w)", re.IGNORECASE)
+            if match := pattern.search(text.text, line.start if found == line else found.end, line.end):
+                found = Span(start=match.start(), end=match.end())
+        return Span(start=begin + found.start, end=begin + found.end)
 
 
 def _word(step: Step) -> str:

@@ -38,7 +38,7 @@ def make_plan(
     program: Program, arm: ArmModel, *, speed: float = SPEED
 ) -> tuple[Plan | None, list[Diagnostic]]:
     """The plan of a program for an arm, and what there is to say about it. There is none if any of that is an error."""
-    objections = Objections(arm=arm, source=program.source)
+    objections = Objections(arm=arm, whole=program.whole)
     walk = _Walk(
         program=program, arm=arm, speed=speed, world=WorldModel.of(program), objections=objections,
         checks=Checks(arm, program, objections),

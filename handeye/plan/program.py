@@ -9,6 +9,7 @@ from typing import Literal
 import msgspec
 
 from handeye.boxes import Box
+from handeye.source import Source, line_name
 
 Vector = tuple[float, float, float]
 
@@ -235,18 +236,25 @@ ACTIONS = (
 """Operations that can raise an error, or clear the one before."""
 
 
-class Step(Record, frozen=True, kw_only=True):
+class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     """One step of the graph. Steps are numbered by their place in the list."""
 
     operation: AnyOperation
     stage: int
     """Index of the stage it belongs to."""
+    file: str = ""
+    """The required file it stands in; empty: the source itself."""
     line: int
-    """Line of the source, from 1."""
+    """Line of that text, from 1."""
     text: str
     """The source statement, for people."""
     next: int | None
     """Step that follows; None ends the program."""
+
+    @property
+    def place(self) -> str:
+        """Its line, as people are told: `12`, or `pins.al:12`."""
+        return line_name(self.line, self.file)
 
 
 class Position(Record, frozen=True, kw_only=True):
@@ -297,13 +305,15 @@ class Held(Record, frozen=True, kw_only=True):
     boxes: tuple[Box, ...]
 
 
-class Program(Record, frozen=True, kw_only=True):
+class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A checked program."""
 
     name: str
     language: Literal["wave"]
     source: str
     """The text it was made from."""
+    required: dict[str, str] = {}
+    """Texts of the files that it requires, by their paths from its folder."""
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
     positions: dict[str, Position]
@@ -312,3 +322,9 @@ class Program(Record, frozen=True, kw_only=True):
     """What no motion may lead through."""
     held: dict[str, Held] = {}
     """What is carried, by name."""
+
+    @property
+    def whole(self) -> Source:
+        """The text with those it requires."""
+        required = tuple(Source(name=key, key=key, text=text) for key, text in self.required.items())
+        return Source(name=self.name, text=self.source, required=required)

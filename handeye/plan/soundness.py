@@ -41,6 +41,10 @@ def faults(plan: Plan) -> Iterator[str]:
     program = plan.program
     if not program.steps:
         yield "it has no steps"
+    if "" in program.required:
+        yield "it requires a file that has no name"
+    if len(set(program.stages)) < len(program.stages):
+        yield "two of its stages have the same name"
     if not 0 < plan.speed <= 1:
         yield f"its speed is {plan.speed:g}; a share of the arm's limits is above 0 and at most 1"
     for key, position in program.positions.items():
@@ -64,7 +68,7 @@ def faults(plan: Plan) -> Iterator[str]:
         yield from _boxes(key, held.boxes)
     for number, step in enumerate(program.steps):
         for fault in (*_references(plan, step), *_numbers(step.operation), *_motion(plan, number, step)):
-            yield f"step {number} (line {step.line}) {fault}"
+            yield f"step {number} (line {step.place}) {fault}"
     for number in plan.motions:
         if not 0 <= number < len(program.steps):
             yield f"it has a motion for step {number}, and no such step"
@@ -83,6 +87,8 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
     for target in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
         if target is not None and not 0 <= target < count:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
+    if step.file and step.file not in program.required:
+        yield f"stands in {step.file!r}, a file whose text the plan does not have"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
     for field in ("goal", "centre"):

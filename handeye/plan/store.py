@@ -5,7 +5,7 @@ script did to the arm. What is read is checked before anything uses it.
 import hashlib
 import json
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import msgspec
 
@@ -14,9 +14,6 @@ from handeye.files import read_whole, write_whole
 from handeye.plan.migrations import migrated, oldest
 from handeye.plan.plan import VERSION, Plan
 from handeye.plan.soundness import faults
-
-_LATER: Final = ("fixtures", "held")
-"""Keys that not every plan has: what was written before they came stays the same to the byte."""
 
 
 def encode(plan: Plan) -> str:
@@ -27,7 +24,6 @@ def encode(plan: Plan) -> str:
     lines = ["{"]
     lines += [f' "{key}": {_line(value)},' for key, value in data.items()]
     lines.append(' "program": {')
-    program = {key: value for key, value in program.items() if value or key not in _LATER}
     for number, (key, value) in enumerate(program.items(), 1):
         comma = "" if number == len(program) else ","
         if isinstance(value, dict):

@@ -11,6 +11,7 @@ from handeye.stepping.advance import Pause
 from handeye.stepping.breakpoints import ToStage, breakpoint
 from handeye.stepping.checkpoint_file import read_head, write_checkpoint
 from handeye.stepping.experiments import set_position, set_saved
+from handeye.stepping.places import named_place, text_of
 from handeye.stepping.reply import Break, Told
 from handeye.stepping.session import Session
 from handeye.stepping.showing import show
@@ -109,11 +110,13 @@ def delete(session: Session, rest: str) -> Told:
 
 def script(session: Session, rest: str) -> Told:
     """Tell the script around a line."""
-    last = session.program.source.removesuffix("\n").count("\n") + 1
-    line = int(rest) if re.fullmatch(r"[0-9]{1,7}", rest) else 0
-    if rest and not 1 <= line <= last:
+    if not rest:
+        return Told(source=session.source(None, WIDE))
+    file, line = named_place(rest, session.program) or ("", 0)
+    last = text_of(session.program, file).removesuffix("\n").count("\n") + 1
+    if not 1 <= line <= last:
         raise InvalidInput(f"list takes a line from 1 to {last}; {quoted(rest)} is none")
-    return Told(source=session.source(line if rest else None, WIDE))
+    return Told(source=session.source((file, line), WIDE))
 
 
 def look(session: Session, rest: str) -> Told:
@@ -190,6 +193,8 @@ def _check_replaceable(path: Path) -> None:
 def leave(session: Session, _: str) -> Told:
     """Keep the present state, and end."""
     session.over = True
+    if session.runner.ended and not session.runner.called:
+        return Told(said="nothing is left to go on with")
     path = session.keep(session.runner.checkpoint())
     if path is None:
         return Told(said="nothing is kept")

@@ -10,8 +10,10 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.diagnostics import quoted
 from handeye.errors import ERRORS, InvalidInput
 from handeye.plan.plan import Plan
+from handeye.source import line_name
 from handeye.stepping.advance import Stop
 from handeye.stepping.listing import labels, numbered_stage
+from handeye.stepping.places import Place, named_place
 from handeye.stepping.runner import Runner
 from handeye.work.events import AnyEvent, ErrorRaised, StageFinished
 
@@ -107,8 +109,8 @@ def breakpoint(text: str, plan: Plan) -> Stop:
     """What a user wants to stop at.
 
     Args:
-        text: `error:23`; a line of the source (its first step, or the first behind it); a label; an instruction
-            word (every step that begins with it); a stage or the beginning of its name.
+        text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first behind it); a label; an
+            instruction word (every step that begins with it); a stage or the beginning of its name.
 
     Raises:
         InvalidInput: there is nothing of that name, or more than one stage.
@@ -120,8 +122,9 @@ def breakpoint(text: str, plan: Plan) -> Stop:
         )
     if error := _ERROR.fullmatch(text):
         return _on_error(error["number"] or error["any"])
-    if _NUMBER.fullmatch(text):
-        return _at_line(int(text), plan)
+    place = named_place(text, plan.program)
+    if place is not None:
+        return _at_line(place, plan)
     stop = _at_label(text, plan) or _at_word(text, plan) or _at_stage(text, plan)
     if stop is None and text.upper() in INSTRUCTIONS:
         raise InvalidInput(f"no step of the program begins with {text.upper()}")
@@ -187,12 +190,18 @@ def _on_error(number: str) -> Stop:
     return OnError(int(number))
 
 
-def _at_line(line: int, plan: Plan) -> Stop:
-    lines = [step.line for step in plan.program.steps]
-    if line > max(lines):
-        raise InvalidInput(f"line {line} lies behind the last step, which is on line {max(lines)}")
-    first = min(number for number in lines if number >= line)
-    return AtSteps(frozenset(i for i, number in enumerate(lines) if number == first), f"line {first}")
+def _at_line(place: Place, plan: Plan) -> Stop:
+    file, line = place
+    lines = {i: step.line for i, step in enumerate(plan.program.steps) if step.file == file}
+    if not lines:
+        raise InvalidInput(f"no step stands in {quoted(file or plan.program.name)}")
+    last = max(lines.values())
+    if line > last:
+        behind, on = line_name(line, file), line_name(last, file)
+        raise InvalidInput(f"line {behind} lies behind the last step, which is on line {on}")
+    first = min(number for number in lines.values() if number >= line)
+    steps = frozenset(i for i, number in lines.items() if number == first)
+    return AtSteps(steps, f"line {line_name(first, file)}")
 
 
 def _at_label(text: str, plan: Plan) -> Stop | None:

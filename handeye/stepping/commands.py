@@ -76,8 +76,8 @@ def manual() -> str:
         [
             *out,
             "",
-            "PLACE is a line (58), a label (L1), an instruction (AOJ), a stage or the beginning of its name, or",
-            "an error (error:23). WHAT is one of",
+            "PLACE is a line (58; pins.al:3 in a file that is required), a label (L1), an instruction (AOJ), a",
+            "stage or the beginning of its name, or an error (error:23). WHAT is one of",
             f"    {', '.join(TOPICS)}.",
             "Numbers are inches and degrees, forces ounces. On a terminal an empty line says the last step, stage",
             "or continue again.",

@@ -6,6 +6,7 @@ from typing import Any, Final
 import msgspec
 from msgspec import UNSET
 
+from handeye.source import line_name
 from handeye.stepping.listing import excerpt_lines, one_line
 from handeye.stepping.reply import Reply, Told
 from handeye.stepping.shown import Hand, Joint, PartPose, PartShown, PictureShown, Search, Shown, Taught
@@ -59,7 +60,7 @@ def _deeds(did: Sequence[Deed]) -> list[str]:
 def _deed(deed: Deed) -> str:
     if deed.line is None:
         return f"      — {deed.text}"
-    return f"{deed.line:5} {deed.text:{STATEMENT}} {deed.outcome}".rstrip()
+    return f"{line_name(deed.line, deed.file):>5} {deed.text:{STATEMENT}} {deed.outcome}".rstrip()
 
 
 # -- what is shown --------------------------------------------------------------------------------------

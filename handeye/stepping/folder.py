@@ -4,6 +4,7 @@ It is an observer: it writes down what happens and changes nothing.
 """
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -38,6 +39,7 @@ class RunFolder(Observer):
         self.path = path
         self.kept = Kept(path / CHECKPOINTS)
         self._made = made
+        self._begun = False
         self._runner: Runner | None = None
         self._journal: Journal | None = None
         self._recorder: Recorder | None = None
@@ -49,21 +51,34 @@ class RunFolder(Observer):
             InvalidInput: the folder cannot be written to.
         """
         self._runner = runner
-        plan = encode(runner.setup.plan).encode()
-        frames, trace = Frames(runner.cell.truth), self.path / TRACE
-        self._journal = Journal(self.path / EVENTS, anew=not again)
-        if start.snapshot is None:
-            self._recorder = Recorder(trace, frames, self._picture, plan)
-        else:
-            self._recorder = Recorder.resumed(
-                trace, frames, self._picture, plan, len(start.events), start.events
-            )
+        self._journal = Journal(self.path / EVENTS, start.events, again=again)
+        if not again:
+            self.begin(start)
+        (self.path / RESULT).unlink(missing_ok=True)  # it is not over yet
+        self._recorder = self._recording(start.events)
         if again:
             self._journal.undone(len(start.events), runner.run.time, "resumed")
-        else:
-            for event in start.events:
-                self._journal.append(event)
         return self
+
+    def begin(self, start: Checkpoint) -> None:
+        """Let this run take the place of the one that was here.
+
+        Raises:
+            InvalidInput: the folder cannot be written to.
+        """
+        self._begun = True
+        self.kept.drop_after(-1)
+        for name in (TRACE, f"{TRACE}.part", RESULT):
+            (self.path / name).unlink(missing_ok=True)
+        write_whole(self.path / PLAN, encode(start.setup.plan).encode())
+        self.kept.save(start)
+
+    def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
+        """A recorder that goes on behind these events."""
+        assert self._runner is not None
+        plan = encode(self._runner.setup.plan).encode()
+        frames = Frames(self._runner.cell.truth)
+        return Recorder.resumed(self.path / TRACE, frames, self._picture, plan, len(events), events)
 
     def _picture(self, name: str) -> Picture:
         assert self._runner is not None
@@ -74,6 +89,7 @@ class RunFolder(Observer):
     def event(self, event: AnyEvent) -> None:
         assert self._journal is not None
         assert self._recorder is not None
+        self.check_traced()
         self._journal.append(event)
         self._recorder.event(event)
 
@@ -93,13 +109,22 @@ class RunFolder(Observer):
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         assert self._recorder is not None
+        if self._recorder.broken:
+            return
         self._recorder.flush()  # first: a checkpoint must not be ahead of the trace that leads to it
         self.kept.save(checkpoint)
 
-    def keep_if_traced(self, checkpoint: Checkpoint) -> None:
-        """Keep a state, unless the trace that leads to it was broken off in the middle of a write."""
-        if self._recorder is None or not self._recorder.broken:
-            self.checkpoint(checkpoint)
+    def check_traced(self) -> None:
+        """Make sure that what happens next can be told.
+
+        Raises:
+            InvalidInput: the trace was broken off, so that nothing may happen behind it.
+        """
+        if self._recorder is not None and self._recorder.broken:
+            raise InvalidInput(
+                f"the trace in {self.path} was broken off; make room, and `handeye resume {self.path}` goes on "
+                "from the last checkpoint"
+            )
 
     def close(self) -> None:
         if self._journal is not None:
@@ -109,7 +134,7 @@ class RunFolder(Observer):
 
     def discard(self) -> None:
         """Remove what `open_new` has made, if the run has not begun."""
-        if self._runner is not None:
+        if self._runner is not None or not self._begun:
             return
         for path in (self.path / PLAN, self.path / CHECKPOINTS / "start.checkpoint"):
             path.unlink(missing_ok=True)
@@ -121,14 +146,13 @@ class RunFolder(Observer):
 def open_new(path: Path, start: Checkpoint) -> RunFolder:
     """A folder for a run that begins at `start`.
 
-    The record of an earlier run with the same setup is replaced; it would come out the same.
+    The record of an earlier run with the same setup is replaced once this one moves; it would come out the same.
 
     Raises:
         InvalidInput: the folder cannot be had, or holds something that would be lost.
     """
-    Kept(path / CHECKPOINTS).check(start.setup)
+    Kept(path / CHECKPOINTS).claim(start.setup)
     _check_plan(path, start.setup.plan)
-    _refuse_touched(path)
     inner = [path / CHECKPOINTS, path / PICTURES]
     made = [place for place in (*inner, path, *path.parents) if not place.exists()]
     try:
@@ -139,11 +163,9 @@ def open_new(path: Path, start: Checkpoint) -> RunFolder:
     if not all(os.access(place, os.W_OK) for place in (path, *inner)):
         raise InvalidInput(f"{path} cannot be written to")
     folder = RunFolder(path, made)
-    folder.kept.drop_after(-1)
-    for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT):
-        (path / name).unlink(missing_ok=True)
-    write_whole(path / PLAN, encode(start.setup.plan).encode())
-    folder.kept.save(start)
+    if not any(folder.kept.heads()):
+        _refuse_records(path)
+        folder.begin(start)
     return folder
 
 
@@ -170,11 +192,8 @@ def _check_plan(path: Path, plan: Plan) -> None:
         raise InvalidInput(f"the runs in {path} are of another plan than this one, by {beside}")
 
 
-def _refuse_touched(path: Path) -> None:
-    """Raises InvalidInput if the record in the folder would not, or might not, come out again the same."""
-    for fault in Kept(path / CHECKPOINTS).damaged():
-        raise InvalidInput(f"{path} holds what cannot be read ({fault}); choose another folder")
-    if any(head.touched for _, head in Kept(path / CHECKPOINTS).heads()):
-        raise InvalidInput(
-            f"{path} holds a run that somebody took a hand in, which would be lost; choose another folder"
-        )
+def _refuse_records(path: Path) -> None:
+    """Raises InvalidInput if a run has left a record in a folder and nothing tells which run."""
+    for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT):
+        if (path / name).exists():
+            raise InvalidInput(f"{path / name} is of a run without checkpoints; choose another folder")

@@ -61,6 +61,20 @@ class Kept:
                     f"{path} is of another run (seed {head.seed}, camera {head.camera}); choose another folder"
                 )
 
+    def claim(self, setup: Setup) -> None:
+        """Make sure that nothing is lost when a run with this setup keeps its states here.
+
+        Raises:
+            InvalidInput: what is here is of another run, cannot be read, or would not come out again the same.
+        """
+        self.check(setup)
+        for fault in self.damaged():
+            raise InvalidInput(f"{self.folder} holds what cannot be read ({fault}); choose another folder")
+        if any(head.touched for _, head in self.heads()):
+            raise InvalidInput(
+                f"{self.folder} is of a run that somebody took a hand in, which would be lost; choose another folder"
+            )
+
     def newest(self) -> Checkpoint | None:
         """The sound checkpoint that is farthest on."""
         for path, _ in self.heads():

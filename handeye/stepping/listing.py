@@ -5,37 +5,43 @@ from typing import Final
 from handeye.al.definition import Role
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.macros import expand
-from handeye.al.parser import parse
+from handeye.al.parser import parse_whole
 from handeye.al.syntax import Statement
 from handeye.plan.plan import Plan
 from handeye.plan.program import Program, Record
-from handeye.source import Source
+from handeye.source import Source, line_name
+from handeye.stepping.places import Place, text_of
 
 _NO_STEP: Final = (Role.MODIFIER, Role.SHIFT, Role.DECLARATION)
 """What a statement can be that makes no step of its own."""
 
 
-class ListedStep(Record, frozen=True, kw_only=True):
+class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A step, by its number in the plan."""
 
     step: int
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
     line: int
     text: str
 
 
-class ListedStage(Record, frozen=True, kw_only=True):
+class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A stage, by its number from 1."""
 
     number: int
     name: str
+    file: str = ""
+    """The required file it begins in; empty: the script itself."""
     lines: tuple[int, int] | None
-    """First and last line of its steps, those of macros only if it has no others; None if it has no steps."""
+    """First and last line of its steps there, those of macros only if it has no others; None if it has no steps."""
     steps: tuple[ListedStep, ...]
 
 
-class SourceLine(Record, frozen=True, kw_only=True):
-    """A line of the source."""
+class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """A line of the source, or of a required file."""
 
+    file: str = ""
     line: int
     text: str
     here: bool
@@ -47,10 +53,11 @@ def listing(plan: Plan) -> tuple[ListedStage, ...]:
     program = plan.program
     listed: list[list[ListedStep]] = [[] for _ in program.stages]
     for number, step in enumerate(program.steps):
-        listed[step.stage].append(ListedStep(step=number, line=step.line, text=one_line(step.text)))
+        shown = ListedStep(step=number, file=step.file, line=step.line, text=one_line(step.text))
+        listed[step.stage].append(shown)
     macros = _macro_lines(program)
     return tuple(
-        ListedStage(number=number, name=name, lines=_extent(steps, macros), steps=tuple(steps))
+        _stage(number, name, steps, macros)
         for number, (name, steps) in enumerate(zip(program.stages, listed, strict=True), 1)
     )
 
@@ -62,9 +69,16 @@ def listing_text(plan: Plan) -> list[str]:
     out = []
     for stage in found:
         count = f"{len(stage.steps)} step{'' if len(stage.steps) == 1 else 's'}"
-        where = "" if stage.lines is None else f"  lines {stage.lines[0]} to {stage.lines[1]}"
+        where = ""
+        if stage.lines is not None:
+            where = f"  lines {line_name(stage.lines[0], stage.file)} to {stage.lines[1]}"
         out.append(f"{stage.number:3}  {stage.name:{width}}  {count:>9}{where}".rstrip())
-        out += [f"{step.step:10}  line {step.line:<4}  {step.text}" for step in stage.steps]
+        places = [line_name(step.line, step.file) for step in stage.steps]
+        column = max([4, *map(len, places)])
+        out += [
+            f"{step.step:10}  line {place:{column}}  {step.text}"
+            for step, place in zip(stage.steps, places, strict=True)
+        ]
     return out
 
 
@@ -72,7 +86,7 @@ def labels(program: Program) -> dict[str, list[int]]:
     """The steps that each label stands before; a label in a macro has one for each call."""
     found: dict[str, list[int]] = {}
     number = 0
-    for placed in expand(parse(program.source)[0], lambda _: None):
+    for placed in expand(parse_whole(program.whole)[0], lambda _: None):
         for label in placed.statement.labels:
             if number < len(program.steps):
                 found.setdefault(label.text, []).append(number)
@@ -80,12 +94,14 @@ def labels(program: Program) -> dict[str, list[int]]:
     return found
 
 
-def excerpt(program: Program, line: int, here: int | None, around: int) -> tuple[SourceLine, ...]:
-    """The source from `around` lines before `line` to as many after it; `here` is marked."""
-    text = program.source.removesuffix("\n")
+def excerpt(
+    program: Program, line: int, here: int | None, around: int, file: str = ""
+) -> tuple[SourceLine, ...]:
+    """The source, or a required file, from `around` lines before `line` to as many after it; `here` is marked."""
+    text = text_of(program, file).removesuffix("\n")
     source, last = Source(name=program.name, text=text), text.count("\n") + 1
     return tuple(
-        SourceLine(line=number, text=_printable(source.line(number)), here=number == here)
+        SourceLine(file=file, line=number, text=_printable(source.line(number)), here=number == here)
         for number in range(max(1, line - around), min(last, line + around) + 1)
     )
 
@@ -93,7 +109,10 @@ def excerpt(program: Program, line: int, here: int | None, around: int) -> tuple
 def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]:
     """An excerpt as lines of text, `mark` before the line where the run stands."""
     width = len(str(lines[-1].line)) if lines else 0
-    return [f"{mark if line.here else ' ':>3} {line.line:{width}}  {line.text}".rstrip() for line in lines]
+    head = [f"    {_printable(lines[0].file)}"] if lines and lines[0].file else []
+    return head + [
+        f"{mark if line.here else ' ':>3} {line.line:{width}}  {line.text}".rstrip() for line in lines
+    ]
 
 
 def numbered_stage(program: Program, stage: int) -> str:
@@ -113,15 +132,18 @@ def _makes_step(statement: Statement) -> bool:
     return definition is not None and definition.role not in _NO_STEP
 
 
-def _macro_lines(program: Program) -> set[int]:
-    macros = parse(program.source)[0].macros.values()
-    return {statement.line for macro in macros for statement in macro.body}
+def _macro_lines(program: Program) -> set[Place]:
+    whole = program.whole
+    macros = parse_whole(whole)[0].macros.values()
+    return {(whole.find(s.span.start)[0].key, s.line) for macro in macros for s in macro.body}
 
 
-def _extent(steps: list[ListedStep], macros: set[int]) -> tuple[int, int] | None:
-    lines = [step.line for step in steps]
-    own = [line for line in lines if line not in macros] or lines
-    return (min(own), max(own)) if own else None
+def _stage(number: int, name: str, steps: list[ListedStep], macros: set[Place]) -> ListedStage:
+    own = [step for step in steps if (step.file, step.line) not in macros] or steps
+    file = own[0].file if own else ""
+    lines = [step.line for step in own if step.file == file]
+    extent = (min(lines), max(lines)) if lines else None
+    return ListedStage(number=number, name=name, file=file, lines=extent, steps=tuple(steps))
 
 
 def _printable(text: str) -> str:

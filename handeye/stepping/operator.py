@@ -212,14 +212,14 @@ def _question(runner: Runner, sentence: str) -> list[str]:
     """What happened, where, and what can be said to it."""
     program, executor = runner.setup.plan.program, runner.executor
     assert executor.stage is not None
-    line = next(event.line for event in reversed(runner.events) if isinstance(event, StepStarted))
-    first = next(step.line for step in program.steps if step.stage == executor.stage)
+    step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
+    first = next(step.place for step in program.steps if step.stage == executor.stage)
     onward = executor.onward
-    where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].line}"
+    where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"
     return [
         f"The operator is called in {numbered_stage(program, executor.stage)}:",
         f"    {sentence}",
-        *excerpt_lines(excerpt(program, line, line, 2), "■"),
+        *excerpt_lines(excerpt(program, step.line, step.line, 2, step.file), "■"),
         f"p          proceed behind it: {where}",
         f"r          retry: the stage again from line {first}, with the world as it is now",
         "s          skip: leave out the rest of the stage",

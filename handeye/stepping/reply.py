@@ -49,6 +49,8 @@ class Reply(Told, frozen=True, kw_only=True):
     line: int | None
     text: str | None
     """Its statement."""
+    script: str = ""
+    """The required file its line is in; empty: the script itself."""
     did: tuple[Deed, ...] = ()
     """What was done, in words."""
     events: tuple[AnyEvent, ...] = ()

@@ -10,6 +10,7 @@ from handeye.stepping.advance import Pause, Stop, advance
 from handeye.stepping.breakpoints import breakpoint
 from handeye.stepping.listing import SourceLine, excerpt
 from handeye.stepping.operator import beginnings
+from handeye.stepping.places import Place
 from handeye.stepping.reply import Break
 from handeye.stepping.runner import Runner
 from handeye.stepping.snapshot import Checkpoint
@@ -138,13 +139,15 @@ class Session:
         return present if present is not None or step is None else step.stage
 
     @property
-    def line(self) -> int:
-        """The line that comes next; at an end, the last that was begun."""
+    def place(self) -> Place:
+        """The file and line that come next; at an end, the last that were begun."""
         step, events = self.runner.next, reversed(self.runner.events)
         if step is not None:
-            return step.line
-        return next((event.line for event in events if isinstance(event, StepStarted)), 1)
+            return step.file, step.line
+        return next(((event.file, event.line) for event in events if isinstance(event, StepStarted)), ("", 1))
 
-    def source(self, line: int | None = None, around: int = AROUND) -> tuple[SourceLine, ...]:
+    def source(self, place: Place | None = None, around: int = AROUND) -> tuple[SourceLine, ...]:
         """The script around a line, by default around where the run stands."""
-        return excerpt(self.program, self.line if line is None else line, self.line, around)
+        file, line = place or self.place
+        here = self.place[1] if self.place[0] == file else None
+        return excerpt(self.program, line, here, around, file)

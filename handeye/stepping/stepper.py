@@ -87,6 +87,7 @@ class Stepper:
             stage=None if stage is None else session.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
             step=runner.executor.at,
+            script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,
             did=deeds(events, session.program),

@@ -23,6 +23,8 @@ class Deed(Record, frozen=True, kw_only=True):
 
     line: int | None
     """Of the source; None between steps."""
+    file: str = ""
+    """The required file that line is in; empty: the script itself."""
     text: str
     outcome: str
 
@@ -41,7 +43,8 @@ def deeds(events: Iterable[AnyEvent], program: Program) -> tuple[Deed, ...]:
 def _deed(group: Sequence[AnyEvent], program: Program) -> Deed:
     first = group[0]
     if isinstance(first, happened.StepStarted):
-        return Deed(line=first.line, text=one_line(first.text), outcome=_outcome(group, first, program))
+        outcome = _outcome(group, first, program)
+        return Deed(line=first.line, file=first.file, text=one_line(first.text), outcome=outcome)
     return Deed(line=None, text=sentence(first), outcome="")
 
 
@@ -65,7 +68,7 @@ def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Pr
     """Where the program goes on after a test."""
     tested = program.steps[step.step]
     onward = getattr(tested.operation, "raised", None) if event.occurred else tested.next
-    return "to the end" if onward is None else f"on to line {program.steps[onward].line}"
+    return "to the end" if onward is None else f"on to line {program.steps[onward].place}"
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted) -> str:

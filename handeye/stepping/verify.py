@@ -53,4 +53,5 @@ def difference(trace: Trace, folder: Path) -> str | None:
         runner.repeat(wanted)
     finally:
         keeping.close()
-    return first_difference(trace, read_trace(folder / TRACE), events=len(wanted))
+    again = read_trace(folder / TRACE)
+    return first_difference(trace, again, events=len(wanted), unseen=trace.unseen)

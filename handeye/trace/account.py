@@ -60,9 +60,9 @@ class _Teller:
                         f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
                     )
             case happened.StepStarted():
-                self._lead_on(f"on at line {event.line}")
+                self._lead_on(f"on at line {event.place}")
                 self._shift = None
-                self.lines.append(f"{event.time:9.2f} {event.line:5}  {event.text}")
+                self.lines.append(f"{event.time:9.2f} {event.place:>5}  {event.text}")
             case happened.StepFinished():
                 self._ended(event)
             case happened.ErrorTested():

@@ -1,8 +1,9 @@
 """Where two traces part."""
 
+from collections.abc import Iterator
 from itertools import zip_longest
 
-from handeye.trace.channels import EVENTS, LOG
+from handeye.trace.channels import EVENTS, LOG, MOMENTS
 from handeye.trace.continuing import until
 from handeye.trace.records import RawMessage
 from handeye.trace.sentences import sentence
@@ -10,22 +11,31 @@ from handeye.trace.trace import Trace
 from handeye.work.events import AnyEvent
 
 
-def first_difference(a: Trace, b: Trace, *, events: int | None = None) -> str | None:
+def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
     """One sentence that names the first thing in which two traces differ; None if they say the same.
 
     How the files are packed does not matter, only what is in them.
 
     Args:
         events: compare no more than so many events, and what came before and between them.
+        unseen: compare of so many events, from the first on, nothing that was recorded beside them.
     """
     if a.plan != b.plan:
         return "they are traces of two plans"
     count = 0
-    for here, there in zip_longest(until(a.messages(), events), until(b.messages(), events)):
+    for here, there in zip_longest(_compared(a, events, unseen), _compared(b, events, unseen)):
         if here != there:
             return _difference(a, b, here, there, count)
         count += here.topic == EVENTS
     return None
+
+
+def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
+    count = 0
+    for message in until(trace.messages(), events):
+        if count >= unseen or message.topic not in MOMENTS:
+            yield message
+        count += message.topic == EVENTS
 
 
 def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, events: int) -> str:

@@ -87,7 +87,7 @@ def picture(time: int, levels: Picture) -> bytes:
     ).SerializeToString()
 
 
-def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, line: int) -> bytes:
-    """A sentence for people. `name` is the program's, `line` the one it happened on (0: on none)."""
-    message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=name, line=line)
+def log(time: int, level: Log.Level.ValueType, sentence: str, *, name: str, file: str, line: int) -> bytes:
+    """A sentence for people. `name` is the program's; `file` and `line`: where it happened (0: on no line)."""
+    message = Log(timestamp=stamp(time), level=level, message=sentence, name=name, file=file, line=line)
     return message.SerializeToString()

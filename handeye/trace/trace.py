@@ -14,7 +14,7 @@ from google.protobuf.message import DecodeError
 from handeye.cell.ports import Picture
 from handeye.errors import InvalidInput
 from handeye.pose import Array
-from handeye.trace.channels import EVENTS, FRAMES, JOINTS, PICTURE
+from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage, read_messages
 from handeye.work.events import AnyEvent, PictureTaken, RunStarted
@@ -68,6 +68,19 @@ class Trace:
     data: bytes = field(repr=False)
     """The file."""
     lenient: bool
+
+    @property
+    def unseen(self) -> int:
+        """Events before the first of which more was recorded than that they happened.
+
+        More than the start of the run and of its first stage, if it was taken up from a checkpoint.
+        """
+        events = 0
+        for message in self.messages():
+            if message.topic in MOMENTS:
+                break
+            events += message.topic == EVENTS
+        return events
 
     def messages(self) -> Iterator[RawMessage]:
         """All messages, in the order they were written."""

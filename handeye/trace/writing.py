@@ -36,7 +36,7 @@ class Writing:
         self.events = 0
         """How many have been written."""
         self.head: RunStarted | None = None
-        self._line = 0  # of the program, of the step under way
+        self._place = "", 0  # required file and line of the step under way
         self._sent: Poses = np.full(
             (len(frames.names), 7), np.nan, dtype=np.float32
         )  # as last written; NaN: never
@@ -55,11 +55,13 @@ class Writing:
             self.begin(event)
             self.file.write(SCENE, time, self._frames.scene(time))
         if isinstance(event, StepStarted):
-            self._line = event.line
+            self._place = event.file, event.line
         assert self.head is not None
         if type(event) in LEVELS:
             level, name = LEVELS[type(event)], self.head.program
-            self.file.write(LOG, time, messages.log(time, level, sentence(event), name=name, line=self._line))
+            file, line = self._place[0] or name, self._place[1]
+            said = messages.log(time, level, sentence(event), name=name, file=file, line=line)
+            self.file.write(LOG, time, said)
         self.file.write(EVENTS, time, event_data(event))
         self.events += 1
 
@@ -88,7 +90,7 @@ class Writing:
         if message.topic == EVENTS:
             self.events += 1
             event = _decode(message.data)
-            self._line = event.line if isinstance(event, StepStarted) else self._line
+            self._place = (event.file, event.line) if isinstance(event, StepStarted) else self._place
         elif message.topic == FRAMES:
             for frame in FrameTransforms.FromString(message.data).transforms:
                 place, turn = frame.translation, frame.rotation

@@ -63,7 +63,7 @@ def whole_run(folder: Path, seed: int) -> Whole:
     Raises:
         TrialFailed: it was not assembled.
     """
-    done = _handeye("assemble", "--seed", str(seed), "--out", str(folder))
+    done = handeye("assemble", "--seed", str(seed), "--out", str(folder))
     if done.returncode != 0:
         raise TrialFailed(
             f"seed {seed} is not assembled even when nobody breaks it off (exit {done.returncode})"
@@ -99,7 +99,7 @@ def interrupted(whole: Whole, folder: Path, count: int, jobs: int) -> Iterator[V
         _wait_for(place / EVENTS, line, process)
         time.sleep(later)
         process.send_signal(signal.SIGINT)
-        code = process.wait(LIMIT)
+        code = _ended(process)
         faults = [] if code == 130 else [f"exit code {code} instead of 130"]
         faults += _brakes(place)
         faults += _gone_on_with(whole, place)
@@ -113,7 +113,7 @@ def alone(whole: Whole, folder: Path, jobs: int) -> Iterator[Verdict]:
 
     def one(number: int) -> Verdict:
         place = folder / f"alone-{number + 1}"
-        done = _handeye(
+        done = handeye(
             "run", str(whole.folder / "plan.json"), "--seed", str(whole.seed),
             "--stage", str(number + 1), "--checkpoints", str(whole.folder), "--out", str(place),
         )  # fmt: skip
@@ -139,11 +139,19 @@ def _each(
 # -- breaking off -------------------------------------------------------------------------------------
 
 
-def _handeye(*words: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(  # noqa: S603 - our own program
-        [sys.executable, "-m", "handeye", *words],
-        stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=LIMIT, check=False,
-    )  # fmt: skip
+def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
+    """Carry out a command; `said` is its standard input.
+
+    Raises:
+        TrialFailed: it does not come to an end.
+    """
+    try:
+        return subprocess.run(  # noqa: S603 - our own program
+            [sys.executable, "-m", "handeye", *words],
+            input=said, capture_output=True, text=True, timeout=LIMIT, check=False,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        raise TrialFailed(f"`handeye {words[0]}` was not done after {LIMIT:.0f} s") from None
 
 
 def _begun(whole: Whole, place: Path) -> "subprocess.Popen[bytes]":
@@ -151,6 +159,15 @@ def _begun(whole: Whole, place: Path) -> "subprocess.Popen[bytes]":
         [sys.executable, "-m", "handeye", "assemble", "--seed", str(whole.seed), "--out", str(place)],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
+
+
+def _ended(process: "subprocess.Popen[bytes]") -> int:
+    """The exit code of a run that was told to stop."""
+    try:
+        return process.wait(LIMIT)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        raise TrialFailed(f"a run did not stop within {LIMIT:.0f} s of Ctrl-C") from None
 
 
 def _wait_for(journal: Path, lines: int, process: "subprocess.Popen[bytes]") -> None:
@@ -178,7 +195,7 @@ def _middle(whole: Whole, stage: str) -> int:
 
 def _gone_on_with(whole: Whole, place: Path) -> list[str]:
     """Go on with a run that was broken off; what is not as in the run that was not."""
-    done = _handeye("resume", str(place))
+    done = handeye("resume", str(place))
     if done.returncode != 0:
         return [f"resume ended with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"]
     faults = []

@@ -5,6 +5,7 @@ from typing import Literal
 import msgspec
 
 from handeye.plan.program import Record
+from handeye.source import line_name
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
@@ -41,12 +42,18 @@ class StageFinished(Event, frozen=True, kw_only=True):
     status: Literal["done", "stopped", "skipped"]
 
 
-class StepStarted(Event, frozen=True, kw_only=True):
-    """A step begins; `line` and `text` are the source's."""
+class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
+    """A step begins; `line` and `text` are the source's, or those of a required file."""
 
     step: int
+    file: str = ""
     line: int
     text: str
+
+    @property
+    def place(self) -> str:
+        """Its line, as people are told: `12`, or `pins.al:12`."""
+        return line_name(self.line, self.file)
 
 
 class StepFinished(Event, frozen=True, kw_only=True):

@@ -79,7 +79,7 @@ class Executor:
         run, here = self.state, self.at
         step = run.plan.program.steps[here]
         self._enter(step.stage)
-        run.emit(StepStarted(time=run.time, step=here, line=step.line, text=step.text))
+        run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.at = self._perform(here, step)
         run.emit(self._finished(here))
         if isinstance(step.operation, op.Wait):
@@ -233,5 +233,5 @@ class Executor:
         self.idle = 0 if run.time > self.clock else self.idle + 1
         self.clock = run.time
         if self.idle > IDLE_LIMIT and self.at is not None:
-            line = run.plan.program.steps[self.at].line
+            line = run.plan.program.steps[self.at].place
             self._stop(f"the program runs in a circle at line {line} without anything moving", None)

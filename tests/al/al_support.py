@@ -1,6 +1,7 @@
 """What the language tests share: a few taught names, and ways to compile and to walk a program."""
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from handeye import al
 from handeye.diagnostics import Diagnostic
@@ -36,12 +37,12 @@ L1:     MOVE  T              ;GO TO THE HOLE
 """The pin insertion of 1973, as restored."""
 
 
-def diagnose(text: str) -> list[Diagnostic]:
-    return al.compile_text(Source(name="test.al", text=text), TAUGHT)[1]
+def diagnose(text: str, files: Mapping[str, str] = MappingProxyType({})) -> list[Diagnostic]:
+    return al.compile_text(al.sewn_of(Source(name="test.al", text=text), files), TAUGHT)[1]
 
 
-def codes(text: str) -> list[str]:
-    return [diagnostic.code for diagnostic in diagnose(text)]
+def codes(text: str, files: Mapping[str, str] = MappingProxyType({})) -> list[str]:
+    return [diagnostic.code for diagnostic in diagnose(text, files)]
 
 
 def compiled(text: str) -> Program:

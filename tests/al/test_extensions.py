@@ -10,15 +10,17 @@ from handeye import al
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.cli.scripts import check
 from handeye.codes import CODES
+from handeye.source import Source
 
 
 @pytest.mark.parametrize("listing", [LISTING, LISTING_1977])
 def test_listings_of_the_period_use_nothing_of_ours(listing: str) -> None:
-    assert al.extensions(listing) == []
+    assert al.extensions(Source(name="x.al", text=listing)) == []
 
 
 def test_example_of_the_code_gets_it() -> None:
-    assert [d.code for d in al.extensions(CODES["extension-used"].example)] == ["extension-used"]
+    source = Source(name="x.al", text=CODES["extension-used"].example)
+    assert [d.code for d in al.extensions(source)] == ["extension-used"]
 
 
 @pytest.mark.parametrize(
@@ -33,7 +35,7 @@ def test_example_of_the_code_gets_it() -> None:
     ],
 )
 def test_what_is_ours_is_pointed_at(text: str, message: str, at: str) -> None:
-    (diagnostic,) = al.extensions(text)
+    (diagnostic,) = al.extensions(Source(name="x.al", text=text))
     span = diagnostic.primary.span
     assert (diagnostic.message, text[span.start : span.end]) == (message, at)
 

@@ -159,3 +159,39 @@ def test_only_actions_raise_and_what_they_raise_depends_on_how_they_are_told() -
     assert 23 in raises(Move(goal="T", stop=Stop(against=1.0)))
     assert 24 in raises(Change(displacement=(0, 0, 1), stop=Stop(torque=1.0)))
     assert raises(Close(maximum=0.1)) - raises(Close()) == {7}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "MOVE T\nSAVE D\nMOVE T\nRESTORE D",
+        "L: MOVE T\nRESTORE D\nCLOSE .1\nSKIPE 2\nJUMP END\nSAVE D\nJUMP L\nEND: PARK",
+        "MOVE T\nCLOSE .1\nSKIPE 2\nSAVE D\nMOVE T\nRESTORE D",
+        "DEFINE BACK\nMOVE T\nRESTORE D\n\nBACK\nPARK\nSAVE D\nBACK",
+        "MOVE T\nRESTORE D\nCLOSE .1\nSAVE D",
+    ],
+)
+def test_a_difference_saved_on_some_way_or_for_the_same_goal_may_be_restored(text: str) -> None:
+    assert codes(text) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "MOVE T\nRESTORE D\nMOVE P\nSAVE D",
+        "MOVE T\nCLOSE .1\nSKIPE 2\nJUMP A\nSAVE D\nJUMP END\nA: MOVE T\nRESTORE D\nEND: PARK",
+        "DEFINE BACK\nMOVE T\nRESTORE D\n\nBACK\nBACK\nPARK\nSAVE D",
+        "MOVE T\nSAVE E\nMOVE T\nRESTORE E\nRESTORE D LEVEL\nMOVE T\nSAVE D",
+    ],
+)
+def test_a_difference_saved_only_later_or_on_another_way_shifts_nothing(text: str) -> None:
+    (diagnostic,) = diagnose(text)
+    (only,) = diagnostic.secondary
+    assert (diagnostic.code, text[diagnostic.primary.span.start]) == ("never-saved", "D")
+    assert text[only.span.start - 5 : only.span.end] == "SAVE D"
+
+
+def test_many_ways_on_which_many_differences_are_saved_are_followed_in_no_time() -> None:
+    ways = "".join(f"CLOSE .1\nSAVE D{i}\nSKIPE 2\nJUMP TAIL\n" for i in range(1500))
+    tail = "".join(f"MOVE T\nRESTORE D{i}\n" for i in range(1500))
+    assert "never-saved" not in codes(f"MOVE T\n{ways}TAIL: PARK\n{tail}")

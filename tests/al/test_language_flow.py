@@ -1,5 +1,6 @@
 """Where a program goes: error tests, jumps, searches and macros, without an arm."""
 
+import pytest
 from al_support import LISTING, codes, compiled, diagnose, walk
 
 DOWN = "CHANGE [0 0 -1] 0.6"
@@ -83,6 +84,23 @@ def test_macro_is_replaced_by_its_instructions() -> None:
 def test_macro_without_a_blank_line_is_reported() -> None:
     assert codes("PARK\nDEFINE GRASP\nMOVE P\nCLOSE .1\n") == ["unterminated-macro"]
     assert codes("GRASP\nDEFINE GRASP\nMOVE P\nCLOSE .1\n\n") == []
+
+
+@pytest.mark.parametrize(
+    ("define", "message", "help"),
+    [
+        ("DEFINE GRASP A B", "macro `GRASP` can have no arguments", "write a macro for each use of it"),
+        ("DEFINE GRASP, A", "macro `GRASP` can have no arguments", "write a macro for each use of it"),
+        (
+            "DEFINE GRASP CLOSE .1",
+            "`DEFINE` takes a name only",
+            "the instructions of a macro stand on the lines below",
+        ),
+    ],
+)
+def test_a_macro_with_arguments_is_told_what_to_do(define: str, message: str, help: str) -> None:
+    (diagnostic,) = diagnose(f"{define}\nMOVE P\n\nGRASP")
+    assert (diagnostic.code, diagnostic.message, diagnostic.help) == ("too-many-operands", message, help)
 
 
 def test_macro_inside_a_macro_is_reported_as_a_missing_blank_line() -> None:

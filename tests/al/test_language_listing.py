@@ -130,9 +130,9 @@ def test_look_can_hold_the_target_voltage() -> None:
 
 
 def test_steps_belong_to_the_stage_above_them() -> None:
-    program = compiled('PARK\nSTAGE "one"\nPARK\nSTAGE "two"\nPARK\nSTAGE "one"\nPARK')
+    program = compiled('PARK\nSTAGE "one"\nPARK\nSTAGE "two"\nPARK\nPARK')
     assert program.stages == ("program", "one", "two")
-    assert [step.stage for step in program.steps] == [0, 1, 2, 1]
+    assert [step.stage for step in program.steps] == [0, 1, 2, 2]
 
 
 def test_program_has_its_name_and_everything_taught() -> None:

@@ -14,6 +14,8 @@ from handeye.source import Source
 
 HERE = Path(__file__).parent
 MANUAL = HERE.parents[1] / "docs" / "language.md"
+REQUIRED = re.compile(r"^```al (\S+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+"""A file that programs below it may require."""
 BLOCK = re.compile(r"^```(al|diagnostic)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -31,6 +33,7 @@ def cases(file: Path) -> list[tuple[str, str]]:
 
 
 FILES = [MANUAL, *sorted(HERE.glob("*.md"))]
+REQUIRABLE = dict(found for file in FILES for found in REQUIRED.findall(file.read_text(encoding="utf-8")))
 CASES = [
     pytest.param(text, wanted, id=f"{file.stem}-{number}")
     for file in FILES
@@ -40,7 +43,7 @@ CASES = [
 
 @pytest.mark.parametrize(("text", "wanted"), CASES)
 def test_program_in_the_manual_gets_what_stands_below_it(text: str, wanted: str) -> None:
-    source = Source(name="pump.al", text=text)
+    source = al.sewn_of(Source(name="pump.al", text=text), REQUIRABLE)
     diagnostics = al.compile_text(source, TAUGHT)[1]
     assert "\n\n".join(render(d, source) for d in diagnostics) == wanted.rstrip("\n")
 

@@ -12,7 +12,7 @@ LANGUAGE = [code for code, entry in CODES.items() if entry.phase == "language"]
 
 @pytest.mark.parametrize("code", LANGUAGE)
 def test_example_of_a_code_gets_exactly_that_diagnostic(code: str) -> None:
-    assert codes(CODES[code].example) == [code]
+    assert codes(CODES[code].example, CODES[code].required) == [code]
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "-inf", "1.2.3", "0x10", "1_0", "1e", "-nan"])
@@ -170,7 +170,13 @@ def test_json_form_gives_lines_and_columns_from_one() -> None:
         "severity": "error",
         "message": "`9` is too large as gap of `OPEN`",
         "file": "x.al",
-        "primary": {"line": 2, "column": 6, "end": 7, "text": "the hand opens from 0 to 4.13 in"},
+        "primary": {
+            "file": "x.al",
+            "line": 2,
+            "column": 6,
+            "end": 7,
+            "text": "the hand opens from 0 to 4.13 in",
+        },
         "secondary": [],
         "notes": [],
         "help": None,

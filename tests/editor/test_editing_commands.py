@@ -57,6 +57,23 @@ def test_fmt_without_files_says_what_it_needs(command: Command) -> None:
 
 
 @pytest.mark.slow
+def test_fmt_knows_the_macros_of_required_files_and_leaves_those_files_alone(
+    command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    main, required = Path("main.al"), Path("b.al")
+    main.write_text("require b.al\ndrop\n", encoding="utf-8")
+    required.write_text("DEFINE DROP\nopne 1\n\n", encoding="utf-8")
+    assert command("fmt", "main.al") == (0, "main.al: tidied\n", "")
+    assert main.read_text(encoding="utf-8") == "        REQUIRE b.al\n        DROP\n"
+    assert required.read_text(encoding="utf-8") == "DEFINE DROP\nopne 1\n\n"
+
+
+def test_fmt_of_standard_input_needs_no_required_file() -> None:
+    code, out, _ = handeye("fmt", "-", typed=b"require b.al\ndrop\n")
+    assert (code, out) == (0, b"        REQUIRE b.al\n        DROP\n")
+
+
 def test_fmt_of_standard_input_goes_to_standard_output() -> None:
     assert handeye("fmt", "-", typed=UNTIDY.encode()) == (0, TIDY.encode(), b"")
     assert handeye("fmt", "-", typed=b"\xff")[0] == 2
@@ -157,6 +174,22 @@ def test_a_watched_script_is_checked_again_when_it_or_what_is_taught_changes(scr
     edits = Edits(("a.al", "OPEN 1.5\n"), ("other.al", "PARK\n"), ("a.toml", "[positions]\n"))
     assert watched(script, check, edits) == 3
     assert checked == ["OPEN 1\n", "OPEN 1.5\n", "OPEN 1.5\n"]
+
+
+def test_a_watched_script_is_checked_again_when_a_file_it_requires_changes(script: Path) -> None:
+    script.write_text("REQUIRE lib/b.al\n", encoding="utf-8")
+    Path("lib").mkdir()
+    checked = []
+
+    def check() -> int:
+        checked.append(len(checked))
+        return 0
+
+    edits = Edits(
+        ("lib/b.al", "REQUIRE c.al"), ("lib/c.al", "PARK"), ("c.al", "PARK"), ("lib/c.al", "OPEN 1")
+    )
+    watched(script, check, edits)
+    assert len(checked) == 4
 
 
 def test_watching_goes_on_after_a_file_that_cannot_be_used(

@@ -156,6 +156,32 @@ def test_every_question_an_editor_asks_is_answered(folder: Path) -> None:
 
 
 @pytest.mark.slow
+def test_a_mistake_of_a_required_file_is_told_where_that_is_required(folder: Path) -> None:
+    required = folder / "b.al"
+    required.write_text("DEFINE M\nPARK\n\nOPNE 1\n", encoding="utf-8")
+
+    async def conversation(client: Client) -> None:
+        (wrong,) = await client.open("M\n        REQUIRE b.al\n")
+        assert (wrong.code, wrong.range) == ("unknown-instruction", span(1, 16, 20))
+        assert wrong.message == "b.al:4: there is no instruction `OPNE`\nhelp: did you mean `OPEN`?"
+        (place,) = wrong.related_information or ()
+        assert place.location == lsp.Location(required.as_uri(), span(3, 0, 4))
+        at = lsp.DefinitionParams(client.document, lsp.Position(0, 0))
+        made = await client.text_document_definition_async(at)
+        assert list(made or ()) == [lsp.Location(required.as_uri(), span(0, 7, 8))]
+        item = lsp.TextDocumentItem(
+            uri=required.as_uri(), language_id="armal", version=1, text="DEFINE M\nPARK\n\nOPEN 1\n"
+        )
+        client.text_document_did_open(lsp.DidOpenTextDocumentParams(text_document=item))
+        client.workspace_did_change_watched_files(lsp.DidChangeWatchedFilesParams(changes=[]))
+        while (published := await client.published.get()).uri != client.document.uri:
+            pass
+        assert list(published.diagnostics) == []
+
+    talk(folder, conversation)
+
+
+@pytest.mark.slow
 def test_quick_fixes_and_formatting_come_as_edits(folder: Path) -> None:
     async def conversation(client: Client) -> None:
         (wrong,) = await client.open('STAGE "🔭" MOVE\npark\n')

@@ -60,5 +60,21 @@ def test_every_goal_out_of_reach_is_told_and_not_the_first_alone() -> None:
     assert [p.code for p in said(text)] == ["unreachable-position"] * 2 + ["path-leaves-reach"]
 
 
+def test_a_goal_out_of_reach_is_told_where_it_is_first_gone_to_and_not_again() -> None:
+    (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR\nMOVE T\nMOVE FAR")
+    assert problem.primary.span.start == len("TRANS FAR [25 60 4 90 90 0]\nMOVE ")
+
+
 def test_a_long_script_of_mistakes_gets_no_more_messages_than_anybody_reads() -> None:
     assert len(said("MOVE T\n" + "CHANGE [0 1 0] 30\nMOVE T\n" * 30)) == 20
+
+
+@pytest.mark.parametrize(
+    "line", ["FAR: MOVE FAR ;FAR", "  move FAR DIRECT", "DEFINE TO_FAR\nMOVE FAR\n\nTO_FAR"]
+)
+def test_the_goal_is_marked_and_not_a_label_or_comment_like_it(line: str) -> None:
+    text = f"TRANS FAR [25 60 4 90 90 0]\n{line}"
+    (problem,) = said(text)
+    span = problem.primary.span
+    assert text[span.start : span.end] == "FAR"
+    assert text[: span.start].rstrip().lower().endswith("move")

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from handeye.al import compile_text
+from handeye.al import compile_text, sewn_of
 from handeye.arm.stanford import STANFORD
 from handeye.plan.plan import Plan
 from handeye.plan.planner import make_plan
@@ -35,19 +35,19 @@ DONE:   OPEN    1
 
 
 @cache
-def plan_of(script: str) -> Plan:
-    """The plan of a script with the taught positions of the water pump."""
+def plan_of(script: str, files: tuple[tuple[str, str], ...] = ()) -> Plan:
+    """The plan of a script and the files it requires, with the taught positions of the water pump."""
     taught = load_taught(plans() / "water_pump.toml")
-    program, diagnostics = compile_text(Source(name="short.al", text=script), taught)
+    program, diagnostics = compile_text(sewn_of(Source(name="short.al", text=script), dict(files)), taught)
     assert program is not None, diagnostics
     plan, problems = make_plan(program, STANFORD)
     assert plan is not None, problems
     return plan
 
 
-def begin(script: str = GRASP, seed: int = 0) -> Checkpoint:
+def begin(script: str = GRASP, seed: int = 0, files: tuple[tuple[str, str], ...] = ()) -> Checkpoint:
     """A run that has not begun."""
-    return Checkpoint(setup=Setup(plan=plan_of(script), seed=seed, camera="ray"))
+    return Checkpoint(setup=Setup(plan=plan_of(script, files), seed=seed, camera="ray"))
 
 
 def through(runner: Runner) -> Runner:

@@ -10,12 +10,14 @@ import pytest
 from short_runs import GRASP, begin, history, through
 
 from handeye.errors import InvalidInput
+from handeye.plan.world import WorldModel
 from handeye.stepping import checkpoint_file
 from handeye.stepping.checkpoint_file import decode, encode, read_checkpoint, read_head, write_checkpoint
 from handeye.stepping.runner import Runner
 from handeye.stepping.snapshot import Checkpoint
+from handeye.work.drive import ArmDrive
 from handeye.work.executor import Executor
-from handeye.work.memory import Memory
+from handeye.work.memory import DriveMemory, Memory
 from handeye.work.run import Run
 
 pytestmark = pytest.mark.slow
@@ -84,6 +86,12 @@ def test_a_newer_version_is_refused(data: bytes) -> None:
         decode(sealed(rest, version=2), "it")
 
 
+def test_a_version_of_thousands_of_digits_is_no_version(data: bytes) -> None:
+    rest = data.partition(b"\n")[2]
+    with pytest.raises(InvalidInput, match="it is not a checkpoint of handeye"):
+        decode(sealed(rest, version=10**4000), "it")
+
+
 def test_another_arm_is_refused(runner: Runner) -> None:
     plan = msgspec.structs.replace(runner.setup.plan, arm="puma", arm_digest="0" * 12)
     setup = msgspec.structs.replace(runner.setup, plan=plan)
@@ -131,9 +139,12 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("memory", "stage"), 99, "does not fit this plan"),
         (("memory", "goal"), ["<f8", [2], b"\0" * 16], "does not fit this plan"),
         (("memory", "measured"), {"moon": ["<f8", [4, 4], b"\0" * 128]}, "does not fit this plan"),
+        (("memory", "found"), {"../../x": {}}, "does not fit this plan"),
+        (("cell", "sensed", "time"), 1e300, "what they cannot"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
         (("cell", "figures"), {}, "figures that change"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
+        (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
         (("cell", "camera", "lens"), 0.5, "no lens"),
     ],
 )
@@ -181,7 +192,14 @@ def test_nothing_that_a_run_remembers_is_left_out() -> None:
     remembered = {field.name for field in msgspec.structs.fields(Memory)}
     run = {field.name for field in dataclasses.fields(Run)} - GIVEN - {"world", "drive"}
     executor = {field.name for field in dataclasses.fields(Executor)} - {"state"}
-    assert remembered == run | executor | {"measured", "moved", "drive"}
+    world = {field.name for field in dataclasses.fields(WorldModel)} - {"parts", "positions"}
+    assert remembered == run | executor | world | {"drive"}
+
+
+def test_nothing_that_the_servo_loop_holds_is_left_out() -> None:
+    remembered = {field.name for field in msgspec.structs.fields(DriveMemory)}
+    held = {field.name for field in dataclasses.fields(ArmDrive)}
+    assert remembered == held - {"cell", "arm", "watch", "halt", "sensed"}
 
 
 @pytest.mark.parametrize("path", ["/dev/zero", "/", "/nowhere"])

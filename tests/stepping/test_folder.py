@@ -1,6 +1,9 @@
 """The folder that a run leaves, and going on with it after whatever happened."""
 
+import resource
 import shutil
+import signal
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -17,7 +20,7 @@ from handeye.stepping.kept import Kept
 from handeye.stepping.runner import Runner
 from handeye.stepping.snapshot import Checkpoint
 from handeye.trace.eventlist import effective, read_events
-from handeye.work.events import WentBack
+from handeye.work.events import AnyEvent, WentBack
 
 pytestmark = pytest.mark.slow
 
@@ -212,11 +215,124 @@ def test_the_checkpoint_of_a_stage_is_found_or_the_nearest_before_it(whole: Path
     assert nearest.stage == "go to the pin"
 
 
-def test_a_journal_on_a_full_disk_says_so() -> None:
-    journal = Journal(Path("/dev/full"), anew=True)
-    with pytest.raises(InvalidInput, match="/dev/full cannot be written: No space left on device"):
-        journal.undone(0, 0.0, "back")
+def test_a_journal_on_a_full_disk_says_so_and_makes_up_for_what_it_could_not_tell(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "events.jsonl"
+    journal = Journal(path, begun_events(), again=False)
+    before = path.read_bytes()
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+    monkeypatch.setattr(signal, "SIGXFSZ", signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 10, limit[1]))
+    try:
+        with pytest.raises(InvalidInput, match=r"events\.jsonl cannot be written"):
+            journal.undone(1, 0.0, "back")
+        assert path.read_bytes() == before
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+    again = begun_events()[-1]
+    journal.append(again)
     journal.close()
+    *_, back, last = read_events(path)
+    assert (isinstance(back, WentBack), last) == (True, again)
+
+
+def begun_events() -> tuple[AnyEvent, ...]:
+    """What happens first in a run."""
+    return tuple(through_start().events)
+
+
+@cache
+def through_start() -> Runner:
+    runner = Runner(begin())
+    runner.step()
+    return runner
+
+
+def test_one_folder_takes_one_run_at_a_time(copy: Path) -> None:
+    journal = Journal(copy / "events.jsonl", (), again=True)
+    before = (copy / "events.jsonl").read_bytes()
+    with pytest.raises(InvalidInput, match=r"another run is writing to .*events\.jsonl at this moment"):
+        gone_on(copy)
+    journal.close()
+    assert (copy / "events.jsonl").read_bytes() == before
+
+
+def test_a_run_that_cannot_begin_leaves_the_record_of_the_one_before(whole: Path, tmp_path: Path) -> None:
+    path = Path(shutil.copytree(whole, tmp_path / "copy"))
+    before = {file: file.read_bytes() for file in path.rglob("*.*")}
+    open_new(path, begin()).discard()
+    assert {file: file.read_bytes() for file in path.rglob("*.*")} == before
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "sentence"),
+    [
+        (
+            "checkpoints/0002-take-the-pin.checkpoint",
+            b"of a later version, perhaps",
+            "holds what cannot be read",
+        ),
+        ("plan.json", b"{}", "is not a plan"),
+    ],
+)
+def test_what_cannot_be_read_is_not_replaced(copy: Path, name: str, content: bytes, sentence: str) -> None:
+    (copy / name).write_bytes(content)
+    before = {file: file.read_bytes() for file in copy.rglob("*.*")}
+    with pytest.raises(InvalidInput, match=sentence):
+        open_new(copy, begin())
+    assert {file: file.read_bytes() for file in copy.rglob("*.*")} == before
+
+
+def test_a_record_that_nothing_tells_the_run_of_is_not_replaced(copy: Path) -> None:
+    shutil.rmtree(copy / "checkpoints")
+    with pytest.raises(InvalidInput, match=r"events\.jsonl is of a run without checkpoints"):
+        open_new(copy, begin())
+    assert (copy / "events.jsonl").exists()
+
+
+def test_states_of_a_run_somebody_took_a_hand_in_are_not_replaced(tmp_path: Path) -> None:
+    runner, folder = recorded(tmp_path / "run", begin())
+    advance(runner, steps=5)
+    runner.set_saved("C1", (0.0, 0.0, 0.001))
+    folder.checkpoint(runner.checkpoint())
+    folder.close()
+    with pytest.raises(InvalidInput, match="somebody took a hand in"):
+        Kept(tmp_path / "run" / "checkpoints").claim(begin().setup)
+
+
+def test_of_one_position_only_the_state_kept_last_is_left(whole: Path, tmp_path: Path) -> None:
+    path = Path(shutil.copytree(whole / "checkpoints", tmp_path / "copy"))
+    (path / "0002-take-the-pin.checkpoint").rename(path / "0002-as-it-was-before.checkpoint")
+    kept = Kept(path)
+    checkpoint = Kept(whole / "checkpoints").for_stage(begin().setup, 1)
+    assert checkpoint is not None
+    kept.save(checkpoint)
+    assert [name for name in names(path) if name.startswith("0002")] == ["0002-take-the-pin.checkpoint"]
+
+
+def test_nothing_happens_behind_a_trace_that_was_broken_off(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runner, folder = recorded(tmp_path / "run", begin())
+    advance(runner, steps=5)
+
+    def full(*_: object) -> int:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as disk:
+        disk.setattr("handeye.trace.growing.os.write", full)
+        with pytest.raises(
+            InvalidInput, match=r"trace\.mcap\.part cannot be written: No space left on device"
+        ):
+            folder.checkpoint(runner.checkpoint())
+    kept, told = names(tmp_path / "run" / "checkpoints"), (tmp_path / "run" / "events.jsonl").read_bytes()
+    with pytest.raises(InvalidInput, match=r"was broken off; make room, and `handeye resume .*run` goes on"):
+        runner.step()
+    folder.checkpoint(runner.checkpoint())
+    assert names(tmp_path / "run" / "checkpoints") == kept
+    assert (tmp_path / "run" / "events.jsonl").read_bytes() == told
+    folder.close()
 
 
 def test_a_stage_alone_ends_in_the_state_it_has_within_the_whole_run(whole: Path) -> None:

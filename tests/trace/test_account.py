@@ -99,3 +99,8 @@ def test_a_stop_and_what_the_operator_chose_stand_out() -> None:
         "",
         "    11.20  the run ended before the program did",
     ]
+
+
+def test_a_step_of_a_required_file_is_told_with_it() -> None:
+    event = happened.StepStarted(time=10.0, step=1, file="lib/pins.al", line=3, text="OPEN    1")
+    assert account([event]) == ["    10.00 lib/pins.al:3  OPEN    1"]

@@ -1,0 +1,72 @@
+"""Which text a REQUIRE reads, or why it reads none."""
+
+from dataclasses import dataclass, field
+
+from handeye.al.sewing import MOST, key_of, own_key
+from handeye.al.syntax import Text
+from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.source import LARGEST, Source, Span
+
+_SHOWN = 6
+"""Files of a circle that are named."""
+
+
+@dataclass(slots=True)
+class Requirements:
+    """What a text requires, as one REQUIRE after the other is met."""
+
+    source: Source
+    reading: list[str] = field(init=False)
+    """Keys of the texts that are being read, each required by the one before."""
+    first: dict[str, Span] = field(default_factory=dict)
+    """Where each text was required first."""
+    missing: bool = False
+    """It has been said that something required is not there."""
+
+    def __post_init__(self) -> None:
+        self.reading = [own_key(self.source)]
+
+    def find(self, file: Text) -> Source | Diagnostic | None:
+        """The text that is to be read now; None if it need not be said that there is too much."""
+        key = key_of(file.text, self.reading[-1])
+        found = next((text for text in self.source.required if text.key == key), None)
+        if key in self.reading:
+            return self._circle(key, file)
+        if key in self.first:
+            message = f"{quoted(file.text)} has been read before: nothing is read here"
+            first = Label(span=self.first[key], text="it is read here")
+            return _problem("required-twice", message, file, first)
+        if found is not None and not found.problem:
+            self.first[key] = file.span
+            return found
+        told, self.missing = self.missing, True
+        if found is None and self.source.required:
+            message = f"more than {MOST} files, or {LARGEST} characters in all, are required"
+            return None if told else _problem("too-much-required", message, file)
+        message = f"{quoted(file.text)} cannot be read"
+        if found is not None:
+            return _problem("unreadable-file", message, file, notes=(found.problem,))
+        help = "files are looked for beside the file that requires them: save the text as a file"
+        return _problem("unreadable-file", message, file, notes=("this text is in no file",), help=help)
+
+    def _circle(self, key: str, file: Text) -> Diagnostic:
+        around = [*self.reading[self.reading.index(key) :], key]
+        if len(around) > _SHOWN:
+            around[_SHOWN // 2 : -_SHOWN // 2] = ["…"]
+        way = ", which requires ".join(name if name == "…" else quoted(name) for name in around)
+        notes = (way.replace(", which", "", 1),) if len(around) > 2 else ()
+        return _problem("require-circle", f"{quoted(key)} requires itself", file, notes=notes)
+
+
+def _problem(
+    code: str,
+    message: str,
+    file: Text,
+    *secondary: Label,
+    notes: tuple[str, ...] = (),
+    help: str | None = None,
+) -> Diagnostic:
+    primary = Label(span=file.span)
+    return Diagnostic(
+        code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help
+    )
