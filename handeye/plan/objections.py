@@ -68,12 +68,14 @@ class Objections:
 
     def _joint_limit(self, step: Step, motion: str, word: str, failure: IKResult) -> None:
         beyond, limit = f"{failure.excess / DEGREE:.1f} degrees", f"{failure.limit / DEGREE:.0f} degrees"
-        help = "turn the hand otherwise: other angles O, A, T can be within the limits"
+        note, help = None, "turn the hand otherwise: other angles O, A, T can be within the limits"
         if failure.along is not None:
-            help = f"end the motion before it comes to its limit {_along(step, failure.along)}"
+            note = f"it comes to its limit {_along(step, failure.along)}"
+            help = "go by a position between" if isinstance(step.operation, Move) else "shorten the motion"
         self._add(
             "joint-limit", step, word,
-            f"`{motion}` would take {self._joint(failure.joint)} {beyond} beyond its limit of {limit}", help=help,
+            f"`{motion}` would take {self._joint(failure.joint)} {beyond} beyond its limit of {limit}",
+            note=note, help=help,
         )  # fmt: skip
 
     def below_table(self, step: Step, word: str, depth: float) -> None:

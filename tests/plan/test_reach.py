@@ -33,8 +33,19 @@ def test_a_straight_motion_says_where_it_leaves_the_reach() -> None:
 def test_a_turn_says_where_it_comes_to_the_limit_of_a_joint() -> None:
     (problem,) = said("MOVE T\nTURN PEG 330")
     assert problem.code == "joint-limit"
-    assert problem.help is not None
-    assert problem.help.startswith("end the motion before it comes to its limit")
+    assert problem.notes == ("it comes to its limit 50.7 in along this `TURN`",)
+    assert problem.help == "shorten the motion"
+
+
+def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> None:
+    (problem,) = said(
+        "TRANS A [26.44 13.42 1.83 -90 60 0]\nTRANS B [27.12 59.14 15.64 90 0 90]\nMOVE A\nMOVE B"
+    )
+    assert (
+        problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
+    )
+    assert problem.notes == ("it comes to its limit 159.1 in along its way to B",)
+    assert problem.help == "go by a position between"
 
 
 def test_a_straight_motion_through_the_singularity_is_found() -> None:
