@@ -56,7 +56,7 @@ CODES: Final[dict[str, Code]] = {
         phase="strict",
     ),
     "force-beyond-arm": _planning(
-        "a motion is to press with a force that the arm cannot exert",
+        "a motion is to press or turn with more than the arm can exert",
         "MOVE T\nFORCE [0 0 -900]\nCHANGE [0 0 -1] 1",
     ),
     "hand-through-fixture": _planning(
@@ -77,6 +77,9 @@ CODES: Final[dict[str, Code]] = {
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
+    "faint-moment": _warning(
+        "a moment is less than what joint friction is felt as", "STOP NIL [5 0 0]\nCHANGE X 1"
+    ),
     "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
@@ -119,10 +122,9 @@ CODES: Final[dict[str, Code]] = {
     "specific-without-general": _warning(
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
-    "spin-stays-stiff": _warning("a SPIN is understood and not carried out", "SPIN 1 X\nCHANGE Z -1"),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
-        "a motion is to stop on a force that the arm cannot exert",
+        "a motion is to stop on a force or moment that the arm cannot exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
     ),
     "test-without-action": _warning(
@@ -136,6 +138,9 @@ CODES: Final[dict[str, Code]] = {
     ),
     "travel-without-change": _warning(
         "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
+    ),
+    "typed-word": _error(
+        "a word is typed to have something done, and is no instruction of a script", "OPEN 3\nDO PARK"
     ),
     "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
     "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),

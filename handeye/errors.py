@@ -26,6 +26,7 @@ WRONG_THICKNESS: Final = 7
 WRONG_TRAVEL: Final = 8
 NO_FORCE: Final = 23
 NO_TORQUE: Final = 24
+NO_TOUCH: Final = 25
 PART_NOT_SEEN: Final = 30
 FEATURES_NOT_SEEN: Final = 31
 GASKET_WRONG: Final = 32
@@ -41,6 +42,7 @@ ERRORS: Final[dict[int, str]] = {
     WRONG_TRAVEL: "the last motion went less far, or farther, than it should",
     NO_FORCE: "the motion ended without meeting the force it was to stop on",
     NO_TORQUE: "the motion ended without meeting the torque it was to stop on",
+    NO_TOUCH: "the motion ended without a finger touching anything",
     PART_NOT_SEEN: "the part is not seen in the picture",
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
     GASKET_WRONG: "the gasket is not on properly",

@@ -38,6 +38,16 @@ def rotation_z(angle: float) -> Array:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
+def rotation(vector: Array) -> Array:
+    """Rotation about `vector` by its length in radians, shape (3, 3)."""
+    angle = float(np.linalg.norm(vector))
+    if angle == 0.0:
+        return np.eye(3)
+    x, y, z = vector / angle
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + math.sin(angle) * K + (1 - math.cos(angle)) * K @ K)
+
+
 def pose(R: Array, p: Array | Sequence[float]) -> Pose:
     """The pose with rotation `R`, shape (3, 3), and position `p`, shape (3,), in metres."""
     X = np.eye(4)
@@ -82,4 +92,11 @@ def translated(X: Pose, p: Array | Sequence[float]) -> Pose:
     """`X` moved by `p` (metres), given in the outer frame."""
     Y = X.copy()
     Y[:3, 3] += p
+    return Y
+
+
+def displaced(X: Pose, p: Array, turn: Array) -> Pose:
+    """`X` moved by `p` (metres), and turned on the spot by the rotation vector `turn` (radians), in the outer frame."""
+    Y = translated(X, p)
+    Y[:3, :3] = rotation(turn) @ X[:3, :3]
     return Y

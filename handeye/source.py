@@ -45,13 +45,10 @@ class Source:
         number = bisect_right(self._begins, offset) - 1
         return self.texts[number], offset - self._begins[number]
 
-    def begin(self, key: str) -> int:
-        """The offset of the whole at which a text begins.
-
-        Raises:
-            StopIteration: there is no text of that key.
-        """
-        return next(begin for begin, text in zip(self._begins, self.texts, strict=True) if text.key == key)
+    @cached_property
+    def begins(self) -> dict[str, int]:
+        """The offset of the whole at which each text begins, by its key."""
+        return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
 
     @cached_property
     def _begins(self) -> list[int]:

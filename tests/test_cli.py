@@ -53,6 +53,24 @@ def test_a_missing_file_is_named(command: Command, words: tuple[str, str]) -> No
     assert err.count("\n") == 1
 
 
+def test_a_script_of_two_files_is_checked_in_both(command: Command) -> None:
+    Path("lib").mkdir()
+    Path("two.al").write_text("OPEN 1\nREQUIRE lib/one.al\n", encoding="utf-8")
+    Path("lib/one.al").write_text("OPEN 2\nOPEN 9\n", encoding="utf-8")
+    exit_code, out, _ = command("check", "two.al", "--json")
+    (wrong,) = json.loads(out)
+    assert (exit_code, wrong["file"], wrong["primary"]["line"]) == (2, "lib/one.al", 2)
+
+
+def test_a_plan_of_two_files_needs_neither(command: Command) -> None:
+    Path("two.al").write_text("OPEN 1\nREQUIRE one.al\n", encoding="utf-8")
+    Path("one.al").write_text("OPEN 2\n", encoding="utf-8")
+    assert command("plan", "two.al")[0] == 0
+    Path("one.al").unlink()
+    Path("two.al").unlink()
+    assert command("stages", "two.plan.json")[1].splitlines()[2] == "         1  line one.al:1  OPEN 2"
+
+
 SPOILED: dict[str, Callable[[str], str]] = {
     "is cut short": lambda text: text[:200],
     "has plan format version 99": lambda text: text.replace('"version": 1', '"version": 99'),

@@ -6,15 +6,15 @@ let client;
 
 async function activate(context) {
   const command = vscode.workspace.getConfiguration("handeye").get("command", "handeye");
-  const taught = vscode.workspace.createFileSystemWatcher("**/*.toml");
-  context.subscriptions.push(taught);
+  const files = vscode.workspace.createFileSystemWatcher("**/*.{al,toml}");
+  context.subscriptions.push(files);
   client = new LanguageClient(
     "handeye",
     "Arm language",
     { command, args: ["lsp"] },
     {
       documentSelector: [{ language: "armal" }],
-      synchronize: { fileEvents: taught },
+      synchronize: { fileEvents: files },
     },
   );
   try {

@@ -2,6 +2,7 @@
 
 from pathlib import PurePath
 
+from handeye.al.faint import faint_moments
 from handeye.al.flow import check_flow
 from handeye.al.form import MISSING
 from handeye.al.lower import lower
@@ -31,11 +32,13 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if sum(d.severity == "error" for d in found) >= LIMIT:
         return None, arranged(found)
     found += check_names(script, taught)
-    lowered = lower(expand(with_vectors(script), found.append), source, found.append)
+    resolved = with_vectors(script)
+    lowered = lower(expand(resolved, found.append), source, found.append)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
         found += check_flow(lowered.steps, lowered.origins)
+        found += faint_moments(resolved)
         found += check_restores(lowered)
         lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
         found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]

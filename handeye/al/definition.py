@@ -13,6 +13,9 @@ ANY: Final = "no number of a program is larger than a million"
 SMALLEST: Final = 0.001
 """Least size of what has to be larger than nothing, in its unit."""
 
+NIL: Final = "NIL"
+"""Stands in the dialect of 1977 for a force or moment there is none of."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unit:
@@ -65,6 +68,8 @@ class Operand:
     free: bool = False
     """Words up to the end of the line, with or without quotes."""
     optional: bool = False
+    nil: bool = False
+    """`NIL` may stand here, for nothing."""
     refers: Refers = Refers.NEW
     word: str = ""
     """A word of the language that stands here, alone or (`OF part`) before the operand."""

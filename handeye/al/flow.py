@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from handeye.al.graph import Graph
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label
-from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, WRONG_THICKNESS
+from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
 from handeye.plan import program as op
 from handeye.plan.raises import raises
 from handeye.source import Span
@@ -17,6 +17,7 @@ from handeye.source import Span
 _CURES = {
     NO_FORCE: "a motion raises error 23 if a `STOP` before it meets no force",
     NO_TORQUE: "a motion raises error 24 if a `TORQUE` before it meets no torque",
+    NO_TOUCH: "a motion raises error 25 if a `TOUCH` before it feels nothing",
     WRONG_THICKNESS: "`CLOSE` raises error 7 if it has a maximum",
 }
 _TAKES_TIME = (op.Move, op.Change, op.Turn, op.Open, op.Close, op.Center, op.Lens, op.Aim, op.Look)

@@ -13,6 +13,7 @@ from handeye.al.definition import (
     IN,
     IN_PER_S,
     MM,
+    NIL,
     ONE,
     OZ,
     OZ_IN,
@@ -25,6 +26,7 @@ from handeye.al.definition import (
     Unit,
 )
 from handeye.al.syntax import Name, Number, Text, Vector
+from handeye.plan.program import VIAS
 
 AXES: Final = ("X", "Y", "Z")
 """Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
@@ -60,12 +62,18 @@ def _name(name: str, refers: Refers) -> Operand:
     return Operand(name=name, takes=(Name,), refers=refers)
 
 
+def _also(name: str, refers: Refers) -> Operand:
+    return Operand(name=name, takes=(Name,), refers=refers, optional=True)
+
+
 def _word(word: str, *, ours: bool = True) -> Operand:
     return Operand(name="", takes=(), word=word, optional=True, ours=ours)
 
 
-_FORCE = _named_vector("[x y z]", OZ)
-_NIL = _word("NIL", ours=False)
+_NIL = _word(NIL, ours=False)
+_MOMENT = Operand(
+    name="moment", takes=(Vector, Name), units=(OZ_IN,) * 3, optional=True, nil=True, refers=Refers.VECTOR
+)
 _COUNTER = Operand(name="counter", takes=(Name,), refers=Refers.COUNTER)
 ERROR: Final = Operand(
     name="error",
@@ -133,7 +141,8 @@ _TABLE = (
         op="STOP",
         group=MODIFIERS,
         help="end the next motion when the hand presses along the vector with more than its length (oz), "
-        "or, given one number (ours), when anything opposes the motion with more; else error 23",
+        "or, given one number (ours), when anything opposes the motion with more; or when it turns something "
+        "about the moment with more than its length (oz-in); else error 23",
         operands=(
             Operand(
                 name="force",
@@ -141,9 +150,10 @@ _TABLE = (
                 units=(OZ, OZ, OZ),
                 low=SMALLEST,
                 why=f"it has to be at least {SMALLEST:g} oz",
+                nil=True,
                 refers=Refers.VECTOR,
             ),
-            _NIL,
+            _MOMENT,
         ),
         role=Role.MODIFIER,
         fits=_ALL,
@@ -151,8 +161,11 @@ _TABLE = (
     Instruction(
         op="FORCE",
         group=MODIFIERS,
-        help="press with this force (oz) during the next CHANGE",
-        operands=(_FORCE,),
+        help="press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
+        operands=(
+            Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR),
+            _MOMENT,
+        ),
         role=Role.MODIFIER,
         fits=("CHANGE",),
     ),
@@ -168,12 +181,39 @@ _TABLE = (
     Instruction(
         op="SPIN",
         group=MODIFIERS,
-        help="let the hand be turned about these table axes during the next CHANGE, as `2 X Y`; understood, "
-        "and not carried out: the hand keeps its angles",
+        help="give way to a moment about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
         operands=(_vector("[x y z]", ONE, ONE, ONE),),
         axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
+    ),
+    Instruction(
+        op="VIA",
+        group=MODIFIERS,
+        help="on the way to the goal of the next MOVE, pass these positions, in this order, without stopping",
+        operands=(_name("position", Refers.POSITION), *[_also("position", Refers.POSITION)] * (VIAS - 1)),
+        role=Role.MODIFIER,
+        fits=("MOVE", "PARK"),
+        ours=True,
+    ),
+    Instruction(
+        op="TOUCH",
+        group=MODIFIERS,
+        help="end the next motion when a finger touches something: 1 is the finger on the side that angle O "
+        "points to, 2 the other, 3 either; else error 25",
+        operands=(
+            Operand(
+                name="mask",
+                takes=(Number,),
+                units=(ONE,),
+                low=1,
+                high=3,
+                why="1 and 2 are the fingers, 3 is either",
+                whole=True,
+            ),
+        ),
+        role=Role.MODIFIER,
+        fits=_ALL,
     ),
     Instruction(
         op="TORQUE",
@@ -276,7 +316,7 @@ _TABLE = (
     Instruction(
         op="VECT",
         group=PLACES,
-        help="a vector that STOP, FORCE and CHANGE can name; in ounces or of no unit, as its place has it; "
+        help="a vector that STOP, FORCE and CHANGE can name; in ounces, ounce-inches or no unit, as its place has it; "
         "X, Y and Z are there already",
         operands=(_name("name", Refers.NEW), _vector("[x y z]", ONE, ONE, ONE)),
         role=Role.DECLARATION,

@@ -17,7 +17,7 @@ from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
-_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned"}
+_WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
 """What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 
@@ -163,11 +163,6 @@ class _Lowering:
         if role is not Role.MOTION and self.pending:
             self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
         modifiers = [m for m in self.pending if self.fits(m, statement)]
-        for modifier in modifiers:
-            if _word(modifier).text == "SPIN":
-                help = "`FREE` lets it give way sideways"
-                message = "`SPIN` is not carried out: the hand keeps its angles"
-                self.problem("spin-stays-stiff", message, _word(modifier), help=help)
         self.draft(item, operation(statement, [m.statement for m in modifiers]))
         self.pending.clear()
         self.shiftable = self.drafts[-1].word == "MOVE"

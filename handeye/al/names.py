@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from handeye.al.definition import Operand, Refers
+from handeye.al.definition import NIL, Operand, Refers
 from handeye.al.instructions import AXES, ERROR, INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Script, Statement, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
@@ -18,6 +18,8 @@ _CODES = {
     Refers.COUNTER: "unknown-counter",
     Refers.SAVED: "never-saved",
 }
+_RESERVED = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "stands for no vector"}
+"""Names of vectors that are there already."""
 _MESSAGES = {
     Refers.POSITION: "position {} is neither taught nor written with `TRANS`",
     Refers.PART: "there is no part {}",
@@ -124,15 +126,15 @@ def _vectors_twice(statements: list[Statement]) -> list[Diagnostic]:
     first: dict[str, Name] = {}
     for name in _declared(statements, "VECT"):
         before = first.setdefault(name.text, name)
-        axis = name.text in AXES
-        if axis or before is not name:
+        taken = _RESERVED.get(name.text)
+        if taken is not None or before is not name:
             found.append(
                 Diagnostic(
                     code="vector-twice",
                     message=f"vector {quoted(name.text)} is defined twice",
                     primary=Label(span=name.span),
-                    secondary=() if axis else (Label(span=before.span, text="first written here"),),
-                    notes=(f"{quoted(name.text)} is an axis of the table",) if axis else (),
+                    secondary=() if taken else (Label(span=before.span, text="first written here"),),
+                    notes=(f"{quoted(name.text)} {taken}",) if taken else (),
                 )
             )
     return found

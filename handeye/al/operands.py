@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from handeye.al.definition import BIGGEST, SMALLEST, Instruction, Operand
+from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.instructions import AXES
 from handeye.al.scanner import Kind, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
@@ -75,6 +75,7 @@ class _Reader:
         if self.at < len(self.tokens):
             self.too_many()
         self.check_order(values)
+        self.check_nils(values)
         return values
 
     def operand(self, operand: Operand) -> Value | None:
@@ -92,6 +93,9 @@ class _Reader:
             if operand.optional:
                 return None
             raise self.missing(operand)
+        if operand.nil and token.text.upper() == NIL:
+            self.at += 1
+            return None
         value = self.free(token) if operand.free else self.value(token, operand)
         self.check(value, operand, token)
         return value
@@ -214,6 +218,13 @@ class _Reader:
         if low is not None and high is not None and low.value > high.value:
             message = f"the maximum {high.value:g} is less than the minimum {low.value:g}"
             raise Mistake("number-out-of-range", message, high.span)
+
+    def check_nils(self, values: tuple[Value | None, ...]) -> None:
+        """What can all be left out, one by one, cannot be left out together."""
+        nils = [o.plain for o in self.definition.operands if o.nil]
+        if nils and not any(v for o, v in zip(self.definition.operands, values, strict=True) if o.nil):
+            message = f"`{self.definition.op}` has no {' and no '.join(nils)}"
+            raise Mistake("missing-operand", message, self.tokens[-1].span, help=self.usage())
 
     def missing(self, operand: Operand) -> Mistake:
         message = f"`{self.definition.op}` lacks its {operand.plain}"

@@ -40,9 +40,6 @@ class Operands:
         assert isinstance(value, Number)
         return value.value * self._units[key][0]
 
-    def number_or(self, key: str) -> float | None:
-        return self.number(key) if self.has(key) else None
-
     def vector(self, key: str) -> tuple[float, ...]:
         value = self._values[key]
         assert isinstance(value, Vector)
@@ -51,6 +48,12 @@ class Operands:
     def vector3(self, key: str) -> p.Vector:
         x, y, z = self.vector(key)
         return x, y, z
+
+    def vector3_or(self, key: str) -> p.Vector | None:
+        return self.vector3(key) if isinstance(self._values[key], Vector) else None
+
+    def number_or(self, key: str) -> float | None:
+        return self.number(key) if isinstance(self._values[key], Number) else None
 
     def name(self, key: str) -> str:
         value = self._values[key]
@@ -65,6 +68,9 @@ class _How:
     stop: p.Stop | None = None
     press: p.Vector | None = None
     free: p.Vector | None = None
+    moment: p.Vector | None = None
+    spin: p.Vector | None = None
+    via: tuple[str, ...] = ()
 
 
 def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOperation:
@@ -75,13 +81,15 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
         assert modifier.word is not None
         word, operands = modifier.word.text, Operands(modifier)
         if word == "FORCE":
-            how = replace(how, press=operands.vector3("[x y z]"))
+            how = replace(how, press=operands.vector3_or("force"), moment=operands.vector3_or("moment"))
         elif word == "FREE":
             how = replace(how, free=operands.vector3("[x y z]"))
         elif word == "SPIN":
-            continue  # checked, and said not to be carried out
+            how = replace(how, spin=operands.vector3("[x y z]"))
+        elif word == "VIA":
+            how = replace(how, via=tuple(v.text for v in modifier.operands if isinstance(v, Name)))
         else:
-            how = replace(how, stop=_stop(word, operands, modifier.operands[0]))
+            how = replace(how, stop=_STOPS[word](operands))
     motion = _MOTIONS.get(statement.word.text)
     if motion is not None:
         return motion(Operands(statement), how)
@@ -102,12 +110,12 @@ def restore(statement: Statement) -> p.Restore:
     return p.Restore(name=operands.name("name"), level=operands.has("LEVEL"))
 
 
-def _stop(op: str, operands: Operands, value: Value | None) -> p.Stop:
-    if op == "TORQUE":
-        return p.Stop(torque=operands.number("torque"))
-    if isinstance(value, Vector):
-        return p.Stop(force=operands.vector3("force"))
-    return p.Stop(against=operands.number("force"))
+def _stop(operands: Operands) -> p.Stop:
+    return p.Stop(
+        force=operands.vector3_or("force"),
+        against=operands.number_or("force"),
+        moment=operands.vector3_or("moment"),
+    )
 
 
 def _change(operands: Operands, how: _How) -> p.Change:
@@ -115,16 +123,31 @@ def _change(operands: Operands, how: _How) -> p.Change:
     scale = operands.number("distance") / math.hypot(x, y, z)
     displacement = (x * scale, y * scale, z * scale)
     speed = operands.number_or("speed") or None
-    return p.Change(displacement=displacement, speed=speed, stop=how.stop, press=how.press, free=how.free)
+    return p.Change(
+        displacement=displacement,
+        speed=speed,
+        stop=how.stop,
+        press=how.press,
+        free=how.free,
+        moment=how.moment,
+        spin=how.spin,
+    )
 
 
 def _place(_: Operands, how: _How) -> p.Change:
     return p.Change(displacement=(0.0, 0.0, -PLACE_DEPTH), stop=p.Stop(force=(0.0, 0.0, -PLACE_FORCE)))
 
 
+_STOPS: Final[dict[str, Callable[[Operands], p.Stop]]] = {
+    "STOP": _stop,
+    "TORQUE": lambda o: p.Stop(torque=o.number("torque")),
+    "TOUCH": lambda o: p.Stop(touch=int(o.number("mask"))),
+}
 _MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
-    "MOVE": lambda o, how: p.Move(goal=o.name("position"), direct=o.has("DIRECT"), stop=how.stop),
-    "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop),
+    "MOVE": lambda o, how: p.Move(
+        goal=o.name("position"), direct=o.has("DIRECT"), stop=how.stop, via=how.via
+    ),
+    "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop, via=how.via),
     "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=how.stop),
     "CHANGE": _change,
     "PLACE": _place,

@@ -1,15 +1,19 @@
 """Text to syntax tree: one diagnostic for a mistake, then on to the next line."""
 
 from dataclasses import dataclass, field, replace
+from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.operands import Mistake, read_operands
+from handeye.al.operands import Mistake, free_text, read_operands
 from handeye.al.requirements import Requirements
 from handeye.al.scanner import Kind, Line, Token, scan
 from handeye.al.sewing import REQUIRE
 from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.source import Source, Span
+
+_TYPED: Final = ("DO", "GO")
+"""Words of the console: they have an instruction, or the program, carried out."""
 
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
@@ -23,7 +27,7 @@ def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
 
 
 def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
-    texts = {text.key: scan(text.text, source.begin(text.key)) for text in source.texts}
+    texts = {text.key: scan(text.text, source.begins[text.key]) for text in source.texts}
     names = {name for lines in texts.values() for name in _macro_names(lines)}
     parser = _Parser(texts=texts, macro_names=names, requirements=requirements)
     parser.read(source)
@@ -186,6 +190,14 @@ class _Parser:
                 extra = Span(start=rest[0].start, end=rest[-1].end)
                 self.report("too-many-operands", f"macro {quoted(word.text)} takes no operands", extra)
             return not rest
+        if word.text in _TYPED:
+            self.report(
+                "typed-word",
+                f"`{word.text}` is typed, and not written in a script",
+                word.span,
+                help=_alone(rest),
+            )
+            return False
         help = suggestion(word.text, {*INSTRUCTIONS, *self.macro_names, "DEFINE"})
         if help is None and rest and rest[0].text.upper() in INSTRUCTIONS:
             help = f"a label ends with a colon: `{head.text}:`"
@@ -221,6 +233,14 @@ def _statement(
     labels: list[Name], word: Name | None, line: Line, span: Span, *, broken: bool = False
 ) -> Statement:
     return Statement(labels=tuple(labels), word=word, operands=(), broken=broken, line=line.number, span=span)
+
+
+def _alone(rest: tuple[Token, ...]) -> str:
+    """What to write instead of having these words done."""
+    help = "a script is carried out as a whole"
+    if not rest or rest[0].text.upper() not in INSTRUCTIONS:
+        return help
+    return f"{help}; write the instruction alone: {quoted(free_text(rest))}"
 
 
 def _behind(token: Token) -> Span:

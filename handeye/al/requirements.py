@@ -16,6 +16,8 @@ class Requirements:
     """What a text requires, as one REQUIRE after the other is met."""
 
     source: Source
+    texts: dict[str, Source] = field(init=False)
+    """What can be read, by its key."""
     reading: list[str] = field(init=False)
     """Keys of the texts that are being read, each required by the one before."""
     first: dict[str, Span] = field(default_factory=dict)
@@ -24,23 +26,25 @@ class Requirements:
     """It has been said that something required is not there."""
 
     def __post_init__(self) -> None:
+        self.texts = {text.key: text for text in self.source.required}
         self.reading = [own_key(self.source)]
 
     def find(self, file: Text) -> Source | Diagnostic | None:
         """The text that is to be read now; None if it need not be said that there is too much."""
         key = key_of(file.text, self.reading[-1])
-        found = next((text for text in self.source.required if text.key == key), None)
+        found = self.texts.get(key)
         if key in self.reading:
             return self._circle(key, file)
         if key in self.first:
             message = f"{quoted(file.text)} has been read before: nothing is read here"
             first = Label(span=self.first[key], text="it is read here")
             return _problem("required-twice", message, file, first)
-        if found is not None and not found.problem:
+        deep = len(self.reading) > MOST  # a text that was not sewn here
+        if found is not None and not found.problem and not deep:
             self.first[key] = file.span
             return found
         told, self.missing = self.missing, True
-        if found is None and self.source.required:
+        if deep or (found is None and self.texts):
             message = f"more than {MOST} files, or {LARGEST} characters in all, are required"
             return None if told else _problem("too-much-required", message, file)
         message = f"{quoted(file.text)} cannot be read"

@@ -1,11 +1,12 @@
 """Planned free motions: one polynomial of degree 4-3-4 per joint (Paul 1972).
 
-The hand lifts off upwards, goes over to a set-down point above the goal, and comes down. All joints share the
-segment times, so what is linear in the joints at the four positions stays so on the way: a hand that points
-straight down at all four never tilts.
+The hand lifts off upwards, goes over to a set-down point above the goal, and comes down. What it is to pass on the way
+over are knots of a cubic spline between the two. All joints share the segment times, so what is linear in the joints
+at all those positions stays so on the way: a hand that points straight down at them never tilts.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -36,11 +37,11 @@ class Trajectory:
     """Joint positions as functions of time: a polynomial per joint and segment."""
 
     knots: Array
-    """Positions at the start, between the segments and at the end, shape (4, 6)."""
+    """Positions at the start, between the segments and at the end, shape (N + 1, 6), N at least 3."""
     times: Array
-    """Duration of each segment, shape (3,), s."""
+    """Duration of each segment, shape (N,), s."""
     coefficients: Array
-    """Shape (3, 5, 6): segment, ascending power of the time since its beginning, joint."""
+    """Shape (N, 5, 6): segment, ascending power of the time since its beginning, joint."""
 
     @property
     def duration(self) -> float:
@@ -63,45 +64,46 @@ class Trajectory:
         return found
 
 
-def four_three_four(q0: Array, q1: Array, q2: Array, q3: Array, times: Array) -> Trajectory:
-    """The trajectory at rest at `q0` and `q3` that passes `q1` and `q2`, smooth to the second derivative.
+def four_three_four(knots: Array, times: Array) -> Trajectory:
+    """The trajectory at rest at the first and last knot that passes those between, smooth to the second derivative.
 
     Args:
-        q0, q1, q2, q3: shape (6,), rad and m.
-        times: duration of each of the three segments, shape (3,), s.
+        knots: shape (N + 1, 6), rad and m, N at least 3.
+        times: duration of each segment between them, shape (N,), s.
     """
-    knots = np.array([q0, q1, q2, q3], dtype=np.float64)
+    knots = np.array(knots, dtype=np.float64)
     times = np.array(times, dtype=np.float64)
     return Trajectory(knots=knots, times=times, coefficients=_coefficients(knots, times))
 
 
 def move(
     arm: ArmModel, q_start: Array, X_WT_goal: Pose, *,
-    departure: float = 3 * INCH, approach: float = 3 * INCH, speed: float = 1.0,
+    via: Sequence[Array] = (), departure: float = 3 * INCH, approach: float = 3 * INCH, speed: float = 1.0,
 ) -> Trajectory | IKResult:  # fmt: skip
     """The free motion to a hand pose, or why there is none.
 
     Args:
         q_start: where the arm is, shape (6,).
+        via: what it passes on the way without stopping, in this order, each of shape (6,).
         departure, approach: heights of the lift-off and set-down points over the ends, m; 0 for none. What is
             out of reach is lowered by quarters.
         speed: share of the joints' greatest speeds, with its square of their accelerations.
 
     Returns:
-        a trajectory of a whole number of servo periods, on the branch nearest to `q_start`.
+        a trajectory of a whole number of servo periods, on the branch nearest to where it comes from.
     """
     height = float(X_WT_goal[2, 3])
     if height < -1e-9:
         return IKResult(reason="below the table", amount=height)
-    goal = solve(arm, X_WT_goal, q_start)
+    goal = solve(arm, X_WT_goal, via[-1] if via else q_start)
     if goal.q is None:
         return goal
     fault = goal
     for share in _LOWERINGS:
         q1 = _raised(arm, forward(arm, q_start), q_start, share * departure)
         q2 = _raised(arm, X_WT_goal, goal.q, share * approach)
-        trajectory = _quickest(arm, _knots(q_start, q1, q2, goal.q), speed)
-        beyond = check_samples(arm, trajectory.sample(JIFFY))
+        trajectory = _quickest(arm, _knots(q_start, q1, via, q2, goal.q), speed)
+        beyond = check_samples(arm, trajectory.sample(JIFFY), floor=0.0 if via else None)
         if beyond is None:
             return trajectory
         fault = beyond  # the polynomials swing a little beyond their knots
@@ -116,25 +118,28 @@ def _raised(arm: ArmModel, X_WT: Pose, q: Array, height: float) -> Array | None:
     return next((q for q in tried if q is not None), None)
 
 
-def _knots(q0: Array, q1: Array | None, q2: Array | None, q3: Array) -> Array:
-    """The four positions; instead of a missing lift-off or set-down point, one on the way in joint space."""
-    leave = q0 + DIRECT_KNOT * ((q3 if q2 is None else q2) - q0)
-    reach = q3 + DIRECT_KNOT * ((q0 if q1 is None else q1) - q3)
-    return np.array([q0, leave if q1 is None else q1, reach if q2 is None else q2, q3])
+def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, q3: Array) -> Array:
+    """All positions; instead of a missing lift-off or set-down point, one on the way in joint space."""
+    ahead = via[0] if via else q3 if q2 is None else q2
+    behind = via[-1] if via else q0 if q1 is None else q1
+    leave, reach = q0 + DIRECT_KNOT * (ahead - q0), q3 + DIRECT_KNOT * (behind - q3)
+    return np.array([q0, leave if q1 is None else q1, *via, reach if q2 is None else q2, q3])
 
 
 def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
     """The quickest division of time among the tried ones that keeps the limits, in whole servo periods."""
     k = constants(arm)
-    shares = np.array([(a, 1.0, b) for a in _SHARES for b in _SHARES])
     ways = np.abs(np.diff(knots, axis=0))
     least = np.max(np.maximum(ways / k.speed, np.sqrt(ways / k.acceleration)), axis=1)
+    between = np.maximum(least[1:-1], JIFFY)
+    between = between / between.max()
+    shares = np.array([(a, *between, b) for a in _SHARES for b in _SHARES])
     times = shares * max(float(least.max()), JIFFY)
     times *= _stretch(arm, knots, times)[:, None]
     best = times[np.argmin(times.sum(axis=1))] / speed
     duration = float(best.sum())
     best *= math.ceil(duration / JIFFY - 1e-9) * JIFFY / duration
-    return four_three_four(knots[0], knots[1], knots[2], knots[3], best)
+    return four_three_four(knots, best)
 
 
 def _stretch(arm: ArmModel, knots: Array, times: Array) -> Array:
@@ -159,20 +164,26 @@ def _powers(t: Array, order: int) -> Array:
 
 
 def _coefficients(knots: Array, times: Array) -> Array:
-    """The 14 coefficients of each joint, as (..., 3, 5, 6), for segment times of shape (..., 3)."""
-    A = np.zeros((*times.shape[:-1], 15, 15))
+    """The coefficients of each joint, as (..., N, 5, 6), for segment times of shape (..., N)."""
+    count = times.shape[-1]
+    A = np.zeros((*times.shape[:-1], 5 * count, 5 * count))
+    b = np.zeros((5 * count, knots.shape[-1]))
     start = [_powers(np.zeros(times.shape[:-1]), order) for order in range(3)]
-    end = [[_powers(times[..., i], order) for order in range(3)] for i in range(3)]
+    end = [[_powers(times[..., i], order) for order in range(3)] for i in range(count)]
+    of = [slice(5 * i, 5 * i + 5) for i in range(count)]
     row = 0
-    for order in range(3):  # at rest at both ends, smooth at both knots
-        A[..., row, 0:5], A[..., row + 1, 10:15] = start[order], end[2][order]
-        for i in (0, 1):
-            A[..., row + 2 + i, 5 * i : 5 * i + 5] = end[i][order]
-            A[..., row + 2 + i, 5 * i + 5 : 5 * i + 10] = -start[order]
-        row += 4
-    A[..., 12, 5:10], A[..., 13, 10:15] = start[0], start[0]  # the knots
-    A[..., 14, 9] = 1.0  # the middle segment is a cubic
-    b = np.zeros((15, knots.shape[-1]))
-    b[0], b[1], b[12], b[13] = knots[0], knots[3], knots[1], knots[2]
+    for order in range(3):  # at rest at both ends, smooth at the knots between
+        A[..., row, of[0]], A[..., row + 1, of[-1]] = start[order], end[-1][order]
+        row += 2
+        for i in range(count - 1):
+            A[..., row, of[i]], A[..., row, of[i + 1]] = end[i][order], -start[order]
+            row += 1
+    b[0], b[1] = knots[0], knots[-1]
+    for i in range(1, count):
+        A[..., row, of[i]], b[row] = start[0], knots[i]
+        row += 1
+    for i in range(1, count - 1):  # all but the first and last segments are cubics
+        A[..., row, 5 * i + 4] = 1.0
+        row += 1
     flat = np.asarray(np.linalg.solve(A, b), dtype=np.float64)
-    return flat.reshape(*times.shape[:-1], 3, 5, knots.shape[-1])
+    return flat.reshape(*times.shape[:-1], count, 5, knots.shape[-1])

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from handeye.al.definition import Operand, Refers
+from handeye.al.definition import NIL, Operand, Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Kind, scan
 from handeye.al.syntax import Name
@@ -86,6 +86,8 @@ def _operand(document: Document, operand: Operand, *, after: str) -> Iterator[Pr
     if operand.word and after != operand.word:
         yield Proposal(text=operand.word, kind="word", detail=operand.shown)
         return
+    if operand.nil:
+        yield Proposal(text=NIL, kind="word", detail=f"no {operand.name}")
     if Name in operand.takes and operand.refers is not Refers.NEW:
         kinds = (POSITION, PART) if operand.refers is Refers.TARGET else (operand.refers.value,)
         for kind in kinds:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Kind
 from handeye.al.syntax import Name, Text
 from handeye.diagnostics import Diagnostic, quoted
@@ -21,6 +22,12 @@ _COLON: Final = re.compile(r"`(\w+):`")
 def colon(_: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     if diagnostic.help and (label := _COLON.search(diagnostic.help)):
         yield insert(diagnostic.primary.span.end, ":", f"make it the label {quoted(label[1] + ':')}")
+
+
+def instruction_alone(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    typed, *rest = line_of(document, diagnostic).split()[1]
+    if rest and rest[0].text.upper() in INSTRUCTIONS:
+        yield replace(Span(start=typed.start, end=rest[0].start), "", f"remove {quoted(typed.text)}")
 
 
 def close_string(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

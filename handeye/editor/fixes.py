@@ -54,6 +54,7 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "skip-over-modifier": fix_lines.jump_over,
     "test-without-action": fix_lines.drop_test,
     "too-many-operands": fix_operands.drop_operands,
+    "typed-word": fix_operands.instruction_alone,
     "unexpected-character": fix_operands.drop_mark,
     "unknown-instruction": fix_operands.colon,
     "unknown-lens": fix_operands.nearest_number,

@@ -12,26 +12,38 @@ from handeye.arm.model import ArmModel
 from handeye.plan.clearance import Surroundings, table_crossing
 from handeye.plan.grip import Grip
 from handeye.plan.objections import Objections
-from handeye.plan.program import Load, Program, Step, Vector
+from handeye.plan.program import Change, Load, Program, Step, Stop, Vector
 from handeye.plan.strength import weakness
 from handeye.pose import Array
 
 SPARSE: Final = 8
 """Of so many configurations of a motion, one is enough for what a load asks of the joints."""
 
-Force = tuple[str, str, Vector]
-"""A code, what the arm cannot do if it is beyond it, and the force (N) that the hand is to exert."""
+
+@dataclass(frozen=True, slots=True)
+class Demand:
+    """What the hand is to exert on a motion."""
+
+    code: str
+    """Of the diagnostic if the arm cannot."""
+    wanted: Vector
+    """N, or N m if `turning`."""
+    turning: bool
 
 
-def to_stop(force: Vector | None) -> list[Force]:
-    """The force of a stop, if it is one along a vector."""
-    saying = "press with {ounces} here, so the stop would never fire"
-    return [] if force is None else [("stop-beyond-arm", saying, force)]
+def to_stop(stop: Stop | None) -> list[Demand]:
+    """What a stop waits for, if that is a force along a vector or a moment about one."""
+    return [] if stop is None else _demands("stop-beyond-arm", stop.force, stop.moment)
 
 
-def to_press(force: Vector | None) -> list[Force]:
-    """The force of a motion that presses, if it does."""
-    return [] if force is None else [("force-beyond-arm", "press with {ounces} here", force)]
+def to_press(operation: Change) -> list[Demand]:
+    """What a straight motion is to press and turn with."""
+    return _demands("force-beyond-arm", operation.press, operation.moment)
+
+
+def _demands(code: str, force: Vector | None, moment: Vector | None) -> list[Demand]:
+    both = ((force, False), (moment, True))
+    return [Demand(code, wanted, turning) for wanted, turning in both if wanted is not None]
 
 
 @dataclass(slots=True)
@@ -65,20 +77,22 @@ class Checks:
                 self.objections.crosses(step, crossing, held, grip.taken)
                 return  # the worst of a motion is enough
 
-    def strong(self, step: Step, q: Array, forces: Sequence[Force]) -> None:
-        """Whether the arm holds its load up over configurations `q`, and can exert forces at both ends."""
+    def strong(self, step: Step, q: Array, demands: Sequence[Demand]) -> None:
+        """Whether the arm holds its load up over configurations `q`, and can exert what is asked at both ends."""
         weight = 0.0
         if self._load is not None:
             weight, because = self._load
             weak = weakness(self.arm, q[::SPARSE], np.array([0.0, 0.0, weight]))
             if weak is not None:
                 self._load = None
-                self.objections.too_weak(
-                    "load-beyond-arm", step, "hold {ounces} up on this motion", weight, weak, because
-                )
+                self.objections.too_heavy(step, weight, weak, because)
                 return
-        for code, cannot, force in forces:
-            weak = weakness(self.arm, q[[0, -1]], np.array(force), weight)
+        for demand in demands:
+            weak = weakness(
+                self.arm, q[[0, -1]], np.array(demand.wanted), turning=demand.turning, weight=weight
+            )
             if weak is not None:
-                self.objections.too_weak(code, step, cannot, math.hypot(*force), weak)
+                self.objections.too_weak(
+                    demand.code, step, math.hypot(*demand.wanted), weak, turning=demand.turning
+                )
                 return

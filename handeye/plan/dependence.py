@@ -65,8 +65,8 @@ def _measures(operation: op.AnyOperation) -> Key | None:
 def _uses(program: op.Program, operation: op.AnyOperation) -> list[tuple[Key, bool]]:
     """What an operation is carried out by, and whether only its horizontal components count."""
     found: list[tuple[Key, bool]] = []
-    for field in ("goal", "centre", "target", "part"):
-        name = getattr(operation, field, None)
+    named = [getattr(operation, field, None) for field in ("goal", "centre", "target", "part")]
+    for name in (*named, *getattr(operation, "via", ())):
         if name in program.positions:
             name = program.positions[name].of
         if name is not None and not isinstance(operation, op.General):
@@ -74,7 +74,7 @@ def _uses(program: op.Program, operation: op.AnyOperation) -> list[tuple[Key, bo
     if isinstance(operation, op.Move):
         found += [(("difference", restore.name), restore.level) for restore in operation.restore]
         found += [(("search", ""), False)] if operation.searching else []
-    return found
+    return list(dict.fromkeys(found))
 
 
 def _newest(program: op.Program) -> list[Newest]:

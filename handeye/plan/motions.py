@@ -1,11 +1,13 @@
 """How each kind of motion is made. One implementation, two callers: the planner at planned values, and the
 executor when the world is not where the plan thought."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, forward
+from handeye.arm.kinematics import IKResult, forward, solve
 from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
@@ -26,14 +28,36 @@ TURN_SPEED: Final = 30 * DEGREE
 """rad/s of a motion on a circle."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoWay:
+    """A position that a Move cannot go to, or by way of, and why."""
+
+    name: str
+    why: IKResult
+
+
 def move_trajectory(
-    arm: ArmModel, q: Array, X_WT: Pose, operation: Move, speed: float
-) -> Trajectory | IKResult:
-    """The trajectory of a Move from configuration `q` to `X_WT`, or why there is none."""
-    X_start = forward(arm, q)
-    away = float(np.hypot(*(X_WT[:2, 3] - X_start[:2, 3])))
-    height = 0.0 if operation.direct else float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
-    return move(arm, q, X_WT, departure=height, approach=height, speed=speed)
+    arm: ArmModel, q: Array, via: Sequence[Pose], X_WT: Pose, operation: Move, speed: float
+) -> Trajectory | NoWay:
+    """The trajectory of a Move from configuration `q` by way of hand poses `via` to `X_WT`, or why there is none."""
+    passed: list[Array] = []
+    for name, X_via in zip(operation.via, via, strict=True):
+        found = solve(arm, X_via, passed[-1] if passed else q)
+        if found.q is None:
+            return NoWay(name=name, why=found)
+        passed.append(found.q)
+    places = [forward(arm, q), *via, X_WT]
+    departure, approach = (
+        0.0 if operation.direct else _clearance(one, other) for one, other in (places[:2], places[-2:])
+    )
+    made = move(arm, q, X_WT, via=passed, departure=departure, approach=approach, speed=speed)
+    return NoWay(name=operation.goal, why=made) if isinstance(made, IKResult) else made
+
+
+def _clearance(X_from: Pose, X_to: Pose) -> float:
+    """How high to rise between two places."""
+    away = float(np.hypot(*(X_to[:2, 3] - X_from[:2, 3])))
+    return float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
 
 
 def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
@@ -41,9 +65,15 @@ def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKRe
     return straight(arm, q, np.array(operation.displacement), change_speed(operation))
 
 
+def complies(operation: Change) -> bool:
+    """Whether force or moment moves the hand on the way."""
+    ways = (operation.press, operation.free, operation.moment, operation.spin)
+    return any(way is not None for way in ways)
+
+
 def change_speed(operation: Change) -> float:
     """Speed of a Change, m/s: as written, else by whether it feels its way."""
-    guarded = operation.stop is not None or operation.press is not None
+    guarded = operation.stop is not None or operation.press is not None or operation.moment is not None
     return operation.speed or (GUARDED_SPEED if guarded else FREE_SPEED)
 
 

@@ -10,7 +10,7 @@ from handeye.plan.clearance import Crossing
 from handeye.plan.program import Move, Step
 from handeye.plan.strength import Weakness
 from handeye.source import Source, Span
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 RIDDLE = (
     "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
@@ -108,17 +108,26 @@ class Objections:
             secondary=() if held is None or grasp is None else (self._label(grasp, "taken here"),), help=help,
         )  # fmt: skip
 
-    def too_weak(
-        self, code: str, step: Step, cannot: str, asked: float, weak: Weakness, because: Step | None = None
-    ) -> None:
-        """A force is beyond the arm; `cannot` says what it is for."""
-        ounces = asked / OUNCE_FORCE
-        riddle = code == "stop-beyond-arm" and round(ounces) == 600
+    def too_heavy(self, step: Step, weight: float, weak: Weakness, because: Step) -> None:
+        """A load cannot be held up on a motion."""
         self._add(
-            code, step, _word(step), f"the arm cannot {cannot.format(ounces=f'{ounces:.0f} oz')}",
-            secondary=() if because is None else (self._label(because, "said here"),),
-            note=RIDDLE if riddle else None,
+            "load-beyond-arm", step, _word(step),
+            f"the arm cannot hold {weight / OUNCE_FORCE:.0f} oz up on this motion",
+            secondary=(self._label(because, "said here"),),
             help=f"{self._joint(weak.joint)} gives out at {weak.most / OUNCE_FORCE:.0f} oz",
+        )  # fmt: skip
+
+    def too_weak(self, code: str, step: Step, wanted: float, weak: Weakness, *, turning: bool) -> None:
+        """A force, or a moment if `turning`, is beyond the arm."""
+        verb, si, unit = ("turn", OUNCE_INCH, "oz-in") if turning else ("press", OUNCE_FORCE, "oz")
+        message = f"the arm cannot {verb} with {wanted / si:.0f} {unit} here"
+        riddle = False
+        if code == "stop-beyond-arm":
+            message += ", so the stop would never fire"
+            riddle = round(wanted / si) == 600 and not turning
+        self._add(
+            code, step, _word(step), message, note=RIDDLE if riddle else None,
+            help=f"{self._joint(weak.joint)} gives out at {weak.most / si:.0f} {unit}",
         )  # fmt: skip
 
     def _joint(self, joint: int | None) -> str:
@@ -132,7 +141,7 @@ class Objections:
         self, code: str, step: Step, word: str, message: str, *,
         secondary: tuple[Label, ...] = (), note: str | None = None, help: str | None = None,
     ) -> None:  # fmt: skip
-        if isinstance(step.operation, Move) and word == step.operation.goal:
+        if isinstance(step.operation, Move) and word in (step.operation.goal, *step.operation.via):
             if (code, word) in self._goals:
                 return
             self._goals.add((code, word))
@@ -145,15 +154,23 @@ class Objections:
         )
 
     def _span(self, step: Step, word: str) -> Span:
-        """Where a word of a step stands in the text: its instruction, or what comes after that."""
+        """Where a word of a step stands in the text: its instruction, what comes after that, or a `VIA` above it."""
         text = next(text for text in self.whole.texts if text.key == step.file)
-        line, begin = text.line_span(step.line), self.whole.begin(step.file)
-        found = line
+        found = line = text.line_span(step.line)
         for searched in dict.fromkeys((_word(step), word)):
-            pattern = re.compile(rf"(?<!\w){re.escape(searched)}(?!\w)", re.IGNORECASE)
-            if match := pattern.search(text.text, line.start if found == line else found.end, line.end):
-                found = Span(start=match.start(), end=match.end())
+            rest = line if found == line else Span(start=found.end, end=line.end)
+            found = _search(searched, text.text, rest) or found
+        if isinstance(step.operation, Move) and word in step.operation.via:
+            above = (text.line_span(number) for number in range(step.line - 1, 0, -1))
+            found = next(filter(None, (_search(word, text.text, line) for line in above)), found)
+        begin = self.whole.begins[step.file]
         return Span(start=begin + found.start, end=begin + found.end)
+
+
+def _search(word: str, text: str, span: Span) -> Span | None:
+    """A word in a piece of a text, however it is written."""
+    match = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)", re.IGNORECASE).search(text, span.start, span.end)
+    return None if match is None else Span(start=match.start(), end=match.end())
 
 
 def _word(step: Step) -> str:

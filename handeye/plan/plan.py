@@ -17,7 +17,7 @@ class Motion(Record, frozen=True, kw_only=True):
     """A planned motion: joint positions it passes (rad, joint 3 in m) and the seconds between them."""
 
     knots: tuple[Joints, ...]
-    """Start, lift-off, set-down and goal of a Move; start and goal of a straight motion or an arc."""
+    """Start, lift-off, what it passes, set-down and goal of a Move; start and goal of a straight motion or an arc."""
     times: tuple[float, ...]
     """Duration of each segment between knots, s."""
 

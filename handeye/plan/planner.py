@@ -16,11 +16,11 @@ from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.cell.ports import TICK
 from handeye.diagnostics import Diagnostic, arranged, has_errors
-from handeye.plan.checks import Checks, Force, to_press, to_stop
-from handeye.plan.motions import change_samples, move_trajectory, turn_samples
+from handeye.plan.checks import Checks, Demand, to_press, to_stop
+from handeye.plan.motions import NoWay, change_samples, move_trajectory, turn_samples
 from handeye.plan.objections import Objections
 from handeye.plan.plan import Joints, Motion, Plan
-from handeye.plan.program import Center, Change, Close, Move, Open, Program, Step, Turn, Vector
+from handeye.plan.program import Center, Change, Close, Move, Open, Program, Step, Stop, Turn
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
 
@@ -83,10 +83,9 @@ class _Walk:
             self._move(number, step, operation)
         elif isinstance(operation, Change):
             samples = change_samples(self.arm, self.q, operation)
-            forces = [*to_stop(_facing(operation)), *to_press(operation.press)]
-            self._sampled(
-                number, step, samples, operation.stop is not None or operation.press is not None, forces
-            )
+            feels = operation.stop is not None or operation.press is not None or operation.moment is not None
+            demands = [*to_stop(_facing(operation)), *to_press(operation)]
+            self._sampled(number, step, samples, feels, demands)
         elif isinstance(operation, Turn):
             centre = self.world.planned_position(operation.centre)
             samples = turn_samples(self.arm, self.q, centre, operation)
@@ -108,15 +107,17 @@ class _Walk:
             self.objections.unreachable(self.program.steps[0], first, start)
 
     def _move(self, number: int, step: Step, operation: Move) -> None:
-        X_WT = self.world.planned_position(operation.goal)
-        if X_WT[2, 3] < 0:
+        places = (*operation.via, operation.goal)
+        *via, X_WT = (self.world.planned_position(name) for name in places)
+        for name, X in zip(places, (*via, X_WT), strict=True):
+            if X[2, 3] < 0:
+                self.known = False
+                self.objections.below_table(step, name, -float(X[2, 3]))
+                return
+        trajectory = move_trajectory(self.arm, self.q, via, X_WT, operation, self.speed)
+        if isinstance(trajectory, NoWay):
             self.known = False
-            self.objections.below_table(step, operation.goal, -float(X_WT[2, 3]))
-            return
-        trajectory = move_trajectory(self.arm, self.q, X_WT, operation, self.speed)
-        if isinstance(trajectory, IKResult):
-            self.known = False
-            self.objections.unreachable(step, operation.goal, trajectory)
+            self.objections.unreachable(step, trajectory.name, trajectory.why)
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
@@ -125,11 +126,11 @@ class _Walk:
         q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
         if operation.stop is None:
             self.checks.clear(step, q)
-        self.checks.strong(step, q, to_stop(operation.stop.force if operation.stop else None))
+        self.checks.strong(step, q, to_stop(operation.stop))
         self.q, self.known = np.array(knots[-1]), True
 
     def _sampled(
-        self, number: int, step: Step, samples: Samples | IKResult, guarded: bool, forces: Sequence[Force]
+        self, number: int, step: Step, samples: Samples | IKResult, guarded: bool, demands: Sequence[Demand]
     ) -> None:
         """A motion of which every set-point is there; a guarded one is meant to meet something."""
         if isinstance(samples, IKResult):
@@ -141,7 +142,7 @@ class _Walk:
         if self.known:
             if not guarded:
                 self.checks.clear(step, q)
-            self.checks.strong(step, q, forces)
+            self.checks.strong(step, q, demands)
         self.motions[number] = Motion(knots=(_joints(self.q), _joints(q[-1])), times=(len(samples.q) * TICK,))
         self.q = q[-1]
 
@@ -158,14 +159,14 @@ def _ways(step: Step) -> Iterator[int]:
             yield way
 
 
-def _facing(operation: Change) -> Vector | None:
+def _facing(operation: Change) -> Stop | None:
     """The stop of a straight motion as a force along a vector, if it is one: a stop on whatever opposes it, too."""
     stop = operation.stop
     if stop is None or stop.against is None:
-        return None if stop is None else stop.force
+        return stop
     x, y, z = operation.displacement
     scale = stop.against / math.hypot(x, y, z)
-    return x * scale, y * scale, z * scale
+    return Stop(force=(x * scale, y * scale, z * scale), moment=stop.moment)
 
 
 def _joints(q: Array) -> Joints:

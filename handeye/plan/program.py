@@ -4,7 +4,7 @@ This is the first waist of the system: every arm language ends here, and the pla
 operations, joined by planned motions, make the plan.
 """
 
-from typing import Literal
+from typing import Final, Literal
 
 import msgspec
 
@@ -12,6 +12,10 @@ from handeye.boxes import Box
 from handeye.source import Source, line_name
 
 Vector = tuple[float, float, float]
+
+
+VIAS: Final = 4
+"""Positions that a motion can be led by."""
 
 
 class Record(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -23,9 +27,10 @@ class Operation(Record, frozen=True, kw_only=True, tag_field="op", tag=lambda na
 
 
 class Stop(Record, frozen=True, kw_only=True):
-    """End the motion when a force or torque is met; if it ends without, an error is raised.
+    """End the motion when a force, torque or touch is met; if it ends without, an error is raised.
 
-    Exactly one of `force`, `against` and `torque` is set.
+    Exactly one of `force`, `against`, `torque`, `touch` and `moment` is set; but `moment` may stand beside `force` or
+    `against`, and then whichever is met first ends the motion.
     """
 
     force: Vector | None = None
@@ -36,6 +41,12 @@ class Stop(Record, frozen=True, kw_only=True):
     error 23."""
     torque: float | None = None
     """The motion ends when the screwdriver's motor exerts this torque (N m). Else error 24."""
+    moment: Vector | None = None
+    """Axis and size (N m, table coordinates) of the moment *the hand exerts* about its tool centre point: the motion
+    ends when it exceeds the vector's length about the vector. Else error 23."""
+    touch: int | None = None
+    """The motion ends when one of these finger switches closes: 1 of the finger on the +y side of the hand frame, 2 of
+    the other, 3 of either. Else error 25."""
 
 
 class Restore(Record, frozen=True, kw_only=True):
@@ -55,11 +66,13 @@ class Move(Operation, frozen=True, kw_only=True):
     """Inside a search loop: the present search offset is added to the goal."""
     direct: bool = False
     """Without departure and approach."""
+    via: tuple[str, ...] = ()
+    """Positions passed on the way, in this order, without stopping."""
     stop: Stop | None = None
 
 
 class Change(Operation, frozen=True, kw_only=True):
-    """Straight motion from the present place, orientation kept."""
+    """Straight motion from the present place, orientation kept unless the hand is to be turned."""
 
     displacement: Vector
     """m, table coordinates."""
@@ -70,6 +83,10 @@ class Change(Operation, frozen=True, kw_only=True):
     """Force to exert while moving (N, table coordinates): the hand follows what it presses on."""
     free: Vector | None = None
     """Axes of the table, 1 or 0, along which the hand gives way to force while moving."""
+    spin: Vector | None = None
+    """Axes of the table, 1 or 0, about which the hand gives way to a moment while moving."""
+    moment: Vector | None = None
+    """Moment to exert while moving (N m, table coordinates), the hand turning until it does."""
 
 
 class Turn(Operation, frozen=True, kw_only=True):

@@ -20,6 +20,13 @@ _BY_KIND: Final[dict[type, frozenset[int]]] = {
 }
 
 
+def unmet(stop: op.Stop) -> int:
+    """The error of a motion that ends without meeting what was to stop it."""
+    if stop.touch is not None:
+        return errors.NO_TOUCH
+    return errors.NO_FORCE if stop.torque is None else errors.NO_TORQUE
+
+
 def raises(operation: op.AnyOperation) -> frozenset[int]:
     """The error numbers an operation can raise; none for what is no action."""
     if not isinstance(operation, op.ACTIONS):
@@ -27,7 +34,7 @@ def raises(operation: op.AnyOperation) -> frozenset[int]:
     found = {errors.WATCHDOG, *_BY_KIND.get(type(operation), ())}
     stop = getattr(operation, "stop", None)
     if stop is not None:
-        found.add(errors.NO_FORCE if stop.torque is None else errors.NO_TORQUE)
+        found.add(unmet(stop))
     if isinstance(operation, op.Close) and operation.maximum is not None:
         found.add(errors.WRONG_THICKNESS)
     return frozenset(found)

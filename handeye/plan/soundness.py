@@ -17,6 +17,7 @@ _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _LENSES: Final = (0.025, 0.050)
 _FORCE: Final = (1e-6, 1e4)  # N, or N m
 _LENGTH: Final = (1e-6, 10.0)  # m
+_SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 _BOUNDS: Final[dict[tuple[type, str], tuple[float, float]]] = {
     (op.Change, "speed"): (1e-4, 2.0),
@@ -91,8 +92,8 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
         yield f"stands in {step.file!r}, a file whose text the plan does not have"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
-    for field in ("goal", "centre"):
-        name = getattr(operation, field, None)
+    named = [getattr(operation, field, None) for field in ("goal", "centre")]
+    for name in (*named, *getattr(operation, "via", ())):
         if name is not None and name not in program.positions:
             yield f"uses position {name}, which the plan does not have"
     part = getattr(operation, "part", None)
@@ -114,16 +115,27 @@ def _numbers(operation: op.AnyOperation) -> Iterator[str]:
             yield f"has {field} {value:g}; it has to be from {low:g} to {high:g}"
     if isinstance(operation, op.Change):
         yield from _size("displacement", operation.displacement, _LENGTH)
-        if operation.press is not None:
-            yield from _size("press", operation.press, _FORCE)
+        for field in ("press", "moment"):
+            value = getattr(operation, field)
+            if value is not None:
+                yield from _size(field, value, _FORCE)
     if isinstance(operation, op.Lens) and not any(math.isclose(operation.focal_length, f) for f in _LENSES):
         yield f"wants a lens of {operation.focal_length * 1000:g} mm; the turret has 25 and 50 mm"
     stop = getattr(operation, "stop", None)
     if stop is not None:
-        given = [value for value in (stop.force, stop.against, stop.torque) if value is not None]
-        if len(given) != 1:
-            yield f"has a stop with {len(given)} conditions; it has to have one"
-        for value in given:
+        yield from _stop(stop)
+
+
+def _stop(stop: op.Stop) -> Iterator[str]:
+    """What is wrong with what ends a motion."""
+    given = [value for value in (stop.force, stop.against, stop.torque, stop.touch) if value is not None]
+    beside = stop.moment is not None and (stop.torque is not None or stop.touch is not None)
+    if len(given) > 1 or (not given and stop.moment is None) or beside:
+        yield f"has a stop with {len(given) + (stop.moment is not None)} conditions; it has to have one"
+    if stop.touch not in (None, 1, 2, 3):
+        yield f"has a stop on finger switches {stop.touch}; there are 1, 2, and 3 for either"
+    for value in (stop.force, stop.moment, stop.against, stop.torque):
+        if value is not None:
             yield from _size("stop", value if isinstance(value, tuple) else (value, 0.0, 0.0), _FORCE)
 
 
@@ -140,16 +152,19 @@ def _motion(plan: Plan, number: int, step: op.Step) -> Iterator[str]:
         if isinstance(step.operation, op.Move):
             yield "has no planned motion"
         return
-    knots = 4 if isinstance(step.operation, op.Move) else 2
-    if not moves:
+    via = len(getattr(step.operation, "via", ()))
+    knots = 4 + via if isinstance(step.operation, op.Move) else 2
+    if via > op.VIAS:
+        yield f"is led by {via} positions; {op.VIAS} are the most"
+    elif not moves:
         yield "has a planned motion, and does not move"
     elif len(motion.knots) != knots or len(motion.times) != knots - 1:
         yield f"has {len(motion.knots)} knots and {len(motion.times)} times; {knots} and {knots - 1} are right"
-    elif not _can_be_run(motion):
+    elif not _can_be_run(motion, 0.0 if knots == 2 else _SHORTEST):
         yield "has a planned motion with times or joints no arm can have"
 
 
-def _can_be_run(motion: Motion) -> bool:
-    return all(0 <= t <= 600 for t in motion.times) and sum(motion.times) >= 0 and all(
+def _can_be_run(motion: Motion, shortest: float) -> bool:
+    return all(shortest <= t <= 600 for t in motion.times) and all(
         abs(q) <= 10 for knot in motion.knots for q in knot
     )  # fmt: skip

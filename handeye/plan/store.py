@@ -5,7 +5,7 @@ script did to the arm. What is read is checked before anything uses it.
 import hashlib
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import msgspec
 
@@ -14,6 +14,10 @@ from handeye.files import read_whole, write_whole
 from handeye.plan.migrations import migrated, oldest
 from handeye.plan.plan import VERSION, Plan
 from handeye.plan.soundness import faults
+
+_LATER: Final = frozenset({"via", "spin", "moment", "touch"})
+"""Fields that came after plans had been kept: written only where they say something, so that those plans, and their
+digests, stay as they are."""
 
 
 def encode(plan: Plan) -> str:
@@ -30,7 +34,8 @@ def encode(plan: Plan) -> str:
             body = [f'   "{name}": {_line(item)}' for name, item in value.items()]
             lines += [f'  "{key}": {{', *_separated(body), f"  }}{comma}"]
         elif key == "steps":
-            lines += [f'  "{key}": [', *_separated([f"   {_line(item)}" for item in value]), f"  ]{comma}"]
+            body = [f"   {_line(_terse(item))}" for item in value]
+            lines += [f'  "{key}": [', *_separated(body), f"  ]{comma}"]
         else:
             lines.append(f'  "{key}": {_line(value)}{comma}')
     lines += [" },", ' "motions": {']
@@ -40,6 +45,13 @@ def encode(plan: Plan) -> str:
         "}",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _terse(value: Any) -> Any:
+    """Without what came later and says nothing."""
+    if not isinstance(value, dict):
+        return value
+    return {key: _terse(item) for key, item in value.items() if item or key not in _LATER}
 
 
 def _line(value: Any) -> str:

@@ -12,29 +12,32 @@ from handeye.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weakness:
-    """A force on the hand that is beyond the arm."""
+    """A force or moment of the hand that is beyond the arm."""
 
     joint: int
     """The one that gives out first, from 0."""
     most: float
-    """How large the force could be, N."""
+    """How large it could be, N or N m."""
 
 
-def weakness(arm: ArmModel, q: Array, force: Array, weight: float = 0.0) -> Weakness | None:
-    """Whether the hand cannot exert `force` (N, shape (3,), table axes) in any of the configurations `q`, (N, 6).
+def weakness(
+    arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
+) -> Weakness | None:
+    """Whether the hand cannot exert a force in any of the configurations `q`, shape (N, 6).
 
     Args:
+        wanted: N, table axes, shape (3,); a moment (N m) if `turning`.
         weight: N, of what the hand carries besides.
 
     Returns:
         None if it can.
     """
-    size = float(np.linalg.norm(force))
+    size = float(np.linalg.norm(wanted))
     if size == 0.0:
         return None
-    linear = np.swapaxes(jacobian(arm, q)[:, :3], -1, -2)
-    torque, standing = linear @ force, gravity(arm, q) + linear @ np.array([0.0, 0.0, weight])
-    left = constants(arm).effort - np.sign(torque) * standing
+    J = np.swapaxes(jacobian(arm, q), -1, -2)
+    torque = J[..., 3:] @ wanted if turning else J[..., :3] @ wanted
+    left = constants(arm).effort - np.sign(torque) * (gravity(arm, q) + J[..., 2] * weight)
     share = np.maximum(left, 0.0) / np.maximum(np.abs(torque), 1e-12)
     joint = int(np.argmin(share.min(axis=0)))
     least = float(share.min())

@@ -3,8 +3,11 @@
 import math
 
 from handeye.plan import program as op
+from handeye.plan.raises import unmet
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
+FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
+"""The fingers whose switches a mask enables; 1 is the one on the +y side of the hand frame."""
 _ON_AXIS = 1e-9
 """A direction whose other two components are below this share of it lies on an axis."""
 
@@ -29,6 +32,11 @@ def ounces(force: op.Vector) -> str:
     return f"{figure(math.hypot(*force) / OUNCE_FORCE)} oz along {direction(force)}"
 
 
+def ounce_inches(moment: op.Vector) -> str:
+    """`20 oz-in about z`"""
+    return f"{figure(math.hypot(*moment) / OUNCE_INCH)} oz-in about {direction(moment)}"
+
+
 def direction(vector: op.Vector) -> str:
     """`-z`, or `[0.6 0.8 0]`; table coordinates."""
     size = math.hypot(*vector)
@@ -41,12 +49,18 @@ def direction(vector: op.Vector) -> str:
 
 def stop(guard: op.Stop) -> str:
     """What ends a guarded motion, and the error there is if it does not."""
+    met = []
     if guard.force is not None:
-        return f"stops at {ounces(guard.force)}, else error 23"
+        met.append(f"at {ounces(guard.force)}")
     if guard.against is not None:
-        return f"stops at {figure(guard.against / OUNCE_FORCE)} oz against it, else error 23"
-    assert guard.torque is not None
-    return f"stops at {figure(guard.torque / OUNCE_INCH)} oz-in of torque, else error 24"
+        met.append(f"at {figure(guard.against / OUNCE_FORCE)} oz against it")
+    if guard.moment is not None:
+        met.append(f"at {ounce_inches(guard.moment)}")
+    if guard.torque is not None:
+        met.append(f"at {figure(guard.torque / OUNCE_INCH)} oz-in of torque")
+    if guard.touch is not None:
+        met.append(f"when {FINGERS[guard.touch]} touches")
+    return f"stops {' or '.join(met)}, else error {unmet(guard)}"
 
 
 def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
@@ -58,9 +72,13 @@ def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
         if operation.press is not None:
             said.append(f"presses with {ounces(operation.press)}")
         if operation.free is not None:
-            said.append(
-                f"gives way along {' and '.join(a for a, f in zip('xyz', operation.free, strict=True) if f)}"
-            )
+            said.append(f"gives way along {_axes(operation.free)}")
+        if operation.moment is not None:
+            said.append(f"turns with {ounce_inches(operation.moment)}")
+        if operation.spin is not None:
+            said.append(f"gives way about {_axes(operation.spin)}")
+    if isinstance(operation, op.Move) and operation.via:
+        said.append(f"by way of {', '.join(operation.via)}")
     if isinstance(operation, op.Center) or (isinstance(operation, op.Close) and operation.minimum > 0):
         said.append(f"holds {inches(operation.minimum)} or more, else error 2")
     if isinstance(operation, op.Close) and operation.maximum is not None:
@@ -68,6 +86,11 @@ def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
     if isinstance(operation, op.Travel):
         said.append(f"went {inches(operation.minimum)} to {inches(operation.maximum)}, else error 8")
     return tuple(said)
+
+
+def _axes(axes: op.Vector) -> str:
+    """`x and y`"""
+    return " and ".join(letter for letter, wanted in zip("xyz", axes, strict=True) if wanted)
 
 
 def one_line(text: str) -> str:

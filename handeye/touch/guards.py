@@ -19,13 +19,17 @@ class Reading:
     """Force the hand exerts on the world, shape (3,), N, world axes."""
     direction: Array
     """Unit vector of the motion, shape (3,), or zero."""
+    moment: Array = field(default_factory=lambda: np.zeros(3))
+    """Moment the hand exerts about its tool centre point, shape (3,), N m, world axes."""
+    touch: tuple[bool, bool] = (False, False)
+    """The finger switches, as `Sensed` has them."""
     tool_torque: float = 0.0
     """Torque of the screwdriver's motor, N m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trip:
-    """The guard that ended a motion, what it saw and what it allowed (N or N m)."""
+    """The guard that ended a motion, what it saw and what it allowed (N, N m, or finger switches as a mask)."""
 
     guard: str
     value: float
@@ -44,9 +48,25 @@ class ForceGuard:
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
-        limit = float(np.linalg.norm(self.force))
-        value = float(reading.force @ self.force) / limit
-        return Trip(guard="force", value=value, limit=limit) if value > limit else None
+        return _along("force", reading.force, self.force)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MomentGuard:
+    """Trips when the hand turns something about a vector with more than the vector's length."""
+
+    moment: Array
+    """Shape (3,), N m, world axes; not zero."""
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip, or None."""
+        return _along("moment", reading.moment, self.moment)
+
+
+def _along(guard: str, felt: Array, vector: Array) -> Trip | None:
+    limit = float(np.linalg.norm(vector))
+    value = float(felt @ vector) / limit
+    return Trip(guard=guard, value=value, limit=limit) if value > limit else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,4 +100,31 @@ class TorqueGuard:
         return Trip(guard="torque", value=value, limit=self.limit) if self._held >= HELD else None
 
 
-Guard = ForceGuard | AgainstGuard | TorqueGuard
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TouchGuard:
+    """Trips when a finger touches something."""
+
+    mask: int
+    """1: the first finger of `Sensed.touch`, 2: the second, 3: either."""
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip, or None; its value is the mask of all fingers that touch."""
+        first, second = reading.touch
+        closed = first + 2 * second
+        return (
+            Trip(guard="touch", value=float(closed), limit=float(self.mask)) if closed & self.mask else None
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnyGuard:
+    """Trips when any of its guards does."""
+
+    guards: tuple["Guard", ...]
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip of the first that trips, or None."""
+        return next((trip for guard in self.guards if (trip := guard.check(reading)) is not None), None)
+
+
+Guard = ForceGuard | MomentGuard | AgainstGuard | TorqueGuard | TouchGuard | AnyGuard

@@ -109,6 +109,12 @@ def _tripped(event: happened.GuardTripped) -> str:
     if event.guard == "torque":
         torque, limit = event.value / OUNCE_INCH, event.limit / OUNCE_INCH
         return f"stopped: the driver holds {torque:.1f} ounce-inches, over {limit:.1f}"
+    if event.guard == "moment":
+        moment, limit = event.value / OUNCE_INCH, event.limit / OUNCE_INCH
+        return f"stopped: the hand turns with {moment:.1f} ounce-inches, over {limit:.1f}"
+    if event.guard == "touch":
+        fingers = {1: "finger 1 touches", 2: "finger 2 touches"}.get(round(event.value), "both fingers touch")
+        return f"stopped: {fingers}"
     force, limit = event.value / OUNCE_FORCE, event.limit / OUNCE_FORCE
     what = "the hand meets" if event.guard == "against" else "the hand presses with"
     return f"stopped: {what} {force:.1f} ounces, over {limit:.1f}"

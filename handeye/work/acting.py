@@ -8,11 +8,28 @@ from handeye import errors
 from handeye.arm.kinematics import IKResult, forward
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.cell.ports import TICK
-from handeye.plan.motions import change_samples, change_speed, directions, move_trajectory, turn_samples
-from handeye.plan.program import Center, Change, Close, Move, Open, Stop, Travel, Turn
-from handeye.pose import Pose, translated
+from handeye.plan.motions import (
+    NoWay,
+    change_samples,
+    change_speed,
+    complies,
+    directions,
+    move_trajectory,
+    turn_samples,
+)
+from handeye.plan.program import Center, Change, Close, Move, Open, Stop, Travel, Turn, Vector
+from handeye.plan.raises import unmet
+from handeye.pose import Array, Pose, translated
 from handeye.touch.centring import Centring
-from handeye.touch.guards import AgainstGuard, ForceGuard, Guard, TorqueGuard
+from handeye.touch.guards import (
+    AgainstGuard,
+    AnyGuard,
+    ForceGuard,
+    Guard,
+    MomentGuard,
+    TorqueGuard,
+    TouchGuard,
+)
 from handeye.touch.hold import at_least, within
 from handeye.units import INCH
 from handeye.work.compliance import Course
@@ -48,26 +65,30 @@ def move(run: Run, number: int, operation: Move) -> Fault | None:
     run.goal = X_WT[:3, 3].copy()
     if operation.searching and run.search is not None:
         X_WT = translated(X_WT, (*run.search.offset(), 0.0))
-    trajectory = _trajectory(run, number, operation, X_WT)
-    if isinstance(trajectory, IKResult):
-        return Fault(number=errors.NO_SOLUTION, detail=f"{operation.goal}: {trajectory.message(run.arm)}")
+    via = [run.world.position(name) for name in operation.via]
+    trajectory = _trajectory(run, number, operation, via, X_WT)
+    if isinstance(trajectory, NoWay):
+        return Fault(
+            number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
+        )
     samples = trajectory.sample(TICK)
     along = directions(samples, run.arm, run.drive.q)
     return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
 
 
-def _trajectory(run: Run, number: int, operation: Move, X_WT: Pose) -> Trajectory | IKResult:
+def _trajectory(run: Run, number: int, operation: Move, via: list[Pose], X_WT: Pose) -> Trajectory | NoWay:
     """The planned trajectory if the world is where the plan thought, else one adjusted to it."""
-    planned = run.plan.motions[number]
-    start = np.abs(np.array(planned.knots[0]) - run.drive.q).max()
-    shift = X_WT[:3, 3] - forward(run.arm, np.array(planned.knots[-1]))[:3, 3]
-    turned = np.abs(X_WT[:3, :3] - forward(run.arm, np.array(planned.knots[-1]))[:3, :3]).max()
-    if max(start, np.abs(shift).max(), turned) < PLAN_TOLERANCE:
-        q0, q1, q2, q3 = np.array(planned.knots)
-        return four_three_four(q0, q1, q2, q3, np.array(planned.times))
-    if max(np.abs(shift).max(), turned) >= PLAN_TOLERANCE:
-        run.emit(Adjusted(time=run.time, goal=operation.goal, shift=vector(shift)))
-    return move_trajectory(run.arm, run.drive.q, X_WT, operation, run.plan.speed)
+    knots = np.array(run.plan.motions[number].knots)
+    as_planned = np.abs(knots[0] - run.drive.q).max() < PLAN_TOLERANCE
+    names, planned = (*operation.via, operation.goal), (*knots[2:-2], knots[-1])
+    for name, X, q in zip(names, (*via, X_WT), planned, strict=True):
+        off = X - forward(run.arm, q)
+        if np.abs(off).max() >= PLAN_TOLERANCE:
+            as_planned = False
+            run.emit(Adjusted(time=run.time, goal=name, shift=vector(off[:3, 3])))
+    if as_planned:
+        return four_three_four(knots, np.array(run.plan.motions[number].times))
+    return move_trajectory(run.arm, run.drive.q, via, X_WT, operation, run.plan.speed)
 
 
 def change(run: Run, operation: Change) -> Fault | None:
@@ -76,7 +97,7 @@ def change(run: Run, operation: Change) -> Fault | None:
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
     guard = _guard(operation.stop)
-    if operation.press is None and operation.free is None:
+    if not complies(operation):
         samples = change_samples(run.arm, run.drive.q, operation)
         if isinstance(samples, IKResult):
             return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
@@ -95,8 +116,15 @@ def _course(operation: Change) -> Course:
         distance=distance,
         speed=change_speed(operation),
         force=None if operation.press is None else float(np.linalg.norm(operation.press)),
-        free=np.zeros(3) if operation.free is None else (np.array(operation.free) != 0).astype(float),
+        free=_axes(operation.free),
+        moment=np.zeros(3) if operation.moment is None else np.array(operation.moment),
+        spin=_axes(operation.spin),
     )
+
+
+def _axes(wanted: Vector | None) -> Array:
+    """1 for each axis that is wanted, else 0."""
+    return np.zeros(3) if wanted is None else (np.array(wanted) != 0).astype(float)
 
 
 def turn(run: Run, operation: Turn) -> Fault | None:
@@ -120,18 +148,24 @@ def _finish(run: Run, outcome: Outcome, stop: Stop | None) -> Fault | None:
         return None
     if stop is None:
         return None
-    return Fault(number=errors.NO_TORQUE if stop.torque is not None else errors.NO_FORCE)
+    return Fault(number=unmet(stop), detail="or the moment" if stop.moment is not None else "")
 
 
 def _guard(stop: Stop | None) -> Guard | None:
     if stop is None:
         return None
+    guards: list[Guard] = []
     if stop.force is not None:
-        return ForceGuard(force=np.array(stop.force))
+        guards.append(ForceGuard(force=np.array(stop.force)))
     if stop.against is not None:
-        return AgainstGuard(limit=stop.against)
-    assert stop.torque is not None
-    return TorqueGuard(limit=stop.torque)
+        guards.append(AgainstGuard(limit=stop.against))
+    if stop.moment is not None:
+        guards.append(MomentGuard(moment=np.array(stop.moment)))
+    if stop.torque is not None:
+        guards.append(TorqueGuard(limit=stop.torque))
+    if stop.touch is not None:
+        guards.append(TouchGuard(mask=stop.touch))
+    return guards[0] if len(guards) == 1 else AnyGuard(guards=tuple(guards))
 
 
 def open_hand(run: Run, operation: Open) -> Fault | None:

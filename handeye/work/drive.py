@@ -16,7 +16,7 @@ from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.servo import prepare, torque
 from handeye.cell.ports import TICK, Drive, Sensed, Workcell
-from handeye.pose import Array, Pose, translated
+from handeye.pose import Array, Pose, displaced, translated
 from handeye.touch.guards import Guard, Reading, Trip
 from handeye.units import INCH
 from handeye.work.compliance import Course
@@ -136,23 +136,23 @@ class ArmDrive:
         return Outcome(error=errors.SERVO_LAG, detail=f"the hand is {off / INCH:.2f} in from its set-point")
 
     def comply(self, course: Course, guard: Guard | None) -> Outcome:
-        """Go straight, pressing or giving way as the course says; end early when `guard` trips.
+        """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips.
 
         A position servo in which the measured force moves the set-point: it needs no joint to be slack.
         """
         self.zero()
-        here = self.dynamics()
         X_start = forward(self.arm, self.q)
-        gone, given = 0.0, np.zeros(3)
+        gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(PRESS_TICKS)):
             if gone >= course.distance:
                 return REACHED if guard is not None else self._arrived()
             gone += course.advance(self.wrench, tick) * TICK
             given += course.yielding(self.wrench) * TICK
-            step = solve(self.arm, translated(X_start, gone * course.direction + given), self.q)
+            turn = course.turned(turn, self.wrench)
+            step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.q)
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
-            self._approach(here, step.q, estimate=True)
+            self._approach(self.dynamics(), step.q, estimate=True)
             if self.cut:
                 return CUT
             trip = guard.check(self._reading(course.direction)) if guard is not None else None
@@ -243,7 +243,10 @@ class ArmDrive:
 
     def _reading(self, direction: Array) -> Reading:
         """What guards look at."""
-        return Reading(force=-self.wrench[:3], direction=direction, tool_torque=self.sensed.tool_torque)
+        return Reading(
+            force=-self.wrench[:3], moment=-self.wrench[3:], direction=direction,
+            tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,
+        )  # fmt: skip
 
 
 def _no_jacobian(count: int) -> Array:

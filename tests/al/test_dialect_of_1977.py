@@ -1,11 +1,11 @@
 """Counters, named vectors, PLACE, and the listing of 1977 with its commas."""
 
 import pytest
-from al_support import codes, compiled, diagnose, only, walk
+from al_support import codes, compiled, diagnose, moves, only, walk
 
 from handeye import al
-from handeye.plan.program import Assign, Change, Countdown, Program, Stop
-from handeye.units import INCH, OUNCE_FORCE
+from handeye.plan.program import Assign, Change, Countdown, Move, Program, Stop
+from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 LISTING_1977 = """\
         TRANS PIN [18 44 4 -90 90 0]   ;location of pin
@@ -39,8 +39,8 @@ def listing() -> Program:
     return compiled(LISTING_1977)
 
 
-def test_listing_of_1977_has_one_warning_that_nothing_is_spun() -> None:
-    assert codes(LISTING_1977) == ["spin-stays-stiff"]
+def test_listing_of_1977_has_nothing_to_be_warned_of() -> None:
+    assert codes(LISTING_1977) == []
 
 
 def test_listing_of_1977_opens_a_hand_that_is_not_this_one() -> None:
@@ -110,9 +110,79 @@ def test_counted_axes_are_those_in_which_the_hand_gives_way() -> None:
     assert only("FREE 1 Z\nCHANGE X 1", Change).free == (0.0, 0.0, 1.0)
 
 
+def test_counted_axes_are_those_about_which_the_hand_gives_way() -> None:
+    assert only("SPIN 2,X,Y\nCHANGE Z,-1", Change).spin == (1.0, 1.0, 0.0)
+
+
 @pytest.mark.parametrize("axes", ["2,X", "1,X,Y", "2,X,X", "0", "1.5,X"])
 def test_axes_have_to_be_as_many_as_counted(axes: str) -> None:
     assert codes(f"FREE {axes}\nCHANGE Z 1") == ["axis-count"]
+
+
+def test_moment_stands_after_the_force_and_nil_for_what_there_is_none_of() -> None:
+    twenty = pytest.approx((0, 0, 20 * OUNCE_INCH))
+    ten = pytest.approx((0, 0, -10 * OUNCE_FORCE))
+    assert only("STOP [0 0 -10] [0 0 20]\nCHANGE Z -1", Change).stop == Stop(force=ten, moment=twenty)
+    assert only("STOP NIL,[0 0 20]\nCHANGE Z -1", Change).stop == Stop(moment=twenty)
+    assert only("VECT D [0 0 20]\nSTOP NIL D\nCHANGE Z -1", Change).stop == Stop(moment=twenty)
+    change = only("FORCE [0 0 -10],NIL\nCHANGE Z -1", Change)
+    assert (change.press, change.moment) == (ten, None)
+    change = only("FORCE nil [0 0 20]\nCHANGE Z -1", Change)
+    assert (change.press, change.moment) == (None, twenty)
+
+
+@pytest.mark.parametrize("text", ["STOP NIL", "STOP NIL,NIL", "FORCE NIL"])
+def test_neither_force_nor_moment_is_reported(text: str) -> None:
+    (diagnostic,) = diagnose(f"{text}\nCHANGE Z -1")
+    word = text.split()[0]
+    assert (diagnostic.code, diagnostic.message) == (
+        "missing-operand",
+        f"`{word}` has no force and no moment",
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "help"),
+    [
+        ("STOP NIL [19 0 0]", "about an axis that is not vertical it should be at least 20 oz-in"),
+        ("FORCE [0 0 -9] [1 1 1]", "about an axis that is not vertical it should be at least 20 oz-in"),
+        ("STOP NIL [0 0 1.5]", "about the vertical it should be at least 2 oz-in"),
+    ],
+)
+def test_moment_that_friction_hides_is_warned_of(text: str, help: str) -> None:
+    (diagnostic,) = diagnose(f"{text}\nCHANGE Z -1")
+    assert (diagnostic.code, diagnostic.help) == ("faint-moment", help)
+
+
+def test_moment_that_friction_does_not_hide_is_not() -> None:
+    assert codes("STOP NIL [20 0 0]\nCHANGE Z -1\nSTOP NIL [0 0 2]\nCHANGE Z -1") == []
+
+
+def test_via_names_what_is_passed_on_the_way() -> None:
+    move = moves(compiled("VIA P,T\nMOVE T DIRECT"))[0]
+    assert (move.via, move.goal, move.direct) == (("P", "T"), "T", True)
+    assert moves(compiled("VIA P\nSTOP 9\nPARK"))[0].via == ("P",)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("VIA P\nCHANGE Z 1", "modifier-misplaced"),
+        ("VIA P\nVIA T\nMOVE T", "modifier-twice"),
+        ("VIA\nMOVE T", "missing-operand"),
+        ("VIA P P P P P\nMOVE T", "too-many-operands"),
+        ("VIA P NOWHERE\nMOVE T", "unknown-position"),
+    ],
+)
+def test_via_that_cannot_be_meant_is_reported(text: str, code: str) -> None:
+    assert codes(text) == [code]
+
+
+def test_touch_enables_one_finger_or_either() -> None:
+    assert only("TOUCH 3\nMOVE T", Move).stop == Stop(touch=3)
+    assert codes("TOUCH 4\nMOVE T") == ["number-out-of-range"]
+    assert codes("TOUCH 1.5\nMOVE T") == ["wrong-operand"]
+    assert codes("TOUCH 1\nSTOP 5\nMOVE T") == ["modifier-twice"]
 
 
 def test_place_is_a_short_way_down_that_stops_on_a_light_touch() -> None:
@@ -139,6 +209,9 @@ def test_counter_nothing_sets_is_reported_with_the_nearest_name() -> None:
     assert (diagnostic.code, diagnostic.help) == ("unknown-counter", "did you mean `TRIES`?")
 
 
-def test_axis_of_the_table_cannot_be_written_again() -> None:
-    (diagnostic,) = diagnose("VECT X [0 1 0]\nCHANGE X 1")
-    assert (diagnostic.code, diagnostic.notes) == ("vector-twice", ("`X` is an axis of the table",))
+@pytest.mark.parametrize(
+    ("name", "note"), [("X", "`X` is an axis of the table"), ("NIL", "`NIL` stands for no vector")]
+)
+def test_vector_that_is_there_already_cannot_be_written_again(name: str, note: str) -> None:
+    diagnostic = diagnose(f"VECT {name} [0 1 0]\nCHANGE {name} 1")[0]
+    assert (diagnostic.code, diagnostic.notes) == ("vector-twice", (note,))

@@ -23,6 +23,13 @@ def test_example_of_the_code_gets_it() -> None:
     assert [d.code for d in al.extensions(source)] == ["extension-used"]
 
 
+def test_what_is_ours_in_a_required_file_is_found() -> None:
+    source = al.sewn_of(Source(name="x.al", text="REQUIRE a.al\nPARK"), {"a.al": "OPEN 1\nLOAD 4"})
+    (diagnostic,) = al.extensions(source)
+    text, at = source.find(diagnostic.primary.span.start)
+    assert (text.key, text.position(at)) == ("a.al", (2, 1))
+
+
 @pytest.mark.parametrize(
     ("text", "message", "at"),
     [

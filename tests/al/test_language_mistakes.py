@@ -186,3 +186,23 @@ def test_json_form_gives_lines_and_columns_from_one() -> None:
 def test_warning_leaves_a_program() -> None:
     assert codes("PARK\nSKIPE 42\nPARK") == ["unknown-error-number"]
     assert len(compiled("PARK\nSKIPE 42\nPARK").steps) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "help"),
+    [
+        ("GO", "a script is carried out as a whole"),
+        ("DO PUMP", "a script is carried out as a whole"),
+        (
+            "do CHANGE [0 0 -1] 1",
+            "a script is carried out as a whole; write the instruction alone: `CHANGE [0 0 -1] 1`",
+        ),
+    ],
+)
+def test_word_of_the_console_is_told_apart_from_a_misspelling(text: str, help: str) -> None:
+    (diagnostic,) = diagnose(f"OPEN 1\n{text}")
+    assert (diagnostic.code, diagnostic.help) == ("typed-word", help)
+
+
+def test_macro_may_have_the_name_of_a_word_of_the_console() -> None:
+    assert codes("DEFINE GO\nPARK\n\nGO") == []

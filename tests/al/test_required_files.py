@@ -192,6 +192,12 @@ def test_a_chain_of_a_thousand_files_is_too_much() -> None:
     assert diagnostic.message == f"more than 100 files, or {LARGEST} characters in all, are required"
 
 
+def test_a_chain_that_another_program_has_sewn_is_too_much() -> None:
+    chain = tuple(Source(name="", key=f"{n}.al", text=f"REQUIRE {n + 1}.al") for n in range(1000))
+    found = al.compile_text(Source(name="x.al", text="REQUIRE 0.al\nPARK", required=chain), TAUGHT)[1]
+    assert [d.code for d in found] == ["too-much-required"]
+
+
 def test_files_too_large_together_are_too_much() -> None:
     files = {f"{n}.al": ";" * (LARGEST // 2) for n in range(4)}
     assert codes("REQUIRE 0.al\nREQUIRE 1.al\nREQUIRE 2.al\nREQUIRE 3.al\nPARK", files) == [

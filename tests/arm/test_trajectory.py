@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.kinematics import IKResult, forward, jacobian, solve
 from handeye.arm.model import constants
 from handeye.arm.stanford import STANFORD
 from handeye.arm.trajectory import Trajectory, check_samples, four_three_four, move
@@ -33,7 +33,7 @@ def moves() -> list[Trajectory]:
 
 def example() -> Trajectory:
     one = np.ones(6)
-    return four_three_four(0 * one, 5 * one, 40 * one, 45 * one, np.array([0.5, 1.0, 0.5]))
+    return four_three_four(np.array([0 * one, 5 * one, 40 * one, 45 * one]), np.array([0.5, 1.0, 0.5]))
 
 
 def test_the_worked_example_has_the_listed_coefficients() -> None:
@@ -54,6 +54,50 @@ def test_a_trajectory_is_smooth_to_the_second_derivative_at_its_knots() -> None:
     before, after = trajectory.at(ends - 1e-9), trajectory.at(ends + 1e-9)
     for a, b in zip((before.q, before.qd, before.qdd), (after.q, after.qd, after.qdd), strict=True):
         np.testing.assert_allclose(a, b, atol=1e-6)
+
+
+def led(count: int) -> Trajectory:
+    """A motion by way of so many places high over other stations."""
+    over = [joints(x, y, z + 6, yaw) for x, y, z, yaw in STATIONS[2 : 2 + count]]
+    found = move(STANFORD, joints(*STATIONS[0]), at(*STATIONS[1]), via=over, speed=0.4)
+    assert isinstance(found, Trajectory)
+    return found
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_a_motion_by_way_of_places_is_smooth_to_the_second_derivative_throughout(count: int) -> None:
+    trajectory = led(count)
+    assert len(trajectory.times) == 3 + count
+    ends = np.cumsum(trajectory.times)[:-1]
+    before, after = trajectory.at(ends - 1e-9), trajectory.at(ends + 1e-9)
+    for a, b in zip((before.q, before.qd, before.qdd), (after.q, after.qd, after.qdd), strict=True):
+        np.testing.assert_allclose(a, b, atol=1e-6)
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_a_motion_passes_the_places_on_its_way_and_does_not_stop_there(count: int) -> None:
+    trajectory = led(count)
+    passed = trajectory.at(np.cumsum(trajectory.times)[1:-2])
+    for n, (x, y, z, yaw) in enumerate(STATIONS[2 : 2 + count]):
+        np.testing.assert_allclose(forward(STANFORD, passed.q[n]), at(x, y, z + 6, yaw), atol=1e-9)
+    speed = [
+        np.linalg.norm((jacobian(STANFORD, q) @ qd)[:3]) for q, qd in zip(passed.q, passed.qd, strict=True)
+    ]
+    assert min(speed) > 0.5 * INCH
+
+
+def test_a_motion_by_way_of_places_keeps_the_limits_and_takes_whole_periods() -> None:
+    trajectory, k = led(3), constants(STANFORD)
+    samples = trajectory.at(np.linspace(0, trajectory.duration, 1000))
+    peak = max((np.abs(samples.qd) / k.speed).max(), (np.abs(samples.qdd) / k.acceleration).max() ** 0.5)
+    assert 0.9 * 0.4 < peak < 1.002 * 0.4
+    assert trajectory.duration / JIFFY == pytest.approx(len(trajectory.sample(JIFFY)), abs=1e-6)
+
+
+def test_a_motion_by_way_of_places_makes_no_long_detour() -> None:
+    p, knots = (forward(STANFORD, q)[:, :3, 3] for q in (led(4).sample(JIFFY).q, led(4).knots))
+    way, straight = (np.linalg.norm(np.diff(points, axis=0), axis=1).sum() for points in (p, knots))
+    assert way < 1.2 * straight
 
 
 def test_a_trajectory_passes_its_knots_and_ends_at_rest_at_the_last() -> None:

@@ -29,6 +29,7 @@ CURED = {
     "OPEN 5": "OPEN 4.13",
     "CLOSE -.1": "CLOSE 0",
     "LENS 35": "LENS 25",
+    "        DO      OPEN 1": "        OPEN 1",
     "SEARCH 0\nL: PARK\nAOJ L": "SEARCH 0.001\nL: PARK\nAOJ L",
     "MOVE T\nRESTORE H": "MOVE T\n",
     "MOVE P\nSAVE HERE\nMOVE T\nRESTORE HERR": "MOVE P\nSAVE HERE\nMOVE T\nRESTORE HERE",

@@ -94,3 +94,10 @@ def test_one_motion_gets_one_message() -> None:
     assert [p.code for p in said(f"{IN_HAND}TRANS IN [32 46 1 90 90 0]\nMOVE IN\nMOVE T")] == [
         "hand-through-fixture"
     ]
+
+
+def test_a_position_between_leads_past_a_fixture_or_into_it() -> None:
+    past, into = "TRANS BY [32 40 1 90 90 0]\n", "TRANS BY [32 46 1.5 90 90 0]\n"
+    way = "MOVE WEST\nVIA BY\nMOVE EAST DIRECT"
+    assert said(past + way) == []
+    assert message(into + way).startswith("hand-through-fixture: the hand would go ")

@@ -48,6 +48,15 @@ def test_each_step_stands_on_a_line_of_its_own(plan: Plan) -> None:
     assert sum('"operation":' in line for line in lines) == len(plan.program.steps)
 
 
+def test_a_field_that_came_later_is_written_only_where_it_says_something() -> None:
+    assert not [name for name in ("moment", "spin", "touch", "via") if f'"{name}"' in encode(planned(SCRIPT))]
+    turning = planned("TRANS T [25 38 4 90 90 0]\nMOVE T\nSPIN 1 X\nSTOP NIL [0 0 20]\nCHANGE Z -1")
+    assert decode(encode(turning), "p.json") == turning
+    change = json.loads(encode(turning))["program"]["steps"][1]["operation"]
+    assert change["spin"] == [1, 0, 0]
+    assert set(change["stop"]) == {"force", "against", "torque", "moment"}
+
+
 def test_planning_the_same_script_twice_gives_the_same_bytes() -> None:
     assert encode(planned(SCRIPT)) == encode(planned(SCRIPT))
 
@@ -122,6 +131,18 @@ CHANGE = "program.steps.1.operation"
     [
         ("program.steps", [], "it has no steps"),
         ("speed", 0, "its speed is 0; a share of the arm's limits is above 0 and at most 1"),
+        ("program.steps.0.operation.via", ["X"], "step 0 (line 2) uses position X"),
+        (
+            "program.steps.0.operation.via",
+            ["T"],
+            "step 0 (line 2) has 4 knots and 3 times; 5 and 4 are right",
+        ),
+        ("program.steps.0.operation.via", ["T"] * 9, "step 0 (line 2) is led by 9 positions; 4 are the most"),
+        (
+            "motions.0.times",
+            [0.0, 0.0, 0.0],
+            "step 0 (line 2) has a planned motion with times or joints no arm",
+        ),
         ("motions.0.times", [1.0], "step 0 (line 2) has 4 knots and 1 times; 4 and 3 are right"),
         (
             "motions.0.times",
@@ -132,6 +153,15 @@ CHANGE = "program.steps.1.operation"
         (f"{CHANGE}.displacement", [0, 0, 1e300], "step 1 (line 4) has a displacement of size 1e+300"),
         (f"{CHANGE}.speed", 1e-30, "step 1 (line 4) has speed 1e-30"),
         (f"{CHANGE}.stop", {}, "step 1 (line 4) has a stop with 0 conditions; it has to have one"),
+        (f"{CHANGE}.stop", {"force": [0, 0, 1], "touch": 3}, "step 1 (line 4) has a stop with 2 conditions"),
+        (
+            f"{CHANGE}.stop",
+            {"torque": 1, "moment": [0, 0, 1]},
+            "step 1 (line 4) has a stop with 2 conditions",
+        ),
+        (f"{CHANGE}.stop", {"touch": 7}, "step 1 (line 4) has a stop on finger switches 7"),
+        (f"{CHANGE}.stop", {"moment": [0, 0, 0]}, "step 1 (line 4) has a stop of size 0"),
+        (f"{CHANGE}.moment", [0, 0, 1e9], "step 1 (line 4) has a moment of size 1e+09"),
         ("program.steps.3.operation.gap", 1e30, "step 3 (line 6) has gap 1e+30"),
         (
             "program.steps.3.operation",

@@ -69,6 +69,39 @@ def test_a_stop_beyond_the_arm_is_found_in_planning() -> None:
     assert problem.code == "stop-beyond-arm"
 
 
+def test_a_moment_beyond_the_arm_is_found_in_planning() -> None:
+    problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP NIL [0 0 3000]\nCHANGE [0 0 -1] 1")
+    assert problem.code == "stop-beyond-arm"
+    assert problem.message == "the arm cannot turn with 3000 oz-in here, so the stop would never fire"
+    assert problem.help == "joint 6 (hand roll) gives out at 1416 oz-in"
+
+
+LED = "TRANS T [25 38 4 90 90 0]\nTRANS A {}\nTRANS U [15 38 4 90 90 0]\nMOVE T\nVIA A\nMOVE U"
+
+
+def test_a_move_is_planned_by_way_of_its_via() -> None:
+    plan, _ = plan_of(LED.format("[20 30 9 90 90 0]"))
+    assert plan is not None
+    motion = plan.motions[1]
+    assert (len(motion.knots), len(motion.times)) == (5, 4)
+    assert forward(STANFORD, np.array(motion.knots[2]))[:3, 3] / INCH == pytest.approx((20, 30, 9))
+
+
+@pytest.mark.parametrize(
+    ("at", "code", "message"),
+    [
+        ("[53 53 4 90 90 0]", "unreachable-position", "A is 4.49 in beyond the reach of the Stanford arm"),
+        ("[20 30 -1 90 90 0]", "hand-through-table", "the hand would be 1.00 in below the table at A"),
+    ],
+)
+def test_a_via_that_cannot_be_passed_is_told_by_its_name(at: str, code: str, message: str) -> None:
+    text = LED.format(at)
+    problem = only(text)
+    assert (problem.code, problem.message) == (code, message)
+    span = problem.primary.span
+    assert text[span.start - 4 : span.end] == "VIA A"
+
+
 def test_each_motion_is_planned_from_where_the_one_before_ends() -> None:
     plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 1 0] 1\nMOVE T")
     assert plan is not None

@@ -89,3 +89,14 @@ def test_the_goal_is_marked_and_not_a_label_or_comment_like_it(line: str) -> Non
     span = problem.primary.span
     assert text[span.start : span.end] == "FAR"
     assert text[: span.start].rstrip().lower().endswith("move")
+
+
+@pytest.mark.parametrize(
+    ("via", "code"),
+    [("[25 60 4 90 90 0]", "unreachable-position"), ("[25 38 -1 90 90 0]", "hand-through-table")],
+)
+def test_a_position_on_the_way_that_cannot_be_passed_is_marked_in_its_via(via: str, code: str) -> None:
+    text = f"TRANS BY {via}\nMOVE OVER\nVIA BY\nMOVE T"
+    (problem,) = said(text)
+    assert problem.code == code
+    assert problem.primary.span.start == text.index("VIA BY") + len("VIA ")

@@ -80,3 +80,17 @@ def test_ounces_are_those_of_the_script() -> None:
     weak = weakness(STANFORD, at(25, 38, 4)[None], np.array([0, 0, -1e4]))
     assert weak is not None
     assert round(weak.most / OUNCE_FORCE) == 462
+
+
+@pytest.mark.parametrize(
+    ("modifier", "said_of_it"),
+    [
+        (
+            "STOP NIL [0 0 3000]",
+            "stop-beyond-arm: the arm cannot turn with 3000 oz-in here, so the stop would",
+        ),
+        ("FORCE NIL [0 0 3000]", "force-beyond-arm: the arm cannot turn with 3000 oz-in here"),
+    ],
+)
+def test_a_moment_that_no_joint_can_bring_up_is_found_in_planning(modifier: str, said_of_it: str) -> None:
+    assert message(f"MOVE T\n{modifier}\nCHANGE [0 0 -1] 1").startswith(said_of_it)

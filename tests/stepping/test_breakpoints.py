@@ -120,8 +120,8 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
          "did you mean `shut the hand`?"),
         ("zzz", "the program has no label, instruction or stage `zzz`"),
         ("", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
-        ("error:9", "there is no error `9`; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 30, 31, 32"),
-        ("error:", "there is no error ``; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 30, 31, 32"),
+        ("error:9", "there is no error `9`; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
+        ("error:", "there is no error ``; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
     ],
 )  # fmt: skip
 def test_a_place_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:

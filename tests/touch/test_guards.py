@@ -1,7 +1,17 @@
 import numpy as np
 import pytest
 
-from handeye.touch.guards import HELD, AgainstGuard, ForceGuard, Reading, TorqueGuard
+from handeye.touch.guards import (
+    HELD,
+    AgainstGuard,
+    AnyGuard,
+    ForceGuard,
+    MomentGuard,
+    Reading,
+    TorqueGuard,
+    TouchGuard,
+    Trip,
+)
 from handeye.units import OUNCE_FORCE
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -25,6 +35,35 @@ def test_a_force_guard_does_not_mind_the_side_or_the_other_way() -> None:
     guard = ForceGuard(force=np.array([0, 0, -50 * OUNCE_FORCE]))
     assert guard.check(pressing((80, 0, 0))) is None
     assert guard.check(pressing((0, 0, 80))) is None
+
+
+def turning(x: float, y: float, z: float) -> Reading:
+    return Reading(force=100 * DOWN, direction=DOWN, moment=np.array([x, y, z]))
+
+
+def test_a_moment_guard_trips_beyond_the_length_of_its_vector_and_minds_no_force() -> None:
+    guard = MomentGuard(moment=np.array([0, 0.2, 0]))
+    assert guard.check(turning(9, 0.19, 9)) is None
+    assert guard.check(turning(0, -0.3, 0)) is None
+    assert guard.check(turning(0, 0.3, 0)) == Trip(guard="moment", value=pytest.approx(0.3), limit=0.2)
+
+
+@pytest.mark.parametrize(
+    ("mask", "trips"),
+    [(1, [False, True, False, True]), (2, [False, False, True, True]), (3, [False, True, True, True])],
+)
+def test_a_touch_guard_trips_on_the_fingers_of_its_mask(mask: int, trips: list[bool]) -> None:
+    fingers = [(False, False), (True, False), (False, True), (True, True)]
+    readings = [Reading(force=0 * DOWN, direction=DOWN, touch=touch) for touch in fingers]
+    assert [TouchGuard(mask=mask).check(reading) is not None for reading in readings] == trips
+
+
+def test_of_several_guards_the_first_that_trips_ends_the_motion() -> None:
+    guard = AnyGuard(guards=(AgainstGuard(limit=200.0), MomentGuard(moment=np.array([0, 0.2, 0]))))
+    assert guard.check(turning(0, 0.1, 0)) is None
+    trip = guard.check(turning(0, 0.3, 0))
+    assert trip is not None
+    assert trip.guard == "moment"
 
 
 @pytest.mark.parametrize("direction", np.eye(3))

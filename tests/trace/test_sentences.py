@@ -39,6 +39,12 @@ def test_only_events_that_there_are_are_logged() -> None:
             "stopped: the driver holds 52.7 ounce-inches, over 42.0",
         ),
         (
+            happened.GuardTripped(time=0.0, guard="moment", value=0.372432, limit=0.296585),
+            "stopped: the hand turns with 52.7 ounce-inches, over 42.0",
+        ),
+        (happened.GuardTripped(time=0.0, guard="touch", value=1.0, limit=3.0), "stopped: finger 1 touches"),
+        (happened.GuardTripped(time=0.0, guard="touch", value=3.0, limit=3.0), "stopped: both fingers touch"),
+        (
             happened.SearchAdvanced(time=0.0, count=2, offset=(0.001778, -0.001778)),
             "the search goes on to its place 3, (0.07, -0.07) in from the first",
         ),

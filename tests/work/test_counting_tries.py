@@ -31,6 +31,7 @@ OK:     MOVE HOLE
         SKIPE 23
         JUMP NOHOLE
         FREE 2,X,Y
+        SPIN 2,X,Y
         STOP FV,NIL
         CHANGE Z,-2,NIL,0,0
 NOHOLE: WAIT NO HOLE
