@@ -93,6 +93,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
+    "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
     "position-twice": _error(
         "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"
     ),

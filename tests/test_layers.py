@@ -33,6 +33,7 @@ LAYERS = [
         "plan.world",
         "plan.taught",
         "plan.tables",
+        "plan.taughttext",
         "cell.__init__",
         "cell.ports",
     },
@@ -43,6 +44,7 @@ LAYERS = [
         "plan.clearance",
         "plan.grip",
         "plan.objections",
+        "plan.spans",
         "plan.strength",
         "plan.motions",
         "plan.wording",
@@ -59,7 +61,7 @@ LAYERS = [
         "work",
     },
     {"cell", "judge"},
-    {"report", "trace", "stepping", "trials", "editor", "cli", "__main__"},
+    {"report", "trace", "stepping", "doing", "trials", "editor", "cli", "__main__"},
 ]
 """Downwards only: a module may import from its own layer and those above it in this list."""
 

@@ -5,9 +5,10 @@ from pathlib import PurePath
 from handeye.al.faint import faint_moments
 from handeye.al.flow import check_flow
 from handeye.al.form import MISSING
+from handeye.al.here import check_here
 from handeye.al.lower import lower
 from handeye.al.macros import expand
-from handeye.al.names import all_statements, check_names
+from handeye.al.names import all_statements, check_names, written_names
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.restores import check_restores
@@ -33,7 +34,8 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         return None, arranged(found)
     found += check_names(script, taught)
     resolved = with_vectors(script)
-    lowered = lower(expand(resolved, found.append), source, found.append)
+    placed = expand(resolved, found.append)
+    lowered = lower(placed, source, found.append)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
@@ -42,6 +44,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         found += check_restores(lowered)
         lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
         found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
+        found += check_here(placed, {*taught.positions, *written_names(script)})
     if has_errors(found):
         return None, arranged(found)
     written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]

@@ -329,6 +329,13 @@ _TABLE = (
         operands=(_name("name", Refers.NEW),),
     ),
     Instruction(
+        op="HERE",
+        group=PLACES,
+        help="define a position, or define it anew, as where the hand is; of a taught one that belongs to a part "
+        "the place on that part",
+        operands=(_name("name", Refers.NEW),),
+    ),
+    Instruction(
         op="WHERE", group=PLACES, help="tell where the hand is, as `TRANS` would write it: inches and degrees"
     ),
     Instruction(

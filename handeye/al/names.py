@@ -83,8 +83,14 @@ def _declared(statements: list[Statement], op: str) -> list[Name]:
     ]
 
 
+def written_names(script: Script) -> set[str]:
+    """Positions that a script writes, its macros included."""
+    return {name.text for name in _declared(list(all_statements(script)), "TRANS")}
+
+
 def _known(statements: list[Statement], taught: Taught) -> dict[Refers, set[str]]:
-    positions = {name.text for name in _declared(statements, "TRANS")} | set(taught.positions)
+    defined = [name.text for op in ("TRANS", "HERE") for name in _declared(statements, op)]
+    positions = {*defined, *taught.positions}
     return {
         Refers.POSITION: positions,
         Refers.PART: set(taught.parts),

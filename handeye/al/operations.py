@@ -165,6 +165,7 @@ _STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
     "JUMP": lambda _: p.Jump(),
     "WAIT": lambda o: p.Wait(message=o.name("text")),
     "SAVE": lambda o: p.Save(name=o.name("name")),
+    "HERE": lambda o: p.Here(position=o.name("name")),
     "WHERE": lambda _: p.Where(),
     "TRAVEL": lambda o: p.Travel(minimum=o.number("minimum"), maximum=o.number("maximum")),
     "TOOL": lambda o: p.Tool(speed=o.number("speed")),

@@ -59,6 +59,9 @@ LIGHT_ZENITH: Final = (5.0, 50.0)  # uniform; deg from the vertical. Vision stud
 LIGHT_STRENGTH: Final = (0.35, 0.85)  # uniform; diffuse intensity
 AMBIENT: Final = (0.15, 0.40)  # uniform
 
+SEVENTH: Final = 7_000_000
+"""The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmErrors:
@@ -143,7 +146,10 @@ class Placing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:
-    """One drawn world. Equal seeds give equal worlds."""
+    """One drawn world. Equal seeds give equal worlds.
+
+    From seed `SEVENTH` on the pump is of a later make, with a seventh hole, and the dispenser has a seventh screw.
+    """
 
     seed: int
     base: Placing
@@ -155,7 +161,7 @@ class World:
     fixtures: dict[str, Placing]
     """Error of each fixture, by the names in FIXTURES."""
     holes: tuple[tuple[float, float], ...]
-    """Error of each of the six tapped holes in the base, m."""
+    """Error of each tapped hole in the base, m; as many as there are holes."""
     part_mass: float
     """Scale of the masses of base and top."""
     friction: dict[str, float]
@@ -166,6 +172,7 @@ class World:
     @classmethod
     def sample(cls, seed: int) -> Self:
         """The world of a seed."""
+        screws = 6 if seed < SEVENTH else 7
         rng = np.random.default_rng([seed, 1973])
         return cls(
             seed=seed,
@@ -179,14 +186,14 @@ class World:
             camera=_camera(rng, 1.0),
             light=_light(rng),
             fixtures={name: _placing(rng) for name in FIXTURES},
-            holes=tuple(_pair(rng, HOLE_PLACE * INCH) for _ in range(6)),
+            holes=tuple(_pair(rng, HOLE_PLACE * INCH) for _ in range(screws)),
             part_mass=1 + float(_clipped(rng)) * PART_MASS / 100,
             friction={name: 1 + FRICTION / 100 * float(rng.uniform(-1, 1)) for name in RUBBING},
-            thread_phase=tuple(float(a) for a in rng.uniform(0, 2 * np.pi, 6)),
+            thread_phase=tuple(float(a) for a in rng.uniform(0, 2 * np.pi, screws)),
         )
 
     @classmethod
-    def nominal(cls) -> Self:
+    def nominal(cls, screws: int = 6) -> Self:
         """The world as the plan thinks it is: no error, no noise."""
         rng = np.random.default_rng(0)
         return cls(
@@ -197,10 +204,10 @@ class World:
             camera=_camera(rng, 0.0),
             light=Light(zenith=25 * DEGREE, azimuth=200 * DEGREE, strength=0.6, ambient=0.25),
             fixtures={name: Placing() for name in FIXTURES},
-            holes=((0.0, 0.0),) * 6,
+            holes=((0.0, 0.0),) * screws,
             part_mass=1.0,
             friction=dict.fromkeys(RUBBING, 1.0),
-            thread_phase=(0.0,) * 6,
+            thread_phase=(0.0,) * screws,
         )
 
     def generator(self, stream: int) -> np.random.Generator:

@@ -25,7 +25,7 @@ MUTABLE: Final = (
 """Fields of the model that the events of a cell change: brakes, threads, clamping, the fingers' force, the lamp."""
 
 Pair = tuple[float, float]
-Hole = Annotated[int, msgspec.Meta(ge=0, le=5)]
+Hole = Annotated[int, msgspec.Meta(ge=0, le=6)]
 
 
 class CameraState(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

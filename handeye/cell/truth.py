@@ -17,7 +17,7 @@ class Truth:
     model: mujoco.MjModel
     data: mujoco.MjData
     threads: tuple[Thread, ...]
-    """The six tapped holes of the base, in the order of the carriers."""
+    """The tapped holes of the base, in the order of the carriers."""
     resting: Resting
 
     def copy(self) -> tuple[mujoco.MjModel, mujoco.MjData]:

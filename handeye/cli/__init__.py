@@ -7,7 +7,7 @@ from typing import NoReturn
 from cyclopts import App, CycloptsError
 
 from handeye import __version__
-from handeye.cli import editing, measuring, plans, runs, scripts, traces
+from handeye.cli import doing, editing, measuring, plans, runs, scripts, traces
 from handeye.cli.common import complain, notes
 from handeye.errors import HandeyeError
 
@@ -17,7 +17,7 @@ app = App(
     help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.",
     suppress_keyboard_interrupt=False,
 )
-for commands in (runs, scripts, editing, plans, traces, measuring):
+for commands in (runs, doing, scripts, editing, plans, traces, measuring):
     commands.register(app)
 
 

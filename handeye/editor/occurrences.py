@@ -15,7 +15,9 @@ POSITION, PART, PICTURE = Refers.POSITION.value, Refers.PART.value, Refers.PICTU
 SAVED, LABEL, MACRO = Refers.SAVED.value, Refers.LABEL.value, "macro"
 PARK: Final = "PARK"
 """The instruction whose word is the name of a position."""
-_MAKES: Final = {"TRANS": POSITION, "SAVE": SAVED, "LOOK": PICTURE, "ASSIGN": "counter", "VECT": "vector"}
+_MAKES: Final = {
+    "TRANS": POSITION, "HERE": POSITION, "SAVE": SAVED, "LOOK": PICTURE, "ASSIGN": "counter", "VECT": "vector"
+}  # fmt: skip
 """What instructions with a new name make."""
 
 

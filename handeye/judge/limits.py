@@ -22,7 +22,6 @@ TOP_PLACE: Final = 0.57  # mm at the worst screw hole
 # A crossed screw stands 4.4 to 5.7 mm high; assembly study.
 SCREW_GAP: Final = 0.2  # mm between head and flange
 SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 70-200 N
-SCREWS: Final = 6
 
 PIN_PLACE: Final = 3.0  # mm from its place in the holder: the holder's hole and its bevel
 PIN_TILT: Final = 10.0  # deg: the pin stands, it does not lean out

@@ -18,7 +18,6 @@ _MM: Final = 1e3
 _PINS: Final = ("pin0", "pin1")
 _GASKET: Final = (limits.GASKET_HEIGHT, limits.GASKET_TILT, limits.GASKET_PLACE)
 _TOP: Final = (limits.TOP_HEIGHT, limits.TOP_TILT, limits.TOP_PLACE)
-_SCREWS: Final = tuple(f"screw{k}" for k in range(6))
 
 
 def judge(truth: Truth) -> dict[str, Finding]:
@@ -91,7 +90,7 @@ def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
     nothing = float(size("screw.length") * _MM)  # a missing screw counts as one that stands full length high
     worst = max((abs(gap) * _MM for gap in gaps), default=nothing)
     return {
-        "screws": at_least(len(filled), limits.SCREWS, "screws", "screws in their threads"),
+        "screws": at_least(len(filled), len(truth.threads), "screws", "screws in their threads"),
         "screws_depth": at_most(worst, limits.SCREW_GAP, "mm", "greatest gap under a screw's head"),
         "screws_clamp": at_least(
             min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw"
@@ -102,9 +101,10 @@ def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
 
 def _cell(measured: Measured, truth: Truth) -> dict[str, Finding]:
     pins = [measured.place(pin, _PINS) for pin in _PINS]
+    screws = tuple(f"screw{k}" for k in range(len(truth.threads)))
     in_threads = {thread.screw for thread in truth.threads}
-    loose = [name for k, name in enumerate(_SCREWS) if k not in in_threads]
-    strayed = [measured.place(name, _SCREWS)[0] for name in loose]
+    loose = [name for k, name in enumerate(screws) if k not in in_threads]
+    strayed = [measured.place(name, screws)[0] for name in loose]
     away, lean = measured.place("driver", ("driver",))
     lowest = min(measured.pose(name)[2, 3] for name in ("base", "gasket", "top", *_PINS, "driver", *loose))
     return {

@@ -1,6 +1,5 @@
 """What the planner has to say against a motion, in the words of the script: inches, degrees, ounces, joints by name."""
 
-import re
 from dataclasses import dataclass, field
 
 from handeye.arm.kinematics import IKResult
@@ -8,8 +7,9 @@ from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.plan.clearance import Crossing
 from handeye.plan.program import Move, Step
+from handeye.plan.spans import word_span
 from handeye.plan.strength import Weakness
-from handeye.source import Source, Span
+from handeye.source import Source
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 RIDDLE = (
@@ -135,7 +135,7 @@ class Objections:
         return f"joint {joint + 1} ({self.arm.joints[joint].name})"
 
     def _label(self, step: Step, text: str) -> Label:
-        return Label(span=self._span(step, _word(step)), text=text)
+        return Label(span=word_span(self.whole, step, _word(step)), text=text)
 
     def _add(
         self, code: str, step: Step, word: str, message: str, *,
@@ -145,32 +145,13 @@ class Objections:
             if (code, word) in self._goals:
                 return
             self._goals.add((code, word))
-        primary = Label(span=self._span(step, word))
+        primary = Label(span=word_span(self.whole, step, word))
         notes = (note,) if note else ()
         self.found.append(
             Diagnostic(
                 code=code, message=message, primary=primary, secondary=secondary, notes=notes, help=help
             )
         )
-
-    def _span(self, step: Step, word: str) -> Span:
-        """Where a word of a step stands in the text: its instruction, what comes after that, or a `VIA` above it."""
-        text = next(text for text in self.whole.texts if text.key == step.file)
-        found = line = text.line_span(step.line)
-        for searched in dict.fromkeys((_word(step), word)):
-            rest = line if found == line else Span(start=found.end, end=line.end)
-            found = _search(searched, text.text, rest) or found
-        if isinstance(step.operation, Move) and word in step.operation.via:
-            above = (text.line_span(number) for number in range(step.line - 1, 0, -1))
-            found = next(filter(None, (_search(word, text.text, line) for line in above)), found)
-        begin = self.whole.begins[step.file]
-        return Span(start=begin + found.start, end=begin + found.end)
-
-
-def _search(word: str, text: str, span: Span) -> Span | None:
-    """A word in a piece of a text, however it is written."""
-    match = re.compile(rf"(?<!\w){re.escape(word)}(?!\w)", re.IGNORECASE).search(text, span.start, span.end)
-    return None if match is None else Span(start=match.start(), end=match.end())
 
 
 def _word(step: Step) -> str:

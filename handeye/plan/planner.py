@@ -9,9 +9,10 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
+import msgspec
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, solve
+from handeye.arm.kinematics import IKResult, forward, solve
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.cell.ports import TICK
@@ -20,7 +21,7 @@ from handeye.plan.checks import Checks, Demand, to_press, to_stop
 from handeye.plan.motions import NoWay, change_samples, move_trajectory, turn_samples
 from handeye.plan.objections import Objections
 from handeye.plan.plan import Joints, Motion, Plan
-from handeye.plan.program import Center, Change, Close, Move, Open, Program, Step, Stop, Turn
+from handeye.plan.program import Center, Change, Close, Here, Move, Open, Program, Step, Stop, Turn
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
 
@@ -35,20 +36,29 @@ _LOOK = 2 * TICK
 
 
 def make_plan(
-    program: Program, arm: ArmModel, *, speed: float = SPEED
+    program: Program, arm: ArmModel, *, speed: float = SPEED, start: Array | None = None
 ) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program for an arm, and what there is to say about it. There is none if any of that is an error."""
+    """The plan of a program for an arm, and what there is to say about it. There is none if any of that is an error.
+
+    A position that only a `HERE` defines is in the plan where the hand is planned to be then.
+
+    Args:
+        start: where the arm stands when the program begins, shape (6,), rad and m; by default at `HOME`, or at
+            the first goal of a program that has none.
+    """
     objections = Objections(arm=arm, whole=program.whole)
     walk = _Walk(
         program=program, arm=arm, speed=speed, world=WorldModel.of(program), objections=objections,
         checks=Checks(arm, program, objections),
     )  # fmt: skip
-    walk.go()
+    walk.go(start)
     found = arranged(objections.found)
     if has_errors(found):
         return None, found
+    positions = {**walk.world.moved, **program.positions}
     plan = Plan(
-        arm=arm.name, arm_digest=digest(arm), speed=speed, program=program, motions=walk.motions
+        arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
+        program=msgspec.structs.replace(program, positions=positions),
     )  # fmt: skip
     return plan, found
 
@@ -59,6 +69,7 @@ class _Walk:
     arm: ArmModel
     speed: float
     world: WorldModel
+    """Nothing in it is measured; what has moved in it, a `HERE` has defined."""
     objections: Objections
     checks: Checks
     q: Array = field(init=False)
@@ -66,8 +77,11 @@ class _Walk:
     """Whether the arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
     motions: dict[int, Motion] = field(default_factory=dict)
 
-    def go(self) -> None:
-        self._start()
+    def go(self, start: Array | None) -> None:
+        if start is None:
+            self._start()
+        else:
+            self.q = start
         ahead = {0}
         for number, step in enumerate(self.program.steps):
             self.known = self.known and number in ahead
@@ -87,18 +101,27 @@ class _Walk:
             demands = [*to_stop(_facing(operation)), *to_press(operation)]
             self._sampled(number, step, samples, feels, demands)
         elif isinstance(operation, Turn):
-            centre = self.world.planned_position(operation.centre)
+            centre = self.world.position(operation.centre)
             samples = turn_samples(self.arm, self.q, centre, operation)
-            self._sampled(number, step, samples, operation.stop is not None, [])
+            self._sampled(number, step, samples, operation.stop is not None, to_stop(operation.stop))
+        elif isinstance(operation, Here):
+            self._define(operation.position)
+
+    def _define(self, name: str) -> None:
+        known = self.program.positions.get(name)
+        of = None if known is None else known.of
+        self.world.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
 
     def _start(self) -> None:
         """Begin at the rest position, or at the first goal of a program that has none."""
-        goals = [s.operation.goal for s in self.program.steps if isinstance(s.operation, Move)]
-        first = HOME if HOME in self.program.positions else (goals[0] if goals else None)
+        known = self.program.positions
+        moves = [s.operation for s in self.program.steps if isinstance(s.operation, Move)]
+        goals = [move.goal for move in moves if move.goal in known]
+        first = HOME if HOME in known else (goals[0] if goals else None)
         self.q = (self.arm.lower + self.arm.upper) / 2
         if first is None:
             return
-        start = solve(self.arm, self.world.planned_position(first), self.q)
+        start = solve(self.arm, self.world.position(first), self.q)
         if start.q is not None:
             self.q = start.q
             return
@@ -108,7 +131,7 @@ class _Walk:
 
     def _move(self, number: int, step: Step, operation: Move) -> None:
         places = (*operation.via, operation.goal)
-        *via, X_WT = (self.world.planned_position(name) for name in places)
+        *via, X_WT = (self.world.position(name) for name in places)
         for name, X in zip(places, (*via, X_WT), strict=True):
             if X[2, 3] < 0:
                 self.known = False

@@ -171,6 +171,12 @@ class Save(Operation, frozen=True, kw_only=True):
     name: str
 
 
+class Here(Operation, frozen=True, kw_only=True):
+    """Define a position as where the hand is; one that belongs to a part keeps to it."""
+
+    position: str
+
+
 class Where(Operation, frozen=True, kw_only=True):
     """Tell where the hand is."""
 
@@ -244,7 +250,7 @@ class Inspect(Operation, frozen=True, kw_only=True):
 
 AnyOperation = (
     Move | Change | Turn | Open | Close | Center | Search | Advance | Test | Assign | Countdown | Jump | Save
-    | Where | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
+    | Here | Where | Wait | Load | Tool | Travel | Lens | Aim | Look | General | Specific | Inspect
 )  # fmt: skip
 
 ACTIONS = (

@@ -92,7 +92,7 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
         yield f"stands in {step.file!r}, a file whose text the plan does not have"
     if not 0 <= step.stage < len(program.stages):
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
-    named = [getattr(operation, field, None) for field in ("goal", "centre")]
+    named = [getattr(operation, field, None) for field in ("goal", "centre", "position")]
     for name in (*named, *getattr(operation, "via", ())):
         if name is not None and name not in program.positions:
             yield f"uses position {name}, which the plan does not have"

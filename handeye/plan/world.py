@@ -4,12 +4,18 @@ from dataclasses import dataclass, field
 
 from handeye.errors import InvalidInput
 from handeye.plan.program import Part, Position, Program
-from handeye.pose import Pose, hand, planar
+from handeye.pose import Pose, hand, hand_angles, inverse, planar
 
 
 def planned_pose(part: Part) -> Pose:
     """`X_WP` as the drawing has it."""
     return planar(*part.at)
+
+
+def place(X: Pose) -> tuple[float, float, float, float, float, float]:
+    """x, y, z (m) and the angles O, A, T (rad) of a hand, to a millionth of each."""
+    x, y, z, o, a, t = (round(float(value), 6) + 0.0 for value in (*X[:3, 3], *hand_angles(X)))
+    return x, y, z, o, a, t
 
 
 @dataclass(slots=True, kw_only=True)
@@ -20,7 +26,7 @@ class WorldModel:
     positions: dict[str, Position]
     measured: dict[str, Pose] = field(default_factory=dict)
     moved: dict[str, Position] = field(default_factory=dict)
-    """Positions that somebody has put elsewhere for an experiment."""
+    """Positions that `HERE`, or somebody for an experiment, has put elsewhere."""
 
     @classmethod
     def of(cls, program: Program) -> "WorldModel":
@@ -43,6 +49,10 @@ class WorldModel:
         position = self.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
+
+    def seen_from(self, part: str | None, X_WT: Pose) -> Position:
+        """The hand position `X_WT`, relative to a part where that is now, or in table coordinates."""
+        return Position(at=place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
 
     def planned_position(self, name: str) -> Pose:
         """`X_WT` of a hand position, by planned poses alone."""

@@ -32,7 +32,7 @@ def as_text(reply: Reply) -> str:
     """The answer for people, without the end of its last line."""
     if reply.error is not None:
         return reply.error
-    lines = [*_deeds(reply.did), _standing(reply)]
+    lines = [*deed_lines(reply.did), _standing(reply)]
     if reply.source is not UNSET:
         lines += excerpt_lines(reply.source, "■" if reply.step is None else "→")
     if reply.show is not UNSET:
@@ -51,7 +51,8 @@ def _standing(reply: Reply) -> str:
     return f"── {stage}; {steps}, {reply.time:.2f} s"
 
 
-def _deeds(did: Sequence[Deed]) -> list[str]:
+def deed_lines(did: Sequence[Deed]) -> list[str]:
+    """What was done, as lines of text; of a long way its end."""
     left_out = max(0, len(did) - MOST)
     head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
     return head + [_deed(deed) for deed in did[left_out:]]
@@ -132,7 +133,7 @@ def _positions(positions: dict[str, Taught]) -> list[str]:
     lines = []
     for name, taught in positions.items():
         where = "" if taught.of is None else f" of {taught.of}"
-        moved = ", moved for an experiment" if taught.moved else ""
+        moved = ", defined anew" if taught.moved else ""
         angles = _vector(taught.at[3:], 1)
         lines.append(f"{name:{width}}  {_vector(taught.at[:3], 3)} in, {angles} deg{where}{moved}")
     return lines

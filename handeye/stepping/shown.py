@@ -59,7 +59,7 @@ class Taught(Record, frozen=True, kw_only=True):
     at: Six
     of: str | None
     moved: bool
-    """Put elsewhere for an experiment."""
+    """Put elsewhere by `HERE`, or for an experiment."""
 
 
 class PictureShown(Record, frozen=True, kw_only=True):

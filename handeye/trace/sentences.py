@@ -20,6 +20,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.ErrorRaised: Log.WARNING,
     happened.SearchAdvanced: Log.INFO,
     happened.HandTold: Log.INFO,
+    happened.PositionDefined: Log.INFO,
     happened.PictureTaken: Log.INFO,
     happened.PartSeen: Log.INFO,
     happened.PartInspected: Log.INFO,
@@ -77,6 +78,8 @@ def sentence(event: Event) -> str:
             return f"{event.name} is {inches(event.difference, 3)}"
         case happened.HandTold():
             return f"the hand is at {_value(event.at)}"
+        case happened.PositionDefined():
+            return f"{event.name} is {_value(event.at)}" + (f", of {event.of}" if event.of else "")
         case happened.Restored():
             return f"{event.name} shifts {event.goal} by {inches(event.difference, 3)}"
         case happened.PictureTaken():

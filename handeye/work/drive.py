@@ -31,6 +31,10 @@ servo is soft. Placeholder: five times the .032 in that whole runs show."""
 PRESS_TICKS = 600
 """Periods after which a pressing motion ends that neither gets on nor meets its guard: ten seconds."""
 
+OILED = 0.1
+"""s in which a floating arm comes to rest once nobody pushes it, by its tachometers. Chosen: with the little friction
+of its joints alone it would go on."""
+
 
 class Halted(Exception):
     """The panic button was hit: drives are off and brakes set since this servo period."""
@@ -95,6 +99,16 @@ class ArmDrive:
         """Set the brakes and let time pass; the set-point becomes where the arm then is."""
         for _ in range(round(seconds / TICK)):
             self._tick(np.zeros(6), brakes=True)
+        self.q = self.sensed.q.copy()
+
+    def float(self, seconds: float) -> None:
+        """Let go of the arm and let time pass: gravity is borne, and whoever pushes the hand moves it.
+
+        The set-point becomes where the arm then is.
+        """
+        for _ in range(round(seconds / TICK)):
+            q, qd = self.sensed.q, self.sensed.qd
+            self._tick(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / OILED)
         self.q = self.sensed.q.copy()
 
     def follow(self, samples: Samples, guard: Guard | None = None, direction: Array | None = None) -> Outcome:

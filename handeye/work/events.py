@@ -115,6 +115,14 @@ class HandTold(Event, frozen=True, kw_only=True):
     at: tuple[float, float, float, float, float, float]
 
 
+class PositionDefined(Event, frozen=True, kw_only=True):
+    """HERE: a position is now x, y, z (m), O, A, T (rad), by the arm's own sensors; relative to the part if `of`."""
+
+    name: str
+    at: tuple[float, float, float, float, float, float]
+    of: str | None
+
+
 class Restored(Event, frozen=True, kw_only=True):
     """A saved difference was added to a goal (m)."""
 
@@ -195,9 +203,9 @@ class RunFinished(Event, frozen=True, kw_only=True):
 
 AnyEvent = (
     RunStarted | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted | GuardTripped
-    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | Restored | PictureTaken | PartSeen
-    | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack
-    | RunFinished
+    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
+    | PictureTaken | PartSeen | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered
+    | ExperimentMade | PanicStopped | WentBack | RunFinished
 )  # fmt: skip
 
 _encoder = msgspec.json.Encoder()

@@ -9,7 +9,7 @@ import numpy as np
 from handeye import errors
 from handeye.arm.kinematics import forward
 from handeye.plan import program as op
-from handeye.pose import hand_angles
+from handeye.plan.world import place
 from handeye.work import acting, looking
 from handeye.work.events import (
     ErrorRaised,
@@ -17,6 +17,7 @@ from handeye.work.events import (
     HandTold,
     OperatorAnswered,
     OperatorCalled,
+    PositionDefined,
     RunFinished,
     Saved,
     SearchAdvanced,
@@ -137,10 +138,10 @@ class Executor:
             run.drive.load = operation.weight
         elif isinstance(operation, op.Tool):
             run.drive.tool = operation.speed
+        elif isinstance(operation, op.Here):
+            self._define(operation.position)
         elif isinstance(operation, op.Where):
-            X_WT = run.drive.hand()
-            angles = vector(np.array(hand_angles(X_WT)))
-            run.emit(HandTold(time=run.time, at=(*vector(X_WT[:3, 3]), *angles)))
+            run.emit(HandTold(time=run.time, at=place(run.drive.hand())))
         elif not isinstance(operation, op.Jump | op.Wait):
             self._raise(_ACTIONS[type(operation)](run, operation))
         return step.next
@@ -183,6 +184,12 @@ class Executor:
             difference = (difference @ run.finger_line) * run.finger_line
         run.saved[operation.name] = difference
         run.emit(Saved(time=run.time, name=operation.name, difference=vector(difference)))
+
+    def _define(self, name: str) -> None:
+        run = self.state
+        here = run.world.seen_from(run.world.positions[name].of, run.drive.hand())
+        run.world.moved[name] = here
+        run.emit(PositionDefined(time=run.time, name=name, at=here.at, of=here.of))
 
     def _finished(self, number: int) -> StepFinished:
         """The account of a step that is done."""

@@ -63,7 +63,7 @@ class Memory(Record, frozen=True, kw_only=True):
     clockwork: Clockwork
     measured: dict[str, Pose]
     moved: dict[str, Position]
-    """Positions that an experiment has put elsewhere."""
+    """Positions that `HERE`, or an experiment, has put elsewhere."""
     drive: DriveMemory
 
 

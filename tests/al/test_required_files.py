@@ -82,6 +82,12 @@ def test_a_modifier_before_a_required_file_modifies_its_first_motion() -> None:
     assert codes("STOP 50\nREQUIRE a.al", {"a.al": "CHANGE [0 0 -1] 1"}) == []
 
 
+def test_a_skip_before_a_required_file_skips_its_first_instruction() -> None:
+    program = compiled("CLOSE .1\nSKIPE 2\nREQUIRE a.al\nPARK", {"a.al": "OPEN 1\nOPEN 2"})
+    test = program.steps[1]
+    assert (test.next, getattr(test.operation, "raised", None)) == (2, 3)
+
+
 # -- mistakes -------------------------------------------------------------------------------------------
 
 

@@ -4,15 +4,18 @@ import numpy as np
 import pytest
 
 from handeye.al import compile_text
-from handeye.arm.kinematics import forward
+from handeye.arm.kinematics import forward, solve
 from handeye.arm.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.plan.plan import Plan
 from handeye.plan.planner import make_plan
 from handeye.plan.program import Change
 from handeye.plan.taught import Taught
+from handeye.pose import hand
 from handeye.source import Source
 from handeye.units import INCH
+
+MIDDLE = (STANFORD.lower + STANFORD.upper) / 2
 
 
 def plan_of(text: str) -> tuple[Plan | None, list[Diagnostic]]:
@@ -120,3 +123,27 @@ def test_riddle_of_the_listing_explains_itself(stop: str) -> None:
 def test_stop_beyond_the_arm_is_no_riddle_at_another_force() -> None:
     problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP [0 0 -900]\nCHANGE [0 0 -1] .6")
     assert problem.notes == ()
+
+
+def test_a_position_defined_here_is_planned_where_the_hand_was_planned_to_be() -> None:
+    plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE Z 1\nHERE UP\nMOVE T\nMOVE UP")
+    assert plan is not None
+    assert plan.program.positions["UP"].at[:3] == pytest.approx((25 * INCH, 38 * INCH, 5 * INCH), abs=1e-6)
+    goal = forward(STANFORD, np.array(plan.motions[4].knots[-1]))[:3, 3]
+    assert goal / INCH == pytest.approx((25, 38, 5), abs=1e-4)
+
+
+def test_a_taught_position_defined_anew_is_taught_in_the_plan_and_planned_anew_behind_it() -> None:
+    plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE Z 1\nHERE T\nCHANGE Z 2\nMOVE T")
+    assert plan is not None
+    assert plan.program.positions["T"].at[2] == pytest.approx(4 * INCH)
+    assert forward(STANFORD, np.array(plan.motions[4].knots[-1]))[2, 3] / INCH == pytest.approx(5, abs=1e-4)
+
+
+def test_a_program_planned_from_where_the_arm_stands_is_checked_from_there() -> None:
+    program, _ = compile_text(Source(name="test.al", text="CHANGE Z -2"), Taught())
+    assert program is not None
+    high, low = (solve(STANFORD, hand(0.6, 0.9, z * INCH, 1.57, 1.57, 0), MIDDLE).q for z in (4, 1))
+    assert make_plan(program, STANFORD, start=high)[1] == []
+    (problem,) = make_plan(program, STANFORD, start=low)[1]
+    assert problem.message == "the hand would be 1.00 in below the table at the end of this `CHANGE`"

@@ -24,7 +24,7 @@ ARM = "stanford/"
 def specification(world: World) -> mujoco.MjSpec:
     """The scene before compilation, to add to or to save.
 
-    Bodies: base (with carrier0..5), gasket, top (with rotor), pin0, pin1, screw0..5, driver (with bit), the
+    Bodies: base (with carrier0..), gasket, top (with rotor), pin0, pin1, screw0.., driver (with bit), the
     fixtures, and the arm's under `stanford/`. World frame: the table's.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))

@@ -1,6 +1,8 @@
 """The pump base: plate and casting, two large holes, six tapped holes with their threads."""
 
 import math
+from collections.abc import Sequence
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -29,10 +31,11 @@ def add_base(shaper: Shaper, world: World) -> None:
     mass = (d("base.casting.mass") + d("base.plate.mass")) * world.part_mass
     size = (d("base.plate.length"), d("base.plate.width"), base_top())
     body_inertia(body, mass, d.all("base.casting.mass_centre"), box_moments(mass, size))
-    holes = [(x + dx, y + dy) for (x, y), (dx, dy) in zip(screw_holes(), world.holes, strict=True)]
+    screws = len(world.holes)
+    holes = [(x + dx, y + dy) for (x, y), (dx, dy) in zip(screw_holes(screws), world.holes, strict=True)]
     _add_plate(shaper, body, d)
     _add_casting(shaper, body, d, holes)
-    _add_looks(shaper, body)
+    _add_looks(shaper, body, screws)
     for number, (x, y) in enumerate(holes):
         _add_tapped_hole(shaper, body, d, number, (x, y))
 
@@ -75,8 +78,10 @@ def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
     return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
 
 
-def _add_looks(shaper: Shaper, body: mujoco.MjsBody) -> None:
-    for colour, surface in solids.painted(solids.casting(), _colour).items():
+def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
+    for colour, surface in solids.painted(
+        solids.casting(screws), partial(_colour, screw_holes(screws))
+    ).items():
         shaper.look(body, f"casting_{colour}", colour, surface)
     shaper.look(body, "base_plate", "plate", solids.surface(solids.plate()))
     d = dimensions()  # the floor of the through hole is as oily as its wall
@@ -88,13 +93,13 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody) -> None:
     shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole")
 
 
-def _colour(middles: Array, normals: Array) -> NDArray[np.str_]:
+def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:
     """The face is machined; holes are dark inside, as cast and oily; the rest is cast."""
     d = dimensions()
     x2 = d("base.large_hole_2.x")
     rims = [(0.0, 0.0, d("base.large_hole_1.diameter") / 2), (x2, 0.0, d("base.large_hole_2.diameter") / 2)]
     tap = d("base.screw_holes.radius") + d("base.screw_holes.chamfer")
-    rims += [(x, y, tap) for x, y in screw_holes()]
+    rims += [(x, y, tap) for x, y in holes]
     inside = np.zeros(len(middles), bool)
     for x, y, radius in rims:
         inside |= np.hypot(middles[:, 0] - x, middles[:, 1] - y) < radius + 1e-6

@@ -10,13 +10,14 @@ Point = tuple[float, float]
 
 
 @cache
-def screw_holes() -> tuple[Point, ...]:
-    """Centres of the six screw holes in part coordinates, m: four around large hole 1, two beside 2."""
+def screw_holes(count: int = 6) -> tuple[Point, ...]:
+    """Centres of the screw holes in part coordinates, m: four around large hole 1, two beside 2, perhaps a seventh."""
     d = dimensions()
     r1, r2, x2 = d("base.screw_holes.radius_1"), d("base.screw_holes.radius_2"), d("base.large_hole_2.x")
     first = [(r1 * math.cos(a), r1 * math.sin(a)) for a in d.all("base.screw_holes.directions_1")]
     second = [(x2 + r2 * math.cos(a), r2 * math.sin(a)) for a in d.all("base.screw_holes.directions_2")]
-    return (*first, *second)
+    x7, y7 = d.all("base.screw_holes.seventh")
+    return (*first, *second, (x7, y7))[:count]
 
 
 def base_top() -> float:
@@ -37,11 +38,11 @@ def standard() -> Pose:
     return planar(x, y, 0.0, d("standard.yaw"))
 
 
-def dispenser_places() -> tuple[Point, ...]:
-    """Where the six screws stand, in the table frame, m."""
+def dispenser_places(count: int = 6) -> tuple[Point, ...]:
+    """Where the screws stand, in the table frame, m; a seventh behind the others."""
     d = dimensions()
     x, y = d.all("dispenser.place")
-    return tuple((x, y + (k - 2.5) * d("dispenser.pitch")) for k in range(6))
+    return tuple((x, y + (k - 2.5) * d("dispenser.pitch")) for k in range(count))
 
 
 def web_centre() -> float:

@@ -47,14 +47,15 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
 
 
 def add_screws(shaper: Shaper, world: World) -> None:
-    """The dispenser, and six free screws hanging by their heads in it; a screw's origin is at its point."""
+    """The dispenser, and a free screw for each hole, hanging by its head in it; its origin is at its point."""
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
     hole = Bore(radius=0.0034, outer=0.0095, height=0.010, above=0.0015)
     fixture = add_fixture(shaper, world, "dispenser", (x, y))
-    low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064)
+    beyond = (len(world.holes) - 6) * d("dispenser.pitch")
+    low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064 + beyond)
     block = solids.extruded(solids.rectangle(*low, *high, 0.004), 0.0, height)
-    for number, (px, py) in enumerate(dispenser_places()):
+    for number, (px, py) in enumerate(dispenser_places(len(world.holes))):
         shaper.ring(fixture.body, "dispenser", hole, (px, py, height - hole.height), lambda _: "bore")
         shaper.box(
             fixture.body, "seat", (px - 0.008, py - 0.008, height - 0.010), (px + 0.008, py + 0.008, height)

@@ -18,7 +18,7 @@ def add_room(shaper: Shaper, world: World) -> None:
     """Everything that stands still, apart from the fixtures."""
     _add_table(shaper, world)
     _add_belt(shaper, world)
-    _add_building(shaper)
+    _add_building(shaper, len(world.holes))
     _add_computer(shaper)
     _add_tripod(shaper)
     _add_light(shaper.spec, world)
@@ -61,7 +61,7 @@ def _add_belt(shaper: Shaper, world: World) -> None:
             shaper.cylinder(body, "look", 0.004, (x - 0.0015, y, radius), (x + 0.0095, y, radius), "black")
 
 
-def _add_building(shaper: Shaper) -> None:
+def _add_building(shaper: Shaper, screws: int) -> None:
     d = dimensions()
     body, floor = shaper.spec.worldbody, -d("table.height")
     left, back, right, front = -2.4, -2.0, 6.0, 6.0
@@ -71,7 +71,7 @@ def _add_building(shaper: Shaper) -> None:
     shaper.box(body, "scenery", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron")
     shaper.box(body, "scenery", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron")
     shaper.box(body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.3, 0.3, TRAY), name="tray")
-    for k in range(6):
+    for k in range(screws):
         body.add_site(name=f"park{k}", pos=[0.05 * k, 0.0, TRAY], group=5)
 
 

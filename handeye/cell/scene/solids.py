@@ -61,8 +61,8 @@ def outline() -> CrossSection:
     return body + rectangle(x0, y0, x1, y1, 0.004) + ear
 
 
-def casting() -> Manifold:
-    """The base's casting, over its plate."""
+def casting(screws: int) -> Manifold:
+    """The base's casting, over its plate, with so many screw holes."""
     d = dimensions()
     top, floor = base_top(), d("base.plate.thickness")
     solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
@@ -71,7 +71,7 @@ def casting() -> Manifold:
     solid -= second.translate((d("base.large_hole_2.x"), 0.0, 0.0))
     radius, chamfer = d("base.screw_holes.radius"), d("base.screw_holes.chamfer")
     tap = bore(radius, top - d("base.screw_holes.depth"), top, above=chamfer)
-    for x, y in screw_holes():
+    for x, y in screw_holes(screws):
         solid -= tap.translate((x, y, 0.0))
     return solid
 
@@ -84,7 +84,7 @@ def plate() -> Manifold:
     return extruded(box, 0.0, d("base.plate.thickness"))
 
 
-def gasket() -> Manifold:
+def gasket(screws: int) -> Manifold:
     """The gasket: large holes a little wider than the base's, with flats for the fingers that carry it."""
     d = dimensions()
     over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
@@ -92,19 +92,19 @@ def gasket() -> Manifold:
     second = disc(d("base.large_hole_2.diameter") / 2 + over, d("base.large_hole_2.x"))
     web = rectangle(web_centre() - half, -1.0, web_centre() + half, 1.0)
     section = outline() - (first + second - web)
-    for x, y in screw_holes():
+    for x, y in screw_holes(screws):
         section -= disc(d("gasket.screw_hole_radius"), x, y, 32)
     return extruded(section, 0.0, d("gasket.thickness"))
 
 
-def flange() -> Manifold:
-    """The top's flange with its clearance holes."""
+def flange(screws: int) -> Manifold:
+    """The top's flange with so many clearance holes."""
     d = dimensions()
     thick = d("top.flange")
     solid = extruded(outline().offset(-0.0008), 0.0, thick) + extruded(outline(), 0.0, thick - 0.001)
     above, below = d("top.chamfer_above"), d("top.chamfer_below")
     hole = bore(d("top.screw_hole_radius"), 0.0, thick, above=above, below=below)
-    for x, y in screw_holes():
+    for x, y in screw_holes(screws):
         solid -= hole.translate((x, y, 0.0))
     return solid
 

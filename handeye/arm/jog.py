@@ -1,0 +1,42 @@
+"""One joint at a time, the others held: how an arm is moved by its joints."""
+
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult
+from handeye.arm.model import ArmModel
+from handeye.arm.samples import Samples, check_samples
+from handeye.pose import Array
+
+_FASTEST: Final = 1.875
+"""Greatest rate of the motion 10 s3 - 15 s4 + 6 s5, as a multiple of its mean."""
+_HARDEST: Final = 5.774
+"""Its greatest acceleration, as a multiple of distance over duration squared."""
+
+
+def jog(
+    arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float, period: float
+) -> Samples | IKResult:
+    """Set-points of a smooth motion of one joint to `goal` (rad, or m), or why there are none.
+
+    Args:
+        q: where the arm stands, shape (6,).
+        joint: its index from 0.
+        speed: share of the joint's greatest rate; its square of the acceleration.
+        period: s between two set-points.
+    """
+    distance, limits = goal - q[joint], arm.joints[joint]
+    least = max(
+        _FASTEST * abs(distance) / (speed * limits.speed),
+        float(np.sqrt(_HARDEST * abs(distance) / (speed**2 * limits.acceleration))),
+    )
+    count = max(1, int(np.ceil(least / period)))
+    duration, s = count * period, np.arange(1, count + 1) / count
+    one = np.eye(6)[joint] * distance
+    samples = Samples(
+        q=q + np.outer(10 * s**3 - 15 * s**4 + 6 * s**5, one),
+        qd=np.outer(30 * s**2 - 60 * s**3 + 30 * s**4, one) / duration,
+        qdd=np.outer(60 * s - 180 * s**2 + 120 * s**3, one) / duration**2,
+    )
+    return check_samples(arm, samples, floor=0.0) or samples

@@ -1,0 +1,45 @@
+"""Lines that a person types, with history and completion, or that are piped in."""
+
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, suppress
+
+
+def typed_lines(
+    prompt: str, aside: Callable[[], AbstractContextManager[None]], words: Callable[[], Iterable[str]]
+) -> Iterator[str]:
+    """The lines of standard input, without their ends.
+
+    Args:
+        prompt: put out before each line, on a terminal.
+        aside: entered while a line is waited for.
+        words: what a word may be completed to.
+    """
+    terminal = sys.stdin.isatty()
+    if terminal:
+        _edit(words)
+    while True:
+        with aside():
+            try:
+                line = input(prompt) if terminal else sys.stdin.readline()
+            except EOFError:
+                return
+        if not line and not terminal:
+            return
+        yield line.rstrip("\r\n")
+
+
+def _edit(words: Callable[[], Iterable[str]]) -> None:
+    """History, editing and completion, where the platform has them."""
+    with suppress(ImportError):
+        import readline
+
+        readline.set_completer(lambda start, number: completion(start, number, words()))
+        readline.set_completer_delims(" \t[],")
+        readline.parse_and_bind("tab: complete")
+
+
+def completion(start: str, number: int, words: Iterable[str]) -> str | None:
+    """The word, by its number from 0, that a beginning can be completed to; None behind the last."""
+    found = sorted({word for word in words if word.upper().startswith(start.upper())})
+    return f"{found[number]} " if number < len(found) else None

@@ -1,0 +1,197 @@
+"""The two modes of 1973: what is typed is collected and checked; DO carries it out, or one function at once."""
+
+from pathlib import Path
+
+import pytest
+from typists import Session, workplace
+
+from handeye.doing import workplace as workplaces
+from handeye.doing.commands import COMMANDS
+from handeye.doing.workplace import Workplace
+from handeye.source import Source
+from handeye.work.events import StepFinished
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def place() -> Workplace:
+    return workplace()
+
+
+@pytest.fixture
+def session(place: Workplace, tmp_path: Path) -> Session:
+    """A new session in the cell as the one before has left it."""
+    return Session(place, tmp_path)
+
+
+@pytest.fixture
+def plannings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Texts that the planning phase was entered with."""
+    found: list[str] = []
+    planned = workplaces.planned
+
+    def counted(source: Source, *rest: object, **named: object) -> object:
+        found.append(source.text)
+        return planned(source, *rest, **named)
+
+    monkeypatch.setattr(workplaces, "planned", counted)
+    return found
+
+
+# -- rows 41 and 42 of the reference ----------------------------------------------------------------------
+
+
+def test_row_41_open_3_park_do_makes_a_plan_of_two_functions_and_carries_both_out_in_order(
+    session: Session,
+) -> None:
+    session.type("OPEN 3", "PARK")
+    assert session.gap < 1
+    session.type("DO")
+    runner = session.repl.workplace.runner
+    assert session.steps == ["OPEN 3", "PARK"]
+    assert [event.step for event in runner.events if isinstance(event, StepFinished)] == [0, 1]
+    assert session.gap == pytest.approx(3, abs=0.05)
+
+
+def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what_is_collected(
+    tmp_path: Path, plannings: list[str]
+) -> None:
+    together, apart = Session(workplace(), tmp_path), Session(workplace(), tmp_path)
+    together.type("OPEN 3", "PARK", "DO")
+    apart.type("OPEN 1")
+    plannings.clear()
+    apart.type("DO OPEN 3", "DO PARK")
+    assert [text.split("\n")[0] for text in plannings] == ["OPEN 3", "PARK"]
+    assert apart.repl.functions == ["OPEN 1"]
+    ends = [s.repl.workplace.runner.run.drive.q for s in (together, apart)]
+    assert ends[0] == pytest.approx(ends[1], abs=1e-3)
+    assert together.gap == pytest.approx(apart.gap, abs=0.01)
+
+
+# -- planning mode ----------------------------------------------------------------------------------------
+
+
+def test_a_wrong_function_is_told_as_it_is_typed_and_is_not_collected(session: Session) -> None:
+    said = session.read("OPEN 1", "OPEN 9")
+    assert said.startswith("error[number-out-of-range]: `9` is too large as gap of `OPEN`\n")
+    assert session.repl.functions == ["OPEN 1"]
+
+
+@pytest.mark.parametrize("line", ["STOP [0 0 -30]", "JUMP LATER", "DEFINE GET"])
+def test_what_a_later_line_can_put_right_is_not_told_yet(session: Session, line: str) -> None:
+    assert session.read(line) == ""
+    assert session.repl.functions == [line]
+
+
+def test_what_no_line_has_put_right_is_told_when_it_is_to_be_carried_out(session: Session) -> None:
+    assert "no statement has the label `LATER`" in session.read("JUMP LATER", "DO")
+
+
+def test_a_place_out_of_reach_is_told_as_it_is_typed(session: Session) -> None:
+    assert "error[unreachable-position]" in session.read("TRANS FAR [200 0 3 0 90 0]", "MOVE FAR")
+    assert len(session.repl.functions) == 1
+
+
+def test_list_drop_and_clear_tell_and_change_what_is_collected(session: Session) -> None:
+    assert session.read("OPEN 1", "PARK", "LIST") == "  1  OPEN 1\n  2  PARK"
+    assert session.read("DROP") == "dropped: PARK"
+    assert session.read("LIST") == "  1  OPEN 1"
+    session.type("CLEAR")
+    assert session.read("LIST") == "nothing is collected"
+
+
+def test_what_is_collected_is_written_as_a_script_that_do_carries_out_by_its_name(
+    session: Session, tmp_path: Path
+) -> None:
+    session.type("OPEN 2", f"WRITE {tmp_path / 'wide'}", "CLEAR", "DO wide")
+    assert (tmp_path / "wide.al").read_text() == "OPEN 2\n"
+    assert session.gap == pytest.approx(2, abs=0.05)
+    assert "is there already" in session.read(f"WRITE {tmp_path / 'wide'}")
+
+
+# -- doing ------------------------------------------------------------------------------------------------
+
+
+def test_a_macro_is_carried_out_by_its_name(session: Session) -> None:
+    session.type("DEFINE WIDE", "OPEN 3.5", "", "PARK", "DO WIDE")
+    assert session.steps == ["OPEN 3.5"]
+    assert session.gap == pytest.approx(3.5, abs=0.05)
+
+
+def test_what_a_line_requires_is_read_from_the_folder_of_the_session(
+    session: Session, tmp_path: Path
+) -> None:
+    (tmp_path / "hand.al").write_text("DEFINE WIDE\nOPEN 3.2\n\n")
+    assert not session.type("REQUIRE hand.al", "WIDE", "DO").refused
+    assert session.gap == pytest.approx(3.2, abs=0.05)
+    assert "cannot be read" in session.read("REQUIRE foot.al")
+
+
+def test_positions_and_vectors_collected_hold_for_a_function_done_alone(session: Session) -> None:
+    session.type("TRANS HIGH [25 30 12 90 90 0]", "VECT UP [0 0 1]")
+    assert not session.type("DO MOVE HIGH", "DO CHANGE UP 1").refused
+    assert session.repl.workplace.runner.run.drive.hand()[2, 3] / 0.0254 == pytest.approx(13, abs=0.05)
+
+
+def test_a_function_is_planned_from_where_the_arm_stands(session: Session) -> None:
+    session.type("DO MOVE T1", "DO CHANGE Z 2")
+    assert "in below the table" in session.read("DO CHANGE Z -9")
+
+
+def test_a_position_defined_here_is_known_to_the_functions_after_it(session: Session) -> None:
+    session.type("DO PARK", "DO CHANGE Z 1", "DO HERE UP", "DO PARK")
+    assert "hand at (20.0" in session.read("DO MOVE UP")
+    assert session.repl.workplace.known.positions["UP"].at[2] / 0.0254 == pytest.approx(9, abs=0.05)
+
+
+def test_a_difference_saved_by_one_function_is_restored_in_a_later_one(session: Session) -> None:
+    session.type("DO MOVE T1", "DO CHANGE X .5", "DO SAVE H")
+    assert session.type("MOVE T1", "RESTORE H").diagnostics == ()
+    session.type("DO")
+    offset = session.repl.workplace.runner.run.drive.hand()[0, 3] / 0.0254 - (25 + 1.02846)
+    assert offset == pytest.approx(0.5, abs=0.06)
+
+
+def test_back_undoes_the_last_do(session: Session) -> None:
+    session.type("DO OPEN 1", "DO OPEN 4", "BACK")
+    assert session.gap == pytest.approx(1, abs=0.05)
+
+
+def test_proceed_goes_on_behind_what_called_the_operator(session: Session) -> None:
+    said = session.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
+    assert said.endswith(
+        "2 WAIT look here                 brakes set, the operator is called: look here\n"
+        "PROCEED, RETRY or SKIP goes on from there; a function leaves it"
+    )
+    session.type("PROCEED")
+    assert session.gap == pytest.approx(2, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("DO", "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"),
+        ("DO PRK", "there is no instruction, macro or program `PRK`; did you mean `PARK`?"),
+        ("LIST all", "`LIST` takes nothing behind it; `all` is too much"),
+        ("PROCEED", "`proceed` is for when the operator is called, and nobody has called"),
+        ("WRITE", "`WRITE` takes the name of a file"),
+        ("DO LOOK VIEW", "the camera is not set up; begin with --look for a plan that takes pictures"),
+        ("HELP OPNE", "there is no instruction `OPNE`; did you mean `OPEN`?"),
+        ("DROP", "nothing is collected"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_a_sentence(session: Session, line: str, said: str) -> None:
+    answer = session.type(line)
+    assert (answer.refused, answer.said.error) == (True, said)
+
+
+def test_nothing_can_be_undone_before_anything_is_done(tmp_path: Path) -> None:
+    assert (
+        Session(workplace(), tmp_path).type("BACK").said.error == "nothing has been done that could be undone"
+    )
+
+
+def test_help_names_every_command(session: Session) -> None:
+    said = session.read("HELP")
+    assert [name for name in COMMANDS if f"\n  {name}" not in said] == []
