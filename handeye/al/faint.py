@@ -10,7 +10,7 @@ from handeye.diagnostics import Diagnostic, Label
 FLOOR: Final = 20.0
 """oz-in. Measured over nine worlds: straight motions that meet nothing feel up to 17, quick free ones up to 32."""
 UPRIGHT_FLOOR: Final = 2.0
-"""oz-in, about the vertical, which is the axis of joint 6 when the hand points down: there up to 1.0 is felt, and 1.2 in quick ones."""
+"""oz-in, about the vertical, the axis of joint 6 when the hand points down: there up to 1.0 and 1.2 are felt."""
 
 
 def faint_moments(script: Script) -> Iterator[Diagnostic]:
