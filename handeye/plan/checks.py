@@ -12,7 +12,7 @@ from handeye.arm.model import ArmModel
 from handeye.plan.clearance import Surroundings, table_crossing
 from handeye.plan.grip import Grip
 from handeye.plan.objections import Objections
-from handeye.plan.program import Change, Load, Program, Step, Stop, Vector
+from handeye.plan.program import Change, Load, Move, Program, Step, Stop, Vector
 from handeye.plan.strength import weakness
 from handeye.pose import Array
 
@@ -72,7 +72,10 @@ class Checks:
         """Whether the hand and its load are clear of everything over configurations `q`, shape (N, 6)."""
         X_WT, grip = forward(self.arm, q), self._grip
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
-            crossing = table_crossing(X_WT, boxes) or self._surroundings.crossing(X_WT, boxes)
+            goal = held is None and isinstance(step.operation, Move)
+            crossing = table_crossing(X_WT, boxes, goal=goal) or self._surroundings.crossing(
+                X_WT, boxes, goal=goal
+            )
             if crossing is not None:
                 self.objections.crosses(step, crossing, held, grip.taken)
                 return  # the worst of a motion is enough

@@ -1,7 +1,8 @@
 """What the hand, and what it holds, would run into on a planned motion: the fixtures of the program, and the table.
 
 All are boxes. A motion may begin inside something, for a guarded one before it is planned to go on where in truth it
-stops; then it may come out, and what counts is what it goes into afterwards.
+stops; then it may come out, by half the margin at least, and what counts is what it goes into afterwards. Where a goal
+is judged, the end of the motion counts in any case.
 """
 
 from collections.abc import Sequence
@@ -46,25 +47,26 @@ class Surroundings:
         frames = [inverse(planar(*fixture.at)) for _, fixture, _ in fixtures]
         self._X_FW = np.array(frames).reshape(-1, 4, 4)
 
-    def crossing(self, X_WT: Pose, boxes: Sequence[Box]) -> Crossing | None:
+    def crossing(self, X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
         """The deepest that boxes in T come into a fixture over poses of shape (N, 4, 4)."""
         if not self._boxes or not boxes:
             return None
         deep = depths(self._X_FW @ X_WT[:, None], boxes, self._boxes)
-        return _deepest(X_WT, deep.reshape(len(X_WT), -1), self._names * len(boxes))
+        return _deepest(X_WT, deep.reshape(len(X_WT), -1), self._names * len(boxes), goal)
 
 
-def table_crossing(X_WT: Pose, boxes: Sequence[Box]) -> Crossing | None:
+def table_crossing(X_WT: Pose, boxes: Sequence[Box], *, goal: bool) -> Crossing | None:
     """The deepest that boxes in T come below the table over poses of shape (N, 4, 4)."""
     if not boxes:
         return None
     deep = np.maximum(-lowest(X_WT, boxes), 0.0)
-    return _deepest(X_WT, deep, [None] * len(boxes))
+    return _deepest(X_WT, deep, [None] * len(boxes), goal)
 
 
-def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None]) -> Crossing | None:
+def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -> Crossing | None:
     """The worst of depths of shape (N, k), those left out with which the motion begins."""
-    outside = np.logical_or.accumulate(deep <= MARGIN, axis=0)
+    outside = np.logical_or.accumulate(deep <= MARGIN / 2, axis=0)
+    outside[-1] |= goal
     entered = np.where(outside & (deep > MARGIN), deep, 0.0)
     sample, which = divmod(int(np.argmax(entered)), entered.shape[1])
     if entered[sample, which] == 0.0:

@@ -48,7 +48,7 @@ def test_wide_fingers_meet_what_narrow_ones_pass() -> None:
 
 def test_the_palm_counts_and_not_the_fingers_alone() -> None:
     assert message("TRANS FLAT [35.5 46 2.5 90 0 0]\nMOVE FLAT") == (
-        "hand-through-fixture: the hand would go 0.75 in into `STAND` at FLAT"
+        "hand-through-fixture: the hand would go 0.79 in into `STAND` at FLAT"
     )
 
 
@@ -101,3 +101,10 @@ def test_a_position_between_leads_past_a_fixture_or_into_it() -> None:
     way = "MOVE WEST\nVIA BY\nMOVE EAST DIRECT"
     assert said(past + way) == []
     assert message(into + way).startswith("hand-through-fixture: the hand would go ")
+
+
+@pytest.mark.parametrize("deep", [0.02, 0.06, 0.09, 0.11, 0.3])
+def test_a_motion_along_what_it_begins_in_is_not_told(deep: float) -> None:
+    beside = f"TRANS BY [32 {42.825 + deep:.3f} 1 90 90 0]\nOPEN 1.55\nMOVE BY"
+    assert len(said(beside)) == (deep > 0.1)
+    assert len(said(f"{beside}\nCHANGE [0 0 -1] .3")) == (deep > 0.1)
