@@ -27,13 +27,21 @@ def _warning(meaning: str, example: str, required: Mapping[str, str] | None = No
     return Code(severity="warning", meaning=meaning, example=example, required=required or {})
 
 
-def _planning(meaning: str, example: str) -> Code:
-    return Code(severity="error", meaning=meaning, example=example, phase="planning")
+def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
+    return Code(severity=severity, meaning=meaning, example=example, phase="planning")
 
 
 CODES: Final[dict[str, Code]] = {
     "aoj-without-search": _warning("no SEARCH comes before an AOJ on any way to it", "L: MOVE T\nAOJ L"),
     "axis-count": _error("a FREE or SPIN has not as many axes as it says", "FREE 2 X\nCHANGE X 1"),
+    "carries-through-fixture": _planning(
+        "what the hand holds would go through a fixture",
+        "TRANS OVER [32 46 3 90 90 0]\nOPEN 1\nMOVE P\nCLOSE\nMOVE OVER",
+        "warning",
+    ),
+    "carries-through-table": _planning(
+        "what the hand holds would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
+    ),
     "empty-program": _error("there is no instruction to carry out", "; nothing"),
     "endless-loop": _warning(
         "a loop moves the arm, and nothing but an untested error ends it", "L: MOVE T\nJUMP L"
@@ -47,14 +55,27 @@ CODES: Final[dict[str, Code]] = {
         example="LOAD 4",
         phase="strict",
     ),
+    "force-beyond-arm": _planning(
+        "a motion is to press or turn with more than the arm can exert",
+        "MOVE T\nFORCE [0 0 -900]\nCHANGE [0 0 -1] 1",
+    ),
+    "hand-through-fixture": _planning(
+        "part of the hand would go through a fixture",
+        "TRANS OVER [32 46 2 90 90 0]\nMOVE OVER\nCHANGE [0 0 -1] 1",
+    ),
     "hand-through-table": _planning("part of the hand would be below the table top", "MOVE LOW"),
     "idle-loop": _warning("nothing leads out of a loop, and nothing moves in it", "PARK\nL: JUMP L"),
+    "joint-limit": _planning("a joint would be turned beyond its limit", "MOVE T\nTURN P 330"),
+    "joint-too-fast": _planning(
+        "a joint would have to move faster than it can", "PARK\nCHANGE [1 0 0] 10 70"
+    ),
     "label-splits-modifier": _error(
         "a label stands between a modifier and its motion, so that a jump would lose the modifier",
         "STOP 50\nL: MOVE T\nJUMP L",
     ),
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
     "line-too-long": _error("a line has more characters than anybody reads", f"OPEN 1\n;{'-' * 1000}"),
+    "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-moment": _warning(
@@ -72,6 +93,7 @@ CODES: Final[dict[str, Code]] = {
         "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
     ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
+    "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
     "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
     "position-twice": _error(
         "two positions have the same name", "TRANS A [1 2 3 0 0 0]\nTRANS A [1 2 3 0 0 0]\nPARK"
@@ -104,7 +126,8 @@ CODES: Final[dict[str, Code]] = {
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-beyond-arm": _planning(
-        "a motion is to stop on a force or moment that the arm cannot exert", "STOP [0 0 -9000]"
+        "a motion is to stop on a force or moment that the arm cannot exert",
+        "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
     ),
     "test-without-action": _warning(
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
@@ -146,6 +169,10 @@ CODES: Final[dict[str, Code]] = {
     "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),
     "vector-twice": _error(
         "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
+    ),
+    "wrist-in-line": _planning(
+        "joints 4 and 6 come into line on a straight motion, where the hand cannot keep its angles",
+        "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
     "wrong-operand": _error("an operand is of another kind than its place needs", "OPEN T"),
     "zero-vector": _error("a vector that gives a direction has no length", "CHANGE [0 0 0] 1"),

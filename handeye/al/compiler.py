@@ -58,6 +58,8 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         steps=lowered.steps,
         positions={**taught.positions, **dict(map(position, written))},
         parts=dict(taught.parts),
+        fixtures=dict(taught.fixtures),
+        held=dict(taught.held),
         required={text.key: text.text for text in source.required},
     )
     return program, arranged(found)

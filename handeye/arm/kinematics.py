@@ -63,6 +63,13 @@ class IKResult:
     axis; for "below the table" the height of the hand; for "too fast" the rate."""
     limit: float = 0.0
     """What `amount` may not pass."""
+    along: float | None = None
+    """Of motions: how far along the way of the hand it is, m."""
+
+    @property
+    def excess(self) -> float:
+        """By how much `amount` passes `limit`, rad or m."""
+        return abs(self.amount - self.limit)
 
     def message(self, arm: ArmModel) -> str:
         """Why there is no solution, for people; empty if there is one."""
@@ -86,7 +93,7 @@ class IKResult:
                 f"{unit}/s; it can do {self.limit / scale:.0f} {unit}/s"
             )
         begins = "ends" if self.amount > self.limit else "begins"
-        digits = 1 if abs(self.amount - self.limit) > 0.05 * scale else 3
+        digits = 1 if self.excess > 0.05 * scale else 3
         return (
             f"joint {self.joint + 1} ({joint.name}) would have to be {self.amount / scale:.{digits}f} "
             f"{unit}; it {begins} at {self.limit / scale:.1f} {unit}"

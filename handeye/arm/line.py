@@ -1,12 +1,13 @@
 """Motions of the hand on a straight line or an arc: every set-point is solved for, with exact joint rates."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from handeye.arm.kinematics import IKResult, branches, drift, forward, jacobian, solve
 from handeye.arm.model import ArmModel, constants
-from handeye.arm.samples import Samples, check_samples
+from handeye.arm.samples import Samples, check_samples, length
 from handeye.pose import Array, Pose, rotation_z, translated
 from handeye.units import JIFFY
 
@@ -90,12 +91,14 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
         return Samples(q=np.zeros((0, 6)), qd=np.zeros((0, 6)), qdd=np.zeros((0, 6)))
     found, exists = branches(arm, X)
     if not exists.all():
-        return solve(arm, X[int(np.argmin(exists.all(axis=1)))], q_start)
+        tick = int(np.argmin(exists.all(axis=1)))
+        return replace(solve(arm, X[tick], q_start), along=length(X[: tick + 1]))
     turn = np.where(constants(arm).prismatic, np.inf, 2 * np.pi)
     branch = int(np.argmin(_distance(found[0] - q_start, turn)))
     q = found[:, branch]
-    if (np.abs(np.sin(q[:, 4])) < SINGULAR).any():
-        return IKResult(reason="singular", joint=4)
+    in_line = np.abs(np.sin(q[:, 4])) < SINGULAR
+    if in_line.any():
+        return IKResult(reason="singular", joint=4, along=length(X[: int(np.argmax(in_line)) + 1]))
     steps = np.diff(np.vstack([q_start, q]), axis=0)
     q = q_start + np.cumsum(_shortest(steps, turn), axis=0)
     fault = check_samples(arm, Samples(q=q, qd=q, qdd=q))
@@ -104,9 +107,10 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
     J = jacobian(arm, q)
     qd = _solve(J, V)
     if (np.abs(qd) > constants(arm).speed).any():
-        tick, joint = np.unravel_index(int(np.argmax(np.abs(qd) / constants(arm).speed)), qd.shape)
+        tick, joint = divmod(int(np.argmax(np.abs(qd) / constants(arm).speed)), qd.shape[1])
         rate = abs(float(qd[tick, joint]))
-        return IKResult(reason="too fast", joint=int(joint), amount=rate, limit=arm.joints[joint].speed)
+        limit, along = arm.joints[joint].speed, length(X[: tick + 1])
+        return IKResult(reason="too fast", joint=joint, amount=rate, limit=limit, along=along)
     return Samples(q=q, qd=qd, qdd=_solve(J, A - drift(arm, q, qd)))
 
 

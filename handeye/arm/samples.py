@@ -6,7 +6,7 @@ import numpy as np
 
 from handeye.arm.kinematics import SLACK, IKResult, forward
 from handeye.arm.model import ArmModel
-from handeye.pose import Array
+from handeye.pose import Array, Pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -21,20 +21,28 @@ class Samples:
         return len(self.q)
 
 
+def length(X_WT: Pose) -> float:
+    """How far the hand goes over poses of shape (N, 4, 4), m."""
+    return float(np.linalg.norm(np.diff(X_WT[:, :3, 3], axis=0), axis=1).sum())
+
+
 def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None) -> IKResult | None:
-    """The first set-point the arm cannot take: beyond a joint limit, or with the hand below `floor` (m).
+    """What the arm cannot take: a joint beyond its limit, or the hand below `floor` (m).
 
     Returns:
-        None if all can be taken.
+        None if all can be taken; else how far the joint that is first beyond its limit goes, and where it passes it.
     """
     beyond = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
     bad = beyond > SLACK
     if bad.any():
         tick = int(np.argmax(bad.any(axis=1)))
         joint = int(np.argmax(bad[tick]))
-        x, lower, upper = float(samples.q[tick, joint]), float(arm.lower[joint]), float(arm.upper[joint])
-        reason = "out of reach" if arm.joints[joint].kind == "prismatic" else "joint limit"
-        return IKResult(reason=reason, joint=joint, amount=x, limit=upper if x > upper else lower)
+        x, lower, upper = samples.q[np.argmax(beyond[:, joint]), joint], arm.lower[joint], arm.upper[joint]
+        return IKResult(
+            reason="out of reach" if arm.joints[joint].kind == "prismatic" else "joint limit", joint=joint,
+            amount=float(x), limit=float(upper if x > upper else lower),
+            along=length(forward(arm, samples.q[: tick + 1])),
+        )  # fmt: skip
     if floor is not None:
         height = float(forward(arm, samples.q)[:, 2, 3].min(initial=floor))
         if height < floor:

@@ -5,6 +5,7 @@ from functools import cache
 from handeye.al.compiler import compile_text
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.sewing import sewn_of
+from handeye.boxes import Box
 from handeye.codes import CODES
 from handeye.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
 from handeye.editor.checking import planning
@@ -12,7 +13,7 @@ from handeye.editor.document import Document
 from handeye.editor.fix import cured
 from handeye.editor.fixes import fixes
 from handeye.errors import ERRORS, InvalidInput
-from handeye.plan.program import Part, Position
+from handeye.plan.program import Fixture, Held, Part, Position
 from handeye.plan.taught import Taught
 from handeye.source import Source
 from handeye.units import DEGREE, INCH
@@ -24,6 +25,10 @@ _DOWN = (90 * DEGREE, 90 * DEGREE, 0.0)
 
 def _position(x: float, y: float, z: float) -> Position:
     return Position(at=(x * INCH, y * INCH, z * INCH, *_DOWN))
+
+
+def _box(x: float, y: float, low: float, high: float) -> Box:
+    return (-x * INCH, -y * INCH, low * INCH, x * INCH, y * INCH, high * INCH)
 
 
 SAMPLE = Taught(
@@ -38,6 +43,8 @@ SAMPLE = Taught(
         "BASE": Part(at=(25 * INCH, 38 * INCH, 0.0, 0.0)),
         "GASKET": Part(at=(26 * INCH, 48 * INCH, 0.0, 0.0)),
     },
+    fixtures={"STAND": Fixture(at=(32 * INCH, 46 * INCH, 0.0, 0.0), boxes=(_box(2, 2, 0, 1.75),))},
+    held={"STICK": Held(positions=("P",), boxes=(_box(0.2, 0.2, -0.5, 2.5),))},
 )
 """What is taught for the examples."""
 

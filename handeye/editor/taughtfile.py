@@ -1,7 +1,7 @@
 """Where names stand in the file of what was taught.
 
 TOML readers do not tell places. This finds what people and the teacher write: `[positions.A]`, `A = {...}` under
-`[positions]`, and `of = "PART"`. What it does not find, an editor cannot go to.
+`[positions]`, `of = "PART"`, and `positions = ["A"]` on one line. What it does not find, an editor cannot go to.
 """
 
 import re
@@ -18,6 +18,8 @@ _OTHER: Final = re.compile(r"\s*\[[^\]]*\]\s*(?:#.*)?$")
 _KEY: Final = re.compile(rf"\s*{_NAME}\s*=\s*\{{", re.ASCII)
 _DOTTED: Final = re.compile(rf"\s*(positions|parts)\s*\.\s*{_NAME}", re.ASCII)
 _OF: Final = re.compile(r"(?<![\w.\"'])of\s*=\s*[\"']([A-Za-z_]\w*)[\"']", re.ASCII)
+_HELD: Final = re.compile(r"(?<![\w.])positions\s*=\s*\[[^\]]*\]", re.ASCII)
+_QUOTED: Final = re.compile(r"[\"']([A-Za-z_]\w*)[\"']", re.ASCII)
 
 
 def taught_occurrences(text: str) -> list[Occurrence]:
@@ -41,6 +43,9 @@ def _walk(text: str) -> Iterator[Occurrence]:
             yield _made(dotted[1], dotted, 2, start)
         for of in _OF.finditer(code):
             yield Occurrence(kind=PART, name=of[1], span=_span(of, 1, start), makes=False)
+        for held in _HELD.finditer(code):
+            for at in _QUOTED.finditer(code, held.start(), held.end()):
+                yield Occurrence(kind=POSITION, name=at[1], span=_span(at, 1, start), makes=False)
         start += len(line) + 1
 
 

@@ -8,6 +8,7 @@ from typing import Final, Literal
 
 import msgspec
 
+from handeye.boxes import Box
 from handeye.source import Source, line_name
 
 Vector = tuple[float, float, float]
@@ -320,6 +321,21 @@ class Part(Record, frozen=True, kw_only=True):
     """Box around it in part coordinates: x from, y from, x to, y to (m)."""
 
 
+class Fixture(Record, frozen=True, kw_only=True):
+    """What stands fast in the cell, as boxes."""
+
+    at: tuple[float, float, float, float]
+    """x, y, z (m) and yaw (rad) of its frame on the table."""
+    boxes: tuple[Box, ...]
+
+
+class Held(Record, frozen=True, kw_only=True):
+    """What the hand holds when it has closed at one of some positions, as boxes in the hand's frame T."""
+
+    positions: tuple[str, ...]
+    boxes: tuple[Box, ...]
+
+
 class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A checked program."""
 
@@ -333,6 +349,10 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     steps: tuple[Step, ...]
     positions: dict[str, Position]
     parts: dict[str, Part]
+    fixtures: dict[str, Fixture] = {}
+    """What no motion may lead through."""
+    held: dict[str, Held] = {}
+    """What is carried, by name."""
 
     @property
     def whole(self) -> Source:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
+from handeye.boxes import Box
 from handeye.plan import program as op
 from handeye.plan.plan import Motion, Plan
 
@@ -55,12 +56,29 @@ def faults(plan: Plan) -> Iterator[str]:
     for key, part in program.parts.items():
         if not all(abs(value) <= 100 for value in part.at):
             yield f"part {key} is not on this table"
+    for key, fixture in program.fixtures.items():
+        if not all(abs(value) <= 100 for value in fixture.at):
+            yield f"fixture {key} is not on this table"
+        yield from _boxes(f"fixture {key}", fixture.boxes)
+    for key, held in program.held.items():
+        yield from (
+            f"{key} is held at {at}, which the plan does not have"
+            for at in held.positions
+            if at not in program.positions
+        )
+        yield from _boxes(key, held.boxes)
     for number, step in enumerate(program.steps):
         for fault in (*_references(plan, step), *_numbers(step.operation), *_motion(plan, number, step)):
             yield f"step {number} (line {step.place}) {fault}"
     for number in plan.motions:
         if not 0 <= number < len(program.steps):
             yield f"it has a motion for step {number}, and no such step"
+
+
+def _boxes(what: str, boxes: tuple[Box, ...]) -> Iterator[str]:
+    for box in boxes:
+        if not all(-100 <= low < high <= 100 for low, high in zip(box[:3], box[3:], strict=True)):
+            yield f"{what} has a box without an inside"
 
 
 def _references(plan: Plan, step: op.Step) -> Iterator[str]:

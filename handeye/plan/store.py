@@ -28,8 +28,8 @@ def encode(plan: Plan) -> str:
     lines = ["{"]
     lines += [f' "{key}": {_line(value)},' for key, value in data.items()]
     lines.append(' "program": {')
-    for key, value in program.items():
-        comma = "" if key == "parts" else ","
+    for number, (key, value) in enumerate(program.items(), 1):
+        comma = "" if number == len(program) else ","
         if isinstance(value, dict):
             body = [f'   "{name}": {_line(item)}' for name, item in value.items()]
             lines += [f'  "{key}": {{', *_separated(body), f"  }}{comma}"]

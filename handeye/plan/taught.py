@@ -1,4 +1,4 @@
-"""Positions and parts given from outside a program: what the teacher stored by moving the arm, as TOML.
+"""What is given from outside a program: what the teacher stored by moving the arm, and the cell around it, as TOML.
 
 [positions.PIN]
 at = [18, 44, 3, 0, 90, 0]         # x, y, z in inches, angles O, A, T in degrees
@@ -8,71 +8,53 @@ of = "HOLDER"                      # optional: relative to that part
 at = [18, 44, 0, 0]                # x, y, z in inches, yaw in degrees
 face = 1.75                        # height of its upper face, inches
 holes = [[0, 0, 2.25]]             # x, y, diameter, inches, largest first
+
+[fixtures.RACK]                    # what no motion may lead through
+at = [6, 33, 0, 0]                 # optional: x, y, z in inches, yaw in degrees, of the frame of its boxes
+boxes = [[-1, -1, 0, 1, 1, 5]]     # x, y, z from and x, y, z to, inches
+
+[held.DRIVER]                      # what the hand carries
+positions = ["PIN"]                # when it has closed at one of these
+boxes = [[-1, -1, -1, 1, 1, 4]]    # across the fingers, along the finger line, out from the tips: from and to
 """
 
-import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeVar
+from typing import Final
 
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.plan.program import Hole, Part, Position
+from handeye.plan.program import Fixture, Held, Part, Position
+from handeye.plan.tables import FixtureTable, HeldTable, PartTable, PositionTable, lower_first, read_tables
 from handeye.source import read_source
-from handeye.units import DEGREE, INCH
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Taught:
-    """Positions and parts by name, in SI units. Parts that positions refer to are there."""
+    """What is taught, by name, in SI units. Parts and positions that are referred to are there."""
 
     positions: dict[str, Position] = field(default_factory=dict)
     parts: dict[str, Part] = field(default_factory=dict)
-
-
-class _Position(msgspec.Struct, forbid_unknown_fields=True):
-    at: tuple[float, float, float, float, float, float]
-    of: str | None = None
-
-    def si(self) -> Position:
-        x, y, z, o, a, t = self.at
-        return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE), of=self.of)
-
-
-Circle = tuple[float, float, float]
-
-
-class _Part(msgspec.Struct, forbid_unknown_fields=True):
-    at: tuple[float, float, float, float]
-    face: float = 0.0
-    holes: tuple[Circle, ...] = ()
-    screw_holes: tuple[Circle, ...] = ()
-    region: tuple[float, float] | None = None
-    outline: tuple[float, float, float, float] | None = None
-
-    def si(self) -> Part:
-        x, y, z, yaw = self.at
-        box = self.outline
-        return Part(
-            at=(x * INCH, y * INCH, z * INCH, yaw * DEGREE),
-            face=self.face * INCH,
-            holes=_holes(self.holes),
-            screw_holes=_holes(self.screw_holes),
-            region=None if self.region is None else (self.region[0] * INCH, self.region[1] * INCH),
-            outline=None if box is None else (box[0] * INCH, box[1] * INCH, box[2] * INCH, box[3] * INCH),
-        )
+    fixtures: dict[str, Fixture] = field(default_factory=dict)
+    held: dict[str, Held] = field(default_factory=dict)
 
 
 class _File(msgspec.Struct, forbid_unknown_fields=True):
     positions: dict[str, dict[str, object]] = {}
     parts: dict[str, dict[str, object]] = {}
+    fixtures: dict[str, dict[str, object]] = {}
+    held: dict[str, dict[str, object]] = {}
+
+
+MOST_BOXES: Final = 500
+"""Of a file. The check of the motions takes time for each of them."""
 
 
 def load_taught(path: str | Path) -> Taught:
-    """Read positions and parts from a TOML file (inches and degrees).
+    """Read what is taught from a TOML file (inches and degrees).
 
     Raises:
         InvalidInput: the file cannot be read, or what is in it cannot be used; the sentence names the key.
@@ -81,53 +63,35 @@ def load_taught(path: str | Path) -> Taught:
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
     except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"{path} is not TOML: {_lower(error)}") from None
+        raise InvalidInput(f"{path} is not TOML: {lower_first(error)}") from None
     except RecursionError:
         raise InvalidInput(f"{path} is not TOML: nested too deeply") from None
     except msgspec.ValidationError as error:
-        raise InvalidInput(f"{path}: {_lower(error)}") from None
-    parts = {n: _read(path, f"parts.{n}", t, _Part).si() for n, t in tables.parts.items()}
-    positions = {n: _read(path, f"positions.{n}", t, _Position).si() for n, t in tables.positions.items()}
-    for name, position in positions.items():
-        if position.of is not None and position.of not in parts:
-            raise InvalidInput(f"{path}: positions.{name}: of = {position.of!r}, but there is no such part")
-    return Taught(positions=positions, parts=parts)
+        raise InvalidInput(f"{path}: {lower_first(error)}") from None
+    name = str(path)
+    positions = {n: t.si() for n, t in read_tables(name, "positions", tables.positions, PositionTable)}
+    parts = {n: t.si() for n, t in read_tables(name, "parts", tables.parts, PartTable)}
+    fixtures = {n: t.si() for n, t in read_tables(name, "fixtures", tables.fixtures, FixtureTable)}
+    held = {n: t.si() for n, t in read_tables(name, "held", tables.held, HeldTable)}
+    taught = Taught(positions=positions, parts=parts, fixtures=fixtures, held=held)
+    for fault in _faults(taught):
+        raise InvalidInput(f"{path}: {fault}")
+    return taught
 
 
-_Entry = TypeVar("_Entry", _Position, _Part)
-
-
-def _read(path: str | Path, key: str, table: dict[str, object], kind: type[_Entry]) -> _Entry:
-    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", key.split(".", 1)[1]):
-        raise InvalidInput(
-            f"{path}: {key}: a name consists of letters, digits and _, and starts with no digit"
-        )
-    try:
-        entry: _Entry = msgspec.convert(table, kind)
-    except msgspec.ValidationError as error:
-        raise InvalidInput(f"{path}: {key}: {_lower(error)}") from None
-    for name in kind.__struct_fields__:
-        if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, name))):
-            raise InvalidInput(f"{path}: {key}: {name} has a number that is not below a million")
-    if isinstance(entry, _Part):
-        for x, y, diameter in (*entry.holes, *entry.screw_holes):
-            if diameter <= 0:
-                raise InvalidInput(f"{path}: {key}: the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
-    return entry
-
-
-def _numbers(value: object) -> Iterable[float]:
-    if isinstance(value, tuple):
-        for item in value:
-            yield from _numbers(item)
-    elif isinstance(value, float):
-        yield value
-
-
-def _holes(circles: Iterable[Circle]) -> tuple[Hole, ...]:
-    return tuple(Hole(x=x * INCH, y=y * INCH, diameter=d * INCH) for x, y, d in circles)
-
-
-def _lower(error: Exception) -> str:
-    text = str(error)
-    return text[:1].lower() + text[1:]
+def _faults(taught: Taught) -> Iterator[str]:
+    """What is wrong between the entries of a file."""
+    for name, position in taught.positions.items():
+        if position.of is not None and position.of not in taught.parts:
+            yield f"positions.{name}: of = {position.of!r}, but there is no such part"
+    where: dict[str, str] = {}
+    for name, held in taught.held.items():
+        for at in held.positions:
+            if at not in taught.positions:
+                yield f"held.{name}: there is no position {at!r} in this file"
+            if where.setdefault(at, name) != name:
+                yield f"held.{name}: at {at} the hand already holds {where[at]}"
+    solids: list[Fixture | Held] = [*taught.fixtures.values(), *taught.held.values()]
+    count = sum(len(solid.boxes) for solid in solids)
+    if count > MOST_BOXES:
+        yield f"it has {count} boxes; at most {MOST_BOXES} can be looked after"

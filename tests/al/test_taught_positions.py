@@ -22,6 +22,9 @@ outline = [-2, -2, 5, 2]
 """
 
 
+AT = "[positions.A]\nat = [1, 2, 3, 0, 0, 0]\n"
+
+
 def write(folder: Path, text: str) -> Path:
     path = folder / "taught.toml"
     path.write_text(text, encoding="utf-8")
@@ -37,6 +40,17 @@ def test_positions_and_parts_arrive_in_si(tmp_path: Path) -> None:
     assert holder.holes[1] == Hole(x=3 * INCH, y=0.0, diameter=1.25 * INCH)
     assert holder.region == pytest.approx((4 * INCH, 5 * INCH))
     assert holder.outline == pytest.approx((-2 * INCH, -2 * INCH, 5 * INCH, 2 * INCH))
+
+
+def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
+    text = f"{AT}[fixtures.F]\nat = [1, 2, 3, 90]\nboxes = [[0, 0, 0, 1, 2, 3]]\n"
+    taught = load_taught(
+        write(tmp_path, f"{text}[held.H]\npositions = ['A']\nboxes = [[-1, -1, -1, 1, 1, 1]]")
+    )
+    assert taught.fixtures["F"].at == pytest.approx((INCH, 2 * INCH, 3 * INCH, 90 * DEGREE))
+    assert taught.fixtures["F"].boxes[0] == pytest.approx((0, 0, 0, INCH, 2 * INCH, 3 * INCH))
+    assert taught.held["H"].positions == ("A",)
+    assert taught.held["H"].boxes[0] == pytest.approx((-INCH, -INCH, -INCH, INCH, INCH, INCH))
 
 
 @pytest.mark.parametrize(
@@ -57,6 +71,27 @@ def test_positions_and_parts_arrive_in_si(tmp_path: Path) -> None:
         ("[parts.B]\nat = [0,0,0,0]\nholes = [[0,0,0]]", r"parts\.B: the hole at \(0, 0\) has diameter 0"),
         ("[parts.B]\nat = 'here'", r"parts\.B: expected `array`, got `str` - at `\$\.at`"),
         ("[place.A]", r"object contains unknown field `place`"),
+        (
+            "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, 0]]",
+            r"fixtures\.F: the box from \(0, 0, 0\) to \(1, 1, 0\) has no inside",
+        ),
+        (
+            "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, inf]]",
+            r"fixtures\.F: boxes has a number that is not below .*",
+        ),
+        ("[fixtures.F]", r"fixtures\.F: object missing required field `boxes`"),
+        (
+            "[held.H]\npositions = ['A']\nboxes = []",
+            r"held\.H: there is no position 'A' in this file",
+        ),
+        (
+            f"{AT}[held.G]\npositions = ['A']\nboxes = []\n[held.H]\npositions = ['A']\nboxes = []",
+            r"held\.H: at A the hand already holds G",
+        ),
+        (
+            f"[fixtures.F]\nboxes = {[[0, 0, 0, 1, 1, 1]] * 501}",
+            r"it has 501 boxes; at most 500 can be looked after",
+        ),
         ("positions = 3", r"expected `object`, got `int` - at `\$\.positions`"),
     ],
 )

@@ -87,7 +87,7 @@ def test_explain_tells_meaning_and_example_of_every_code(command: Command, code:
     assert CODES[code].example.split("\n")[0] in out
 
 
-@pytest.mark.parametrize("code", [code for code, entry in CODES.items() if entry.phase == "language"])
+@pytest.mark.parametrize("code", [code for code, entry in CODES.items() if entry.phase != "strict"])
 def test_explain_shows_what_an_example_gets(code: str) -> None:
     _, diagnostic = example(code)
     assert diagnostic is not None

@@ -233,7 +233,8 @@ def test_every_name_taught_for_the_pump_is_found_in_its_file() -> None:
     made = [o.name for o in taught_occurrences(text) if o.makes]
     assert sorted(made) == sorted([*taught.positions, *taught.parts])
     used = [o.name for o in taught_occurrences(text) if not o.makes]
-    assert len(used) == sum(position.of is not None for position in taught.positions.values())
+    parts = [position.of for position in taught.positions.values() if position.of is not None]
+    assert sorted(used) == sorted([*parts, *(at for held in taught.held.values() for at in held.positions)])
 
 
 # --- outline -------------------------------------------------------------------------------------

@@ -183,6 +183,35 @@ def test_an_edited_plan_that_cannot_be_carried_out_is_refused(
     assert refusal(edited(plan, path, value)).startswith(f"p.json: {said}")
 
 
+FIXTURE = {"at": [0, 0, 0, 0], "boxes": [[0, 0, 0, 1, 1, 1]]}
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "said"),
+    [
+        ("program.fixtures", {"F": FIXTURE | {"at": [1e9, 0, 0, 0]}}, "fixture F is not on this table"),
+        (
+            "program.fixtures",
+            {"F": FIXTURE | {"boxes": [[0, 0, 0, 1, 1, 0]]}},
+            "fixture F has a box without an",
+        ),
+        ("program.held", {"H": {"positions": ["X"], "boxes": []}}, "H is held at X, which the plan does not"),
+        ("program.held", {"H": {"positions": [], "boxes": [[0, 0, 0, 1, 1, 1e9]]}}, "H has a box without an"),
+    ],
+)
+def test_a_plan_with_surroundings_that_cannot_be_is_refused(
+    plan: Plan, path: str, value: object, said: str
+) -> None:
+    assert refusal(edited(plan, path, value)).startswith(f"p.json: {said}")
+
+
+def test_surroundings_survive_being_written_and_read(plan: Plan) -> None:
+    pump = read_plan(plans() / "water_pump.plan.json")
+    assert pump.program.fixtures.keys() >= {"RACK", "FAR_BLOCK"}
+    assert decode(encode(pump), "p.json") == pump
+    assert '"fixtures"' not in encode(plan)
+
+
 def test_another_json_file_is_refused() -> None:
     assert refusal("{}") == 'p.json is not a plan: it does not say "format": "handeye plan"'
 

@@ -76,7 +76,7 @@ def test_a_moment_beyond_the_arm_is_found_in_planning() -> None:
     problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP NIL [0 0 3000]\nCHANGE [0 0 -1] 1")
     assert problem.code == "stop-beyond-arm"
     assert problem.message == "the arm cannot turn with 3000 oz-in here, so the stop would never fire"
-    assert problem.help == "hand roll gives out at 1416 oz-in"
+    assert problem.help == "joint 6 (hand roll) gives out at 1416 oz-in"
 
 
 LED = "TRANS T [25 38 4 90 90 0]\nTRANS A {}\nTRANS U [15 38 4 90 90 0]\nMOVE T\nVIA A\nMOVE U"
@@ -93,7 +93,7 @@ def test_a_move_is_planned_by_way_of_its_via() -> None:
 @pytest.mark.parametrize(
     ("at", "code", "message"),
     [
-        ("[53 53 4 90 90 0]", "unreachable-position", "A cannot be reached by the Stanford arm"),
+        ("[53 53 4 90 90 0]", "unreachable-position", "A is 4.49 in beyond the reach of the Stanford arm"),
         ("[20 30 -1 90 90 0]", "hand-through-table", "the hand would be 1.00 in below the table at A"),
     ],
 )
@@ -146,4 +146,4 @@ def test_a_program_planned_from_where_the_arm_stands_is_checked_from_there() -> 
     high, low = (solve(STANFORD, hand(0.6, 0.9, z * INCH, 1.57, 1.57, 0), MIDDLE).q for z in (4, 1))
     assert make_plan(program, STANFORD, start=high)[1] == []
     (problem,) = make_plan(program, STANFORD, start=low)[1]
-    assert problem.message == "the hand would end 1.00 in below the table"
+    assert problem.message == "the hand would be 1.00 in below the table at the end of this `CHANGE`"

@@ -1,0 +1,102 @@
+"""What the arm cannot reach is told with the joint and the amount, once, and for the whole way."""
+
+import pytest
+from checking import message, said
+
+
+def test_a_goal_beyond_the_boom_says_how_far() -> None:
+    (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR")
+    assert problem.message == "FAR is 0.56 in beyond the reach of the Stanford arm"
+    assert problem.notes == ("joint 3 (boom) would have to be 50.6 in; it ends at 50.0 in",)
+    assert problem.help == "bring it at least 0.56 in nearer to the arm"
+
+
+def test_a_goal_too_near_to_the_column_says_how_near() -> None:
+    assert message("TRANS NEAR [20 15 5 90 90 0]\nMOVE NEAR") == (
+        "unreachable-position: NEAR is 1.06 in too near to the column of the Stanford arm"
+    )
+
+
+def test_a_wrist_beyond_its_limit_is_told_with_the_amount() -> None:
+    assert message("TRANS B [25 38 14 90 -70 0]\nMOVE B") == (
+        "joint-limit: `MOVE B` would take joint 5 (wrist bend) 5.5 degrees beyond its limit of 110 degrees"
+    )
+
+
+def test_a_straight_motion_says_where_it_leaves_the_reach() -> None:
+    (problem,) = said("MOVE T\nCHANGE [0 1 0] 30")
+    assert problem.code == "path-leaves-reach"
+    assert problem.message == "the hand would leave the arm's reach 21.5 in along this `CHANGE`"
+    assert problem.notes == ("joint 3 (boom) would have to be 58.5 in; it ends at 50.0 in",)
+
+
+def test_a_turn_says_where_it_comes_to_the_limit_of_a_joint() -> None:
+    (problem,) = said("MOVE T\nTURN PEG 330")
+    assert problem.code == "joint-limit"
+    assert problem.notes == ("it comes to its limit 50.7 in along this `TURN`",)
+    assert problem.help == "shorten the motion"
+
+
+def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> None:
+    (problem,) = said(
+        "TRANS A [26.44 13.42 1.83 -90 60 0]\nTRANS B [27.12 59.14 15.64 90 0 90]\nMOVE A\nMOVE B"
+    )
+    assert (
+        problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
+    )
+    assert problem.notes == ("it comes to its limit 159.1 in along its way to B",)
+    assert problem.help == "go by a position between"
+
+
+def test_a_straight_motion_through_the_singularity_is_found() -> None:
+    assert message("TRANS AHEAD [13.937 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4") == (
+        "wrist-in-line: the hand could not keep its angles 1.4 in along this `CHANGE`"
+    )
+
+
+def test_a_straight_motion_that_is_too_fast_for_a_joint_is_found() -> None:
+    (problem,) = said("TRANS NEAR [20 28 8 90 90 0]\nMOVE NEAR\nCHANGE [1 0 0] 10 70")
+    assert problem.code == "joint-too-fast"
+    assert problem.notes == ("joint 1 (column) would have to move at 192 degrees/s; it can do 172 degrees/s",)
+
+
+@pytest.mark.parametrize("first", ["MOVE FAR", "TRANS LOW [25 38 -1 90 90 0]\nMOVE LOW"])
+def test_motions_from_a_place_that_is_not_reached_are_not_judged(first: str) -> None:
+    text = f"TRANS FAR [25 60 4 90 90 0]\nMOVE T\n{first}\nCHANGE [0 0 -1] 6\nCHANGE [0 1 0] 40\nMOVE OVER"
+    assert len(said(text)) == 1
+
+
+def test_every_goal_out_of_reach_is_told_and_not_the_first_alone() -> None:
+    text = "TRANS F [25 60 4 90 90 0]\nTRANS G [25 61 4 90 90 0]\nMOVE F\nMOVE G\nMOVE T\nCHANGE [0 1 0] 30"
+    assert [p.code for p in said(text)] == ["unreachable-position"] * 2 + ["path-leaves-reach"]
+
+
+def test_a_goal_out_of_reach_is_told_where_it_is_first_gone_to_and_not_again() -> None:
+    (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR\nMOVE T\nMOVE FAR")
+    assert problem.primary.span.start == len("TRANS FAR [25 60 4 90 90 0]\nMOVE ")
+
+
+def test_a_long_script_of_mistakes_gets_no_more_messages_than_anybody_reads() -> None:
+    assert len(said("MOVE T\n" + "CHANGE [0 1 0] 30\nMOVE T\n" * 30)) == 20
+
+
+@pytest.mark.parametrize(
+    "line", ["FAR: MOVE FAR ;FAR", "  move FAR DIRECT", "DEFINE TO_FAR\nMOVE FAR\n\nTO_FAR"]
+)
+def test_the_goal_is_marked_and_not_a_label_or_comment_like_it(line: str) -> None:
+    text = f"TRANS FAR [25 60 4 90 90 0]\n{line}"
+    (problem,) = said(text)
+    span = problem.primary.span
+    assert text[span.start : span.end] == "FAR"
+    assert text[: span.start].rstrip().lower().endswith("move")
+
+
+@pytest.mark.parametrize(
+    ("via", "code"),
+    [("[25 60 4 90 90 0]", "unreachable-position"), ("[25 38 -1 90 90 0]", "hand-through-table")],
+)
+def test_a_position_on_the_way_that_cannot_be_passed_is_marked_in_its_via(via: str, code: str) -> None:
+    text = f"TRANS BY {via}\nMOVE OVER\nVIA BY\nMOVE T"
+    (problem,) = said(text)
+    assert problem.code == code
+    assert problem.primary.span.start == text.index("VIA BY") + len("VIA ")
