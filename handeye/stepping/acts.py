@@ -11,9 +11,9 @@ from handeye.stepping.advance import Pause
 from handeye.stepping.breakpoints import ToStage, breakpoint
 from handeye.stepping.checkpoint_file import read_head, write_checkpoint
 from handeye.stepping.experiments import set_position, set_saved
+from handeye.stepping.hands import Hands
 from handeye.stepping.places import named_place, text_of
 from handeye.stepping.reply import Break, Told
-from handeye.stepping.hands import Hands
 from handeye.stepping.showing import show
 from handeye.work.executor import Choice
 

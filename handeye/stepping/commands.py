@@ -8,8 +8,8 @@ from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.stepping import acts
 from handeye.stepping.breakpoints import nearest
-from handeye.stepping.reply import Told
 from handeye.stepping.hands import Hands
+from handeye.stepping.reply import Told
 from handeye.stepping.showing import TOPICS
 
 

@@ -7,9 +7,9 @@ from handeye.errors import HandeyeError
 from handeye.stepping.advance import Pause, Stop
 from handeye.stepping.commands import find
 from handeye.stepping.faces import as_json, as_text
+from handeye.stepping.hands import Hands
 from handeye.stepping.reply import Reply, Told
 from handeye.stepping.runner import Runner
-from handeye.stepping.hands import Hands
 from handeye.stepping.snapshot import Checkpoint
 from handeye.stepping.telling import deeds
 
