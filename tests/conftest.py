@@ -16,6 +16,12 @@ settings.load_profile("handeye")
 Command = Callable[..., tuple[int, str, str]]
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--update", action="store_true", help="Write into the manual what really happens (with -n 0)."
+    )
+
+
 @pytest.fixture
 def command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Command:
     """Runs `handeye` in an empty folder, `typed` into it: exit code, standard output, standard error."""

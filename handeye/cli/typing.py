@@ -2,7 +2,14 @@
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager, suppress
+from contextlib import AbstractContextManager
+from types import ModuleType
+
+editing: ModuleType | None
+try:  # at once: the graphics driver of a cell may bring a library that looks like this one, and would be taken for it
+    import readline as editing
+except ImportError:  # not everywhere
+    editing = None
 
 
 def typed_lines(
@@ -31,12 +38,10 @@ def typed_lines(
 
 def _edit(words: Callable[[], Iterable[str]]) -> None:
     """History, editing and completion, where the platform has them."""
-    with suppress(ImportError):
-        import readline
-
-        readline.set_completer(lambda start, number: completion(start, number, words()))
-        readline.set_completer_delims(" \t[],")
-        readline.parse_and_bind("tab: complete")
+    if editing is not None:
+        editing.set_completer(lambda start, number: completion(start, number, words()))
+        editing.set_completer_delims(" \t[],")
+        editing.parse_and_bind("tab: complete")
 
 
 def completion(start: str, number: int, words: Iterable[str]) -> str | None:

@@ -54,7 +54,7 @@ class Typist:
         return replace(given, typed=line.strip())
 
     def _given(self, line: str) -> Answer:
-        word, _, rest = line.strip().partition(" ")
+        word, rest = [*line.split(maxsplit=1), "", ""][:2]
         command = COMMANDS.get(word.upper())
         if command is None:
             return self.repl.collect(line)

@@ -65,7 +65,7 @@ def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
 def does(step: Step) -> dict[str, Any]:
     """What a step does, but for where it leads."""
     operation: dict[str, Any] = msgspec.to_builtins(step.operation)
-    return {key: value for key, value in operation.items() if key != "raised"}
+    return {key: value for key, value in operation.items() if key not in ("raised", "positive")}
 
 
 def _exact(step: Step) -> str:

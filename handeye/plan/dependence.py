@@ -1,4 +1,4 @@
-"""What a step depends on that only the working phase knows: parts seen, differences saved, the place of a search.
+"""What a step depends on that only the working phase knows: parts seen, positions and differences kept, a search.
 
 For each step it is worked out which measurements can be the newest when it is reached, over every way through the
 graph, loops and error edges included.
@@ -9,7 +9,7 @@ from typing import Literal
 from handeye.plan import program as op
 from handeye.source import line_name
 
-Kind = Literal["part", "difference", "search"]
+Kind = Literal["part", "position", "difference", "search"]
 Key = tuple[Kind, str]
 Newest = dict[Key, frozenset[int]]
 """The steps that may have measured something last."""
@@ -20,11 +20,11 @@ class Dependence(op.Record, frozen=True, kw_only=True):
 
     kind: Kind
     name: str
-    """Of the part or difference; empty for a search."""
+    """Of the part, position or difference; empty for a search."""
     level: bool = False
     """Only its horizontal components count."""
     steps: tuple[int, ...]
-    """Steps that may have measured it last. None: a part is where it is planned, a difference is zero."""
+    """Steps that may have measured it last. None: a place is as planned, a difference is zero."""
     lines: tuple[int | str, ...]
     """Their lines of the source: 12, or `pins.al:12` in a required file."""
 
@@ -32,10 +32,11 @@ class Dependence(op.Record, frozen=True, kw_only=True):
 def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
     """What each step of a program depends on, in the order of the steps."""
     newest = _newest(program)
+    kept = {step.operation.position for step in program.steps if isinstance(step.operation, op.Here)}
     return tuple(
         tuple(
             _dependence(program, key, level, newest[number].get(key, frozenset()))
-            for key, level in _uses(program, step.operation)
+            for key, level in _uses(program, kept, step.operation)
         )
         for number, step in enumerate(program.steps)
     )
@@ -43,8 +44,7 @@ def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
 
 def successors(step: op.Step) -> tuple[int, ...]:
     """The steps that may follow a step."""
-    ways = (step.next, getattr(step.operation, "raised", None))
-    return tuple(dict.fromkeys(way for way in ways if way is not None))
+    return tuple(dict.fromkeys(way for way in step.ways if way is not None))
 
 
 def _dependence(program: op.Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
@@ -59,14 +59,18 @@ def _measures(operation: op.AnyOperation) -> Key | None:
         return "part", operation.part
     if isinstance(operation, op.Save):
         return "difference", operation.name
+    if isinstance(operation, op.Here):
+        return "position", operation.position
     return ("search", "") if isinstance(operation, op.Search) else None
 
 
-def _uses(program: op.Program, operation: op.AnyOperation) -> list[tuple[Key, bool]]:
-    """What an operation is carried out by, and whether only its horizontal components count."""
+def _uses(program: op.Program, kept: set[str], operation: op.AnyOperation) -> list[tuple[Key, bool]]:
+    """What an operation is carried out by, and whether only its horizontal components count; `kept`: by a HERE."""
     found: list[tuple[Key, bool]] = []
     named = [getattr(operation, field, None) for field in ("goal", "centre", "target", "part")]
     for name in (*named, *getattr(operation, "via", ())):
+        if name in kept:
+            found.append((("position", name), False))
         if name in program.positions:
             name = program.positions[name].of
         if name is not None and not isinstance(operation, op.General):

@@ -9,7 +9,7 @@ from handeye.arm.stanford import STANFORD
 from handeye.plan.alignment import Pair, aligned, does, leads_alike
 from handeye.plan.places import PlaceChange, place_changes
 from handeye.plan.plan import Motion, Plan
-from handeye.plan.program import Record, Step, Test
+from handeye.plan.program import Countdown, Record, Step, Test
 from handeye.plan.wording import conditions, one_line
 
 _ALIKE = 1e-9
@@ -102,6 +102,9 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
     ways = [("then", one.next, other.next)]
     if isinstance(one.operation, Test) and isinstance(other.operation, Test):
         ways.append((f"if error {other.operation.number}", one.operation.raised, other.operation.raised))
+    if isinstance(one.operation, Countdown) and isinstance(other.operation, Countdown):
+        still = f"while {other.operation.counter} is positive"
+        ways.append((still, one.operation.positive, other.operation.positive))
     for what, was, now in ways:
         follows = (was, now) == (old + 1, new + 1)
         if not follows and not leads_alike(pairs, was, now):

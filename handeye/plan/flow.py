@@ -102,10 +102,10 @@ def _node(plan: Plan, number: int) -> Node:
 
 
 def _ways(number: int, step: op.Step) -> list[Edge]:
-    ways = [Edge(start=number, end=step.next)]
     if isinstance(step.operation, op.Test):
-        ways.append(Edge(start=number, end=step.operation.raised, error=step.operation.number))
-    return ways
+        tested = Edge(start=number, end=step.operation.raised, error=step.operation.number)
+        return [Edge(start=number, end=step.next), tested]
+    return [Edge(start=number, end=end) for end in dict.fromkeys(step.ways)]
 
 
 def _quoted(text: str) -> str:

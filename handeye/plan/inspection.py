@@ -30,6 +30,10 @@ class InspectedStep(op.Record, frozen=True, kw_only=True):
     """The error it tests for."""
     raised: int | None
     """The step that follows if that error was raised."""
+    counter: str | None = None
+    """The counter it counts down."""
+    positive: int | None = None
+    """The step that follows while that is still positive."""
     next: int | None
     """The step that follows otherwise; None ends the program."""
 
@@ -95,6 +99,8 @@ def depends_text(one: Dependence) -> str:
         return f"search of {lines}" if one.lines else "no search"
     if one.kind == "part":
         return f"{one.name} seen at {lines}" if one.lines else f"{one.name} as planned"
+    if one.kind == "position":
+        return f"{one.name} kept at {lines}" if one.lines else f"{one.name} as planned"
     level = " level" if one.level else ""
     return f"{one.name}{level} saved at {lines}" if one.lines else f"{one.name}{level}, never saved before"
 
@@ -103,6 +109,7 @@ def _step(plan: Plan, number: int, depends: tuple[Dependence, ...]) -> Inspected
     step, motion = plan.program.steps[number], plan.motions.get(number)
     operation = step.operation
     test = operation if isinstance(operation, op.Test) else None
+    count = operation if isinstance(operation, op.Countdown) else None
     return InspectedStep(
         step=number, file=step.file, line=step.line, text=one_line(step.text),
         operation=type(operation).__name__.lower(),
@@ -110,6 +117,7 @@ def _step(plan: Plan, number: int, depends: tuple[Dependence, ...]) -> Inspected
         stop=getattr(operation, "stop", None), press=getattr(operation, "press", None),
         conditions=conditions(operation), depends=depends,
         error=None if test is None else test.number, raised=None if test is None else test.raised,
+        counter=None if count is None else count.counter, positive=None if count is None else count.positive,
         next=step.next,
     )  # fmt: skip
 
@@ -123,6 +131,8 @@ def _line(step: InspectedStep, width: int, column: int) -> str:
     facts = [*step.conditions, *map(depends_text, step.depends)]
     if step.error is not None:
         facts.append(f"error {step.error}: to {_place(step.raised)}, else to {_place(step.next)}")
+    elif step.counter is not None:
+        facts.append(f"{step.counter} positive: to {_place(step.positive)}, else to {_place(step.next)}")
     elif step.next != step.step + 1:
         facts.append(f"to {_place(step.next)}")
     place = line_name(step.line, step.file)

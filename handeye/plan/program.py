@@ -275,6 +275,14 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Step that follows; None ends the program."""
 
     @property
+    def ways(self) -> tuple[int | None, ...]:
+        """The steps that may follow, `next` first."""
+        match self.operation:
+            case Test(raised=elsewhere) | Countdown(positive=elsewhere):
+                return self.next, elsewhere
+        return (self.next,)
+
+    @property
     def place(self) -> str:
         """Its line, as people are told: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)

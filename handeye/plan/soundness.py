@@ -85,7 +85,7 @@ def _references(plan: Plan, step: op.Step) -> Iterator[str]:
     """Steps, stages, positions, parts and pictures a step names."""
     program, operation = plan.program, step.operation
     count = len(program.steps)
-    for target in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
+    for target in step.ways:
         if target is not None and not 0 <= target < count:
             yield f"leads to step {target}; the plan has steps 0 to {count - 1}"
     if step.file and step.file not in program.required:

@@ -3,6 +3,7 @@
 import pytest
 from al_support import LISTING, compiled, diagnose, moves, only
 
+from handeye.al.instructions import LENSES
 from handeye.plan.program import (
     Advance,
     Change,
@@ -88,6 +89,10 @@ def test_units_of_the_other_words_are_converted_to_si() -> None:
     assert only("LOAD 24", Load).weight == pytest.approx(24 * OUNCE_FORCE)
     assert only("LENS 25", Lens).focal_length == pytest.approx(0.025)
     assert only("TRAVEL .3 .5", Travel).maximum == pytest.approx(0.5 * INCH)
+
+
+def test_lenses_are_those_of_the_turret() -> None:
+    assert [len(compiled(f"LENS {mm:g}").steps) for mm in LENSES] == [1, 1]
 
 
 def test_close_without_numbers_has_no_limits() -> None:

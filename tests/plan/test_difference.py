@@ -106,6 +106,20 @@ def test_a_label_put_elsewhere_changes_where_a_loop_goes() -> None:
     assert ("then", "step 1", "step 2") in [change for step in found.steps for change in step.changes]
 
 
+COUNTED = "ASSIGN N 2\nL: OPEN 1\nOPEN 2\nSOJG N L\n"
+
+
+def test_a_countdown_that_leads_elsewhere_is_told() -> None:
+    shorter = "ASSIGN N 2\nOPEN 1\nL: OPEN 2\nSOJG N L\n"
+    (step,) = difference(planned(COUNTED), planned(shorter)).steps
+    assert step.changes == (("while N is positive", "step 1", "step 2"),)
+
+
+def test_a_step_put_before_a_countdown_does_not_change_it() -> None:
+    steps = difference(planned(COUNTED), planned(f"OPEN 3\n{COUNTED}")).steps
+    assert [(step.kind, step.text) for step in steps] == [("added", "OPEN 3")]
+
+
 def test_a_step_put_into_another_stage_is_told() -> None:
     found = changed(
         '        STAGE   "go on"\n        OPEN    1\n', '        OPEN    1\n        STAGE   "go on"\n'

@@ -51,6 +51,12 @@ def test_a_test_leads_two_ways_and_says_on_which_error() -> None:
     }
 
 
+def test_a_countdown_leads_on_and_back() -> None:
+    graph = graph_of("ASSIGN N 2\nL: OPEN 1\nSOJG N L\nOPEN 2\n")
+    assert {(e.start, e.end) for e in graph.edges} == {(0, 1), (1, 2), (2, 3), (2, 1), (3, None)}
+    assert "back" in {route.kind for route in layout(graph).routes}
+
+
 def test_ways_out_of_a_stage_are_named_after_where_they_lead() -> None:
     graph = graph_of('STAGE "one"\nOPEN 1\nSTAGE "two"\nOPEN 2\n', stage=1)
     assert ([node.step for node in graph.nodes], graph.outside) == ([0], {1: "two"})

@@ -68,6 +68,22 @@ def test_guards_are_told_in_the_units_of_the_script(statements: str, said: str) 
     assert "; ".join(step_of(f"{PLACE}MOVE T\n{statements}\n", 1).conditions) == said
 
 
+def test_a_countdown_says_where_it_leads() -> None:
+    step = step_of("ASSIGN N 2\nL: OPEN 1\nSOJG N L\nOPEN 2\n", 2)
+    assert (step.counter, step.positive, step.next) == ("N", 1, 3)
+
+
+def test_a_goal_that_was_kept_depends_on_where_that_was() -> None:
+    text = f"{PLACE}MOVE T\nCHANGE Z -1\nHERE F\nMOVE F\nMOVE T\n"
+    assert [depends_text(one) for one in step_of(text, 3).depends] == ["F kept at line 4"]
+    assert step_of(text, 4).depends == ()
+
+
+def test_what_is_saved_behind_a_countdown_is_known_where_it_leads_back() -> None:
+    program = compiled(f"{PLACE}ASSIGN N 2\nL: MOVE T\nRESTORE H\nOPEN 1\nSAVE H\nSOJG N L\n")
+    assert [depends_text(one) for one in dependences(program)[1]] == ["H saved at line 6"]
+
+
 def test_a_slanting_direction_is_told_by_its_unit_vector() -> None:
     assert direction((3.0, 0.0, -4.0)) == "[0.6 0 -0.8]"
 

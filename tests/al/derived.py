@@ -1,0 +1,147 @@
+"""What of the manual is derived: the tables of instructions and codes, and the head of each page."""
+
+import re
+from pathlib import Path
+
+from suites import MANUAL, Case, cases, compiled, shown
+
+from handeye.al.definition import BIGGEST, Instruction, Operand, Refers
+from handeye.al.formatter import format_text
+from handeye.al.instructions import manual
+from handeye.al.syntax import Name, Number, Text, Vector
+from handeye.codes import CODES, Code
+from handeye.errors import ERRORS
+from handeye.plan.raises import raises
+
+REFERENCE = MANUAL / "reference"
+END = "## Meaning\n"
+"""Where what is derived of a page ends."""
+LONGEST = 20
+"""Lines and files of an example that is shown whole."""
+_CALLED = {
+    Refers.NEW: "a name",
+    Refers.LABEL: "a label",
+    Refers.TARGET: "the name of a position or a part",
+    Refers.SAVED: "the name of a saved difference",
+}
+
+
+INTRODUCTION = """\
+# What can be wrong with a program
+
+{} kinds of mistake, each with a code, an example and what it gets. `handeye explain CODE` shows the same, and the
+cure where there is one. An *error* leaves no plan; a *warning* does.
+"""
+
+
+def page(op: str) -> Path:
+    """The page of an instruction."""
+    return REFERENCE / f"{op.lower()}.md"
+
+
+def index() -> str:
+    """The tables of instructions, each with a link to its page."""
+    return re.sub(
+        r"^\| (`([A-Z]+)[^`]*`)",
+        lambda found: f"| [{found[1]}](reference/{found[2].lower()}.md)",
+        manual(),
+        flags=re.MULTILINE,
+    )
+
+
+def errors() -> str:
+    """The table of errors a program can test."""
+    rows = [f"| {number} | {meaning} |" for number, meaning in sorted(ERRORS.items())]
+    return "\n".join(["| error | |", "|---|---|", *rows, ""])
+
+
+def head(definition: Instruction) -> str:
+    """The beginning of a page, up to where the prose begins."""
+    said = definition.help[0].upper() + definition.help[1:]
+    out = [f"# `{definition.usage}`", "", f"{said}.", ""]
+    if definition.operands:
+        out += ["| operand | what may stand there | origin |", "|---|---|---|"]
+        out += [_row(definition, operand) for operand in definition.operands]
+        out.append("")
+    out.append(f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}.")
+    if definition.fits:
+        out[-1] += f" Modifies {', '.join(f'`{word}`' for word in definition.fits)}."
+    raised = _raised(definition.op)
+    if raised:
+        out += ["", "| error | when |", "|---|---|"]
+        out += [f"| {number} | {ERRORS[number]} |" for number in raised]
+    return "\n".join([*out, "", END])
+
+
+def _row(definition: Instruction, operand: Operand) -> str:
+    origin = "ours" if operand.ours or definition.ours else "period"
+    counted = ", or how many axes and which, `2 X Y`" if definition.axes else ""
+    return f"| `{operand.shown}` | {_takes(operand)}{counted} | {origin} |"
+
+
+def _takes(operand: Operand) -> str:
+    kinds = {
+        Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
+        Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
+        Name: _CALLED.get(operand.refers, f"the name of a {operand.refers.value}"),
+        Text: "words, up to the end of the line" if operand.free else "words in quotes",
+    }
+    choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
+    said = ", or ".join(choices) or "the word itself"
+    return "; ".join([said, *_limits(operand)])
+
+
+def _units(operand: Operand) -> str:
+    names = dict.fromkeys(unit.name for unit in operand.units if unit.name)
+    return f" ({', '.join(names)})" if names else ""
+
+
+def _limits(operand: Operand) -> list[str]:
+    if operand.choices:
+        return [" or ".join(f"{choice:g}" for choice in operand.choices)]
+    if operand.low == operand.high:
+        return [f"only {operand.low:g}"]
+    if operand.high < BIGGEST:
+        return [f"{operand.low:g} to {operand.high:g}"]
+    if operand.low > -BIGGEST:
+        return [f"at least {operand.low:g}"]
+    return ["not 0"] if operand.nonzero else []
+
+
+def _raised(op: str) -> list[int]:
+    """The errors that an instruction can raise in the examples of its page."""
+    found: set[int] = set()
+    for case in cases(page(op)):
+        program = compiled(case)[0]
+        steps = () if program is None else program.steps
+        found.update(*(raises(step.operation) for step in steps if step.text.split()[0].upper() == op))
+    return sorted(found)
+
+
+def diagnostics() -> str:
+    """The page of all diagnostics: a table, and an example of each with what it gets."""
+    out = [*INTRODUCTION.format(len(CODES)).split("\n"), "| code | | meaning | found |", "|---|---|---|---|"]
+    out += [
+        f"| [`{code}`](#{code}) | {entry.severity} | {entry.meaning} | {_FOUND[entry.phase]} |"
+        for code, entry in sorted(CODES.items())
+    ]
+    for code, entry in sorted(CODES.items()):
+        out += ["", f"## {code}", "", f"{entry.meaning[0].upper()}{entry.meaning[1:]}.", "", *_example(entry)]
+    return "\n".join(out) + "\n"
+
+
+_FOUND = {"language": "in the text", "planning": "in planning", "strict": "with `--strict-1973`"}
+
+
+def _example(entry: Code) -> list[str]:
+    strict = entry.phase == "strict"
+    required = {key: format_text(text) for key, text in entry.required.items()}
+    case = Case(name="", program=format_text(entry.example), strict=strict, required=required)
+    said = shown(case)["diagnostic"]
+    lines = case.program.split("\n")[:-1]
+    if len(lines) + len(required) > LONGEST:
+        cut = [*lines[:4], "...", *lines[-4:]]
+        lines = cut if len(lines) > LONGEST else [*lines, f"; and so on, {len(required)} files"]
+        return ["```text", *lines, "```", "", "```text", f"{said}```"]
+    files = [line for key, text in required.items() for line in (f"```al {key}", f"{text}```", "")]
+    return [*files, f"```al{' strict' * strict}", *lines, "```", "```diagnostic", f"{said}```"]
