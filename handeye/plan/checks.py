@@ -62,6 +62,10 @@ class Checks:
         self._grip = Grip(self.program)
         self._surroundings = Surroundings(self.program)
 
+    def forget(self) -> None:
+        """The next step is come to by a jump: whatever the hand held, it may hold something else."""
+        self._grip, self._load = Grip(self.program), None
+
     def follow(self, step: Step) -> None:
         """What a step does to the hand, and to what is in it."""
         self._grip.follow(step)

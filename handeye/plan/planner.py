@@ -84,7 +84,9 @@ class _Walk:
             self.q = start
         ahead = {0}
         for number, step in enumerate(self.program.steps):
-            self.known = self.known and number in ahead
+            if number not in ahead:
+                self.known = False
+                self.checks.forget()
             if isinstance(step.operation, _PLACES_THE_ARM):
                 ahead = set()
             ahead.update(_ways(step))

@@ -8,8 +8,8 @@ from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.stepping import acts
 from handeye.stepping.breakpoints import nearest
+from handeye.stepping.hands import Hands
 from handeye.stepping.reply import Told
-from handeye.stepping.session import Session
 from handeye.stepping.showing import TOPICS
 
 
@@ -19,7 +19,7 @@ class Command:
 
     usage: str
     group: str
-    act: Callable[[Session, str], Told]
+    act: Callable[[Hands, str], Told]
     help: str
     short: str = ""
     """Another word for it."""
@@ -85,7 +85,7 @@ def manual() -> str:
     )
 
 
-def _help(_: Session, rest: str) -> Told:
+def _help(_: Hands, rest: str) -> Told:
     if not rest:
         return Told(said=manual())
     name = find(rest.partition(" ")[0])[0].name

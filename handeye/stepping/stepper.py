@@ -7,9 +7,9 @@ from handeye.errors import HandeyeError
 from handeye.stepping.advance import Pause, Stop
 from handeye.stepping.commands import find
 from handeye.stepping.faces import as_json, as_text
+from handeye.stepping.hands import Hands
 from handeye.stepping.reply import Reply, Told
 from handeye.stepping.runner import Runner
-from handeye.stepping.session import Session
 from handeye.stepping.snapshot import Checkpoint
 from handeye.stepping.telling import deeds
 
@@ -39,58 +39,60 @@ class Stepper:
         Raises:
             InvalidInput: there is no such place to stop.
         """
-        self.session = Session(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
+        self.hands = Hands(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
         for text in breaks:
-            self.session.add_break(text)
+            self.hands.add_break(text)
         self.repeated: str | None = None
         """What an empty line on a terminal says again."""
 
     @property
     def over(self) -> bool:
         """Somebody has left, or ended the run."""
-        return self.session.over
+        return self.hands.over
 
     @property
     def pause(self) -> Pause:
         """Why the run stands still now."""
-        return self.session.pause
+        return self.hands.pause
 
     def do(self, line: str) -> Reply:
         """Carry out a command; one that is wrong changes nothing."""
         line = line.strip()
-        happened = len(self.session.runner.events)
+        happened = len(self.hands.runner.events)
         try:
             command, rest = find(line)
             self.repeated = line if command.repeats else None
-            told = command.act(self.session, rest)
+            told = command.act(self.hands, rest)
         except HandeyeError as error:
             return self._reply(line, Told(), happened, error=str(error))
         return self._reply(line, told, happened)
 
     def standing(self) -> Reply:
         """Where the run stands, before anything is said."""
-        runner = self.session.runner
-        said = f"{self.session.program.name}, {len(self.session.program.steps)} steps; `help` tells what can be said"
-        refusal = self.session.at_its_end()
-        told = Told(source=self.session.source(), said=refusal or said)
+        runner = self.hands.runner
+        said = (
+            f"{self.hands.program.name}, {len(self.hands.program.steps)} steps; `help` tells what can be said"
+        )
+        refusal = self.hands.at_its_end()
+        told = Told(source=self.hands.source(), said=refusal or said)
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: Told, happened: int, error: str | None = None) -> Reply:
         """The answer, with what has happened behind the first `happened` events."""
-        session = self.session
-        runner, step, stage = session.runner, session.runner.next, session.stage
+        hands = self.hands
+        runner, step, stage = hands.runner, hands.runner.next, hands.stage
         events = runner.events[happened:]
         return Reply(
             command=line,
             position=runner.position,
             time=runner.run.time,
-            stage=None if stage is None else session.program.stages[stage],
+            stage=None if stage is None else hands.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
             step=runner.executor.at,
             script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,
-            did=deeds(events, session.program),
+            did=deeds(events, hands.program),
             events=tuple(events),
             error=error,
             **{name: getattr(told, name) for name in Told.__struct_fields__},

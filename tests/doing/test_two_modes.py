@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from typists import Session, workplace
+from typists import Console, workplace
 
 from handeye.doing import workplace as workplaces
 from handeye.doing.commands import COMMANDS
@@ -20,9 +20,9 @@ def place() -> Workplace:
 
 
 @pytest.fixture
-def session(place: Workplace, tmp_path: Path) -> Session:
-    """A new session in the cell as the one before has left it."""
-    return Session(place, tmp_path)
+def console(place: Workplace, tmp_path: Path) -> Console:
+    """A new console in the cell as the one before has left it."""
+    return Console(place, tmp_path)
 
 
 @pytest.fixture
@@ -43,21 +43,21 @@ def plannings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_row_41_open_3_park_do_makes_a_plan_of_two_functions_and_carries_both_out_in_order(
-    session: Session,
+    console: Console,
 ) -> None:
-    session.type("OPEN 3", "PARK")
-    assert session.gap < 1
-    session.type("DO")
-    runner = session.repl.workplace.runner
-    assert session.steps == ["OPEN 3", "PARK"]
+    console.type("OPEN 3", "PARK")
+    assert console.gap < 1
+    console.type("DO")
+    runner = console.repl.workplace.runner
+    assert console.steps == ["OPEN 3", "PARK"]
     assert [event.step for event in runner.events if isinstance(event, StepFinished)] == [0, 1]
-    assert session.gap == pytest.approx(3, abs=0.05)
+    assert console.gap == pytest.approx(3, abs=0.05)
 
 
 def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what_is_collected(
     tmp_path: Path, plannings: list[str]
 ) -> None:
-    together, apart = Session(workplace(), tmp_path), Session(workplace(), tmp_path)
+    together, apart = Console(workplace(), tmp_path), Console(workplace(), tmp_path)
     together.type("OPEN 3", "PARK", "DO")
     apart.type("OPEN 1")
     plannings.clear()
@@ -72,100 +72,100 @@ def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what
 # -- planning mode ----------------------------------------------------------------------------------------
 
 
-def test_a_wrong_function_is_told_as_it_is_typed_and_is_not_collected(session: Session) -> None:
-    said = session.read("OPEN 1", "OPEN 9")
+def test_a_wrong_function_is_told_as_it_is_typed_and_is_not_collected(console: Console) -> None:
+    said = console.read("OPEN 1", "OPEN 9")
     assert said.startswith("error[number-out-of-range]: `9` is too large as gap of `OPEN`\n")
-    assert session.repl.functions == ["OPEN 1"]
+    assert console.repl.functions == ["OPEN 1"]
 
 
 @pytest.mark.parametrize("line", ["STOP [0 0 -30]", "JUMP LATER", "DEFINE GET"])
-def test_what_a_later_line_can_put_right_is_not_told_yet(session: Session, line: str) -> None:
-    assert session.read(line) == ""
-    assert session.repl.functions == [line]
+def test_what_a_later_line_can_put_right_is_not_told_yet(console: Console, line: str) -> None:
+    assert console.read(line) == ""
+    assert console.repl.functions == [line]
 
 
-def test_what_no_line_has_put_right_is_told_when_it_is_to_be_carried_out(session: Session) -> None:
-    assert "no statement has the label `LATER`" in session.read("JUMP LATER", "DO")
+def test_what_no_line_has_put_right_is_told_when_it_is_to_be_carried_out(console: Console) -> None:
+    assert "no statement has the label `LATER`" in console.read("JUMP LATER", "DO")
 
 
-def test_a_place_out_of_reach_is_told_as_it_is_typed(session: Session) -> None:
-    assert "error[unreachable-position]" in session.read("TRANS FAR [200 0 3 0 90 0]", "MOVE FAR")
-    assert len(session.repl.functions) == 1
+def test_a_place_out_of_reach_is_told_as_it_is_typed(console: Console) -> None:
+    assert "error[unreachable-position]" in console.read("TRANS FAR [200 0 3 0 90 0]", "MOVE FAR")
+    assert len(console.repl.functions) == 1
 
 
-def test_list_drop_and_clear_tell_and_change_what_is_collected(session: Session) -> None:
-    assert session.read("OPEN 1", "PARK", "LIST") == "  1  OPEN 1\n  2  PARK"
-    assert session.read("DROP") == "dropped: PARK"
-    assert session.read("LIST") == "  1  OPEN 1"
-    session.type("CLEAR")
-    assert session.read("LIST") == "nothing is collected"
+def test_list_drop_and_clear_tell_and_change_what_is_collected(console: Console) -> None:
+    assert console.read("OPEN 1", "PARK", "LIST") == "  1  OPEN 1\n  2  PARK"
+    assert console.read("DROP") == "dropped: PARK"
+    assert console.read("LIST") == "  1  OPEN 1"
+    console.type("CLEAR")
+    assert console.read("LIST") == "nothing is collected"
 
 
 def test_what_is_collected_is_written_as_a_script_that_do_carries_out_by_its_name(
-    session: Session, tmp_path: Path
+    console: Console, tmp_path: Path
 ) -> None:
-    session.type("OPEN 2", f"WRITE {tmp_path / 'wide'}", "CLEAR", "DO wide")
+    console.type("OPEN 2", f"WRITE {tmp_path / 'wide'}", "CLEAR", "DO wide")
     assert (tmp_path / "wide.al").read_text() == "OPEN 2\n"
-    assert session.gap == pytest.approx(2, abs=0.05)
-    assert "is there already" in session.read(f"WRITE {tmp_path / 'wide'}")
+    assert console.gap == pytest.approx(2, abs=0.05)
+    assert "is there already" in console.read(f"WRITE {tmp_path / 'wide'}")
 
 
 # -- doing ------------------------------------------------------------------------------------------------
 
 
-def test_a_macro_is_carried_out_by_its_name(session: Session) -> None:
-    session.type("DEFINE WIDE", "OPEN 3.5", "", "PARK", "DO WIDE")
-    assert session.steps == ["OPEN 3.5"]
-    assert session.gap == pytest.approx(3.5, abs=0.05)
+def test_a_macro_is_carried_out_by_its_name(console: Console) -> None:
+    console.type("DEFINE WIDE", "OPEN 3.5", "", "PARK", "DO WIDE")
+    assert console.steps == ["OPEN 3.5"]
+    assert console.gap == pytest.approx(3.5, abs=0.05)
 
 
 def test_what_a_line_requires_is_read_from_the_folder_of_the_session(
-    session: Session, tmp_path: Path
+    console: Console, tmp_path: Path
 ) -> None:
     (tmp_path / "hand.al").write_text("DEFINE WIDE\nOPEN 3.2\n\n")
-    assert not session.type("REQUIRE hand.al", "WIDE", "DO").refused
-    assert session.gap == pytest.approx(3.2, abs=0.05)
-    assert "cannot be read" in session.read("REQUIRE foot.al")
+    assert not console.type("REQUIRE hand.al", "WIDE", "DO").refused
+    assert console.gap == pytest.approx(3.2, abs=0.05)
+    assert "cannot be read" in console.read("REQUIRE foot.al")
 
 
-def test_positions_and_vectors_collected_hold_for_a_function_done_alone(session: Session) -> None:
-    session.type("TRANS HIGH [25 30 12 90 90 0]", "VECT UP [0 0 1]")
-    assert not session.type("DO MOVE HIGH", "DO CHANGE UP 1").refused
-    assert session.repl.workplace.runner.run.drive.hand()[2, 3] / 0.0254 == pytest.approx(13, abs=0.05)
+def test_positions_and_vectors_collected_hold_for_a_function_done_alone(console: Console) -> None:
+    console.type("TRANS HIGH [25 30 12 90 90 0]", "VECT UP [0 0 1]")
+    assert not console.type("DO MOVE HIGH", "DO CHANGE UP 1").refused
+    assert console.repl.workplace.runner.run.drive.hand()[2, 3] / 0.0254 == pytest.approx(13, abs=0.05)
 
 
-def test_a_function_is_planned_from_where_the_arm_stands(session: Session) -> None:
-    session.type("DO MOVE T1", "DO CHANGE Z 2")
-    assert "in below the table" in session.read("DO CHANGE Z -9")
+def test_a_function_is_planned_from_where_the_arm_stands(console: Console) -> None:
+    console.type("DO MOVE T1", "DO CHANGE Z 2")
+    assert "in below the table" in console.read("DO CHANGE Z -9")
 
 
-def test_a_position_defined_here_is_known_to_the_functions_after_it(session: Session) -> None:
-    session.type("DO PARK", "DO CHANGE Z 1", "DO HERE UP", "DO PARK")
-    assert "hand at (20.0" in session.read("DO MOVE UP")
-    assert session.repl.workplace.known.positions["UP"].at[2] / 0.0254 == pytest.approx(9, abs=0.05)
+def test_a_position_defined_here_is_known_to_the_functions_after_it(console: Console) -> None:
+    console.type("DO PARK", "DO CHANGE Z 1", "DO HERE UP", "DO PARK")
+    assert "hand at (20.0" in console.read("DO MOVE UP")
+    assert console.repl.workplace.known.positions["UP"].at[2] / 0.0254 == pytest.approx(9, abs=0.05)
 
 
-def test_a_difference_saved_by_one_function_is_restored_in_a_later_one(session: Session) -> None:
-    session.type("DO MOVE T1", "DO CHANGE X .5", "DO SAVE H")
-    assert session.type("MOVE T1", "RESTORE H").diagnostics == ()
-    session.type("DO")
-    offset = session.repl.workplace.runner.run.drive.hand()[0, 3] / 0.0254 - (25 + 1.02846)
+def test_a_difference_saved_by_one_function_is_restored_in_a_later_one(console: Console) -> None:
+    console.type("DO MOVE T1", "DO CHANGE X .5", "DO SAVE H")
+    assert console.type("MOVE T1", "RESTORE H").diagnostics == ()
+    console.type("DO")
+    offset = console.repl.workplace.runner.run.drive.hand()[0, 3] / 0.0254 - (25 + 1.02846)
     assert offset == pytest.approx(0.5, abs=0.06)
 
 
-def test_back_undoes_the_last_do(session: Session) -> None:
-    session.type("DO OPEN 1", "DO OPEN 4", "BACK")
-    assert session.gap == pytest.approx(1, abs=0.05)
+def test_back_undoes_the_last_do(console: Console) -> None:
+    console.type("DO OPEN 1", "DO OPEN 4", "BACK")
+    assert console.gap == pytest.approx(1, abs=0.05)
 
 
-def test_proceed_goes_on_behind_what_called_the_operator(session: Session) -> None:
-    said = session.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
+def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> None:
+    said = console.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
     assert said.endswith(
         "2 WAIT look here                 brakes set, the operator is called: look here\n"
         "PROCEED, RETRY or SKIP goes on from there; a function leaves it"
     )
-    session.type("PROCEED")
-    assert session.gap == pytest.approx(2, abs=0.05)
+    console.type("PROCEED")
+    assert console.gap == pytest.approx(2, abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -181,17 +181,17 @@ def test_proceed_goes_on_behind_what_called_the_operator(session: Session) -> No
         ("DROP", "nothing is collected"),
     ],
 )
-def test_what_cannot_be_done_is_said_in_a_sentence(session: Session, line: str, said: str) -> None:
-    answer = session.type(line)
+def test_what_cannot_be_done_is_said_in_a_sentence(console: Console, line: str, said: str) -> None:
+    answer = console.type(line)
     assert (answer.refused, answer.said.error) == (True, said)
 
 
 def test_nothing_can_be_undone_before_anything_is_done(tmp_path: Path) -> None:
     assert (
-        Session(workplace(), tmp_path).type("BACK").said.error == "nothing has been done that could be undone"
+        Console(workplace(), tmp_path).type("BACK").said.error == "nothing has been done that could be undone"
     )
 
 
-def test_help_names_every_command(session: Session) -> None:
-    said = session.read("HELP")
+def test_help_names_every_command(console: Console) -> None:
+    said = console.read("HELP")
     assert [name for name in COMMANDS if f"\n  {name}" not in said] == []

@@ -17,7 +17,7 @@ def workplace() -> Workplace:
     return Workplace(seed=0, camera="ray", taught=TAUGHT, halt=lambda: False)
 
 
-class Session:
+class Console:
     """Lines typed, and what is seen."""
 
     def __init__(self, place: Workplace, folder: Path) -> None:

@@ -90,6 +90,11 @@ def test_a_motion_comes_from_nowhere_known_after_a_jump_to_it() -> None:
     assert said("CLOSE\nSKIPE 2\nJUMP A\nMOVE WEST\nJUMP B\nA: MOVE EAST DIRECT\nB: OPEN 1") == []
 
 
+def test_what_is_held_where_only_a_jump_leads_is_unknown() -> None:
+    text = f"CLOSE\nSKIPE 2\nJUMP EMPTY\n{IN_HAND}LOAD 270\nMOVE PEG\nJUMP END\nEMPTY: MOVE OVER\nEND: OPEN 1"
+    assert said(text) == []
+
+
 def test_one_motion_gets_one_message() -> None:
     assert [p.code for p in said(f"{IN_HAND}TRANS IN [32 46 1 90 90 0]\nMOVE IN\nMOVE T")] == [
         "hand-through-fixture"

@@ -91,9 +91,9 @@ def test_the_pin_insertion_with_breaks_and_ten_times_back_gives_the_events_of_a_
     expected = history(through(Runner(begun)).events)
     runner = Runner(begun)
     stepper = Stepper(runner, breaks=["AOJ", "error:23"], pictures=tmp_path)
-    session = ["c", "b", "s", "b 3", "c", "s", "c", "b 2", "c", "b", "b", "until AOJ", "bs", "until AOJ", "c"]
-    session += ["b 4", "c", "c", "b", "c", "c", "b", "c", "b 9", *["c"] * 20]
-    out = lines_of(stepper, *session)
+    said = ["c", "b", "s", "b 3", "c", "s", "c", "b 2", "c", "b", "b", "until AOJ", "bs", "until AOJ", "c"]
+    said += ["b 4", "c", "c", "b", "c", "c", "b", "c", "b 9", *["c"] * 20]
+    out = lines_of(stepper, *said)
     assert not runner.called
     assert history(runner.events) == expected
     assert sum("undone" in answer for answer in out) == 10
@@ -295,7 +295,7 @@ def test_the_operator_says_where_the_program_goes_on(say: Say, choice: str, line
     assert [event.choice for event in answer.events if isinstance(event, OperatorAnswered)] == [choice]
 
 
-def test_abort_ends_the_session_where_the_operator_was_called(stepper: Stepper) -> None:
+def test_abort_ends_the_run_where_the_operator_was_called(stepper: Stepper) -> None:
     assert interact(stepper, iter(["c", "abort", "step"]), lambda _: None).kind == "operator"
     assert stepper.over
 

@@ -21,7 +21,7 @@ AROUND: Final = 2
 """Lines of the script that are told before and behind the one where the run stands."""
 
 
-class Session:
+class Hands:
     """What the commands of the stepper act on."""
 
     def __init__(
