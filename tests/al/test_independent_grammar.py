@@ -2,14 +2,13 @@
 
 from pathlib import Path
 
+import lark
 import pytest
 from any_texts import CORPUS, programs, spoiled
 from hypothesis import given
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
-
-lark = pytest.importorskip("lark")
 
 HERE = Path(__file__).parent
 GRAMMAR = lark.Lark((HERE / "arm_language.lark").read_text(encoding="utf-8"), parser="lalr")
