@@ -42,6 +42,10 @@ CODES: Final[dict[str, Code]] = {
     "carries-through-table": _planning(
         "what the hand holds would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
     ),
+    "count-begun-anew": _warning(
+        "an ASSIGN sets a counter anew in every round that counts it down",
+        "L: ASSIGN N 2\nMOVE T\nSOJG N L",
+    ),
     "empty-program": _error("there is no instruction to carry out", "; nothing"),
     "endless-loop": _warning(
         "a loop moves the arm, and nothing but an untested error ends it", "L: MOVE T\nJUMP L"
@@ -116,6 +120,14 @@ CODES: Final[dict[str, Code]] = {
     ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
     "save-without-move": _warning("no MOVE comes before a SAVE on any way to it", "CLOSE\nSAVE H"),
+    "search-begun-anew": _warning(
+        "a SEARCH begins anew in every round that was to go on with it",
+        "L: SEARCH .07\nMOVE T\nSTOP 9\nCHANGE Z -1\nSKIPE 23\nAOJ L",
+    ),
+    "search-stands-still": _warning(
+        "a search has no MOVE between its label and its AOJ",
+        "MOVE T\nSEARCH .07\nL: STOP 9\nCHANGE Z -1\nSKIPE 23\nAOJ L",
+    ),
     "search-without-aoj": _warning("no AOJ comes after a SEARCH on any way from it", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
@@ -156,6 +168,7 @@ CODES: Final[dict[str, Code]] = {
     "unknown-position": _error("a position is neither taught nor written with TRANS", "MOVE X9"),
     "unknown-target": _error("what the camera shall aim at is neither a position nor a part", "AIM X9"),
     "unknown-vector": _error("a vector is neither an axis nor written with VECT", "CHANGE DOWN 1"),
+    "unopened-vector": _error("a vector has no opening bracket", "CHANGE 0 0 -1] 0.6"),
     "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
     "unreadable-file": _error("a file that is required cannot be read", "REQUIRE pins.al\nPARK"),

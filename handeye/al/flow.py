@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from handeye.al.graph import Graph
+from handeye.al.rounds import stale_rounds
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label
 from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
@@ -27,7 +28,7 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
     """What is wrong with the flow of a program whose statements are all right; `origins`: those of its steps."""
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
-    for check in (flow.tests, *(_order(flow, order) for order in _ORDERS)):
+    for check in (flow.tests, flow.rounds, *(_order(flow, order) for order in _ORDERS)):
         found += flow.everywhere(check)
     return found
 
@@ -165,6 +166,22 @@ class _Flow:
                 yield number, self.no_action(number)
             elif operation.number not in raised[number] and operation.number in ERRORS:
                 yield number, self.never_raised(number, operation.number, actions[number], raised[number])
+
+    def rounds(self) -> Iterator[Finding]:
+        """Searches and counts that try the same in every round."""
+        for found in stale_rounds(self.graph):
+            word = self.word(found.jump).text
+            if found.cause is None:
+                message = "no `MOVE` comes between the label and this `AOJ`: every round tries the same place"
+                help = "the `MOVE` behind the label goes to the next place"
+                yield found.jump, self.problem("search-stands-still", found.jump, message, help=help)
+                continue
+            begin = self.word(found.cause)
+            message = f"`{word}` leads back to before the `{begin.text}`: every round is the first"
+            help = f"put the label behind the `{begin.text}`"
+            code = "search-begun-anew" if begin.text == "SEARCH" else "count-begun-anew"
+            cause = Label(span=begin.span, text="this begins anew")
+            yield found.jump, self.problem(code, found.jump, message, cause, help=help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
         """For each test: the errors that can be pending when it is come to, and the actions that raise them."""

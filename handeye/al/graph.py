@@ -48,6 +48,12 @@ class Graph:
         """The steps after which, sooner or later, one of these can come."""
         return _spread([before for number in numbers for before in self.back[number]], self.back)
 
+    def between(self, first: int | None, last: int, without: Iterable[int] = ()) -> set[int]:
+        """The steps on the ways from one to another, both included, that avoid some; none if there is no way."""
+        barred = set(without)
+        found = _spread([first], self.onward, barred)
+        return found & _spread([last], self.back, barred) if last in found else set()
+
     def trapped(self, exits: Iterable[int]) -> set[int]:
         """The steps from which the program neither ends nor comes to an exit."""
         ends = [number for number, targets in enumerate(self.onward) if None in targets]

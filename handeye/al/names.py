@@ -46,7 +46,7 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
     # Looking for what was meant takes time: only for those that will be shown.
     errors = [u for u in unknown if u[1] is not Refers.SAVED][:LIMIT]
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
-    found = [_unknown(name, refers, known[refers]) for name, refers in errors + warnings]
+    found = [_unknown(name, refers, known) for name, refers in errors + warnings]
     found += _error_numbers(statements)
     return found + _twice(declared.get("TRANS", []), taught) + _vectors_twice(declared.get("VECT", []))
 
@@ -158,12 +158,16 @@ def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
     return found
 
 
-def _unknown(name: Name, refers: Refers, known: set[str]) -> Diagnostic:
+def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
+    message = _MESSAGES[refers].format(quoted(name.text))
+    other = next((kind for kind, names in known.items() if name.text in names), None)
+    if other is not None and refers is not Refers.SAVED:
+        message = f"{quoted(name.text)} is a {other.value}, and a {refers.value} is wanted here"
     return Diagnostic(
         code=_CODES[refers],
-        message=_MESSAGES[refers].format(quoted(name.text)),
+        message=message,
         primary=Label(span=name.span),
-        help=suggestion(name.text, known),
+        help=suggestion(name.text, known[refers]),
     )
 
 

@@ -31,9 +31,12 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
     Raises:
         Mistake: the operands do not fit the definition.
     """
-    if definition.op not in FREE:
-        tokens = _separated(tokens)
-    return _Reader(definition, head, tokens).read()
+    if definition.op in FREE:
+        return _Reader(definition, head, tokens).read()
+    try:
+        return _Reader(definition, head, _separated(tokens)).read()
+    except Mistake as mistake:
+        raise _meant(tokens) or mistake from None
 
 
 def free_text(tokens: Sequence[Token]) -> str:
@@ -54,6 +57,30 @@ def _separated(tokens: Sequence[Token]) -> Sequence[Token]:
         if at + 1 == len(tokens) or tokens[at + 1].text == "]":
             raise Mistake("misplaced-comma", "nothing stands behind this comma", tokens[at].span)
     return [token for token in tokens if token.text != ","] if commas else tokens
+
+
+def _meant(tokens: Sequence[Token]) -> Mistake | None:
+    """What is at the bottom of a mistake in these operands, where their marks tell it."""
+    opened = False
+    for at, token in enumerate(tokens):
+        if token.text == "]" and not opened:
+            said = "a vector stands in brackets, as `[0 0 -1]`"
+            return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=said)
+        if token.text in ("[", "]"):
+            opened = token.text == "["
+        around = tokens[at - 1 : at + 2]
+        if token.text == "," and len(around) == 3 and _is_decimal(*around):
+            whole, _, part = around
+            span = Span(start=whole.start, end=part.end)
+            said = f"a number is written with a point: `{whole.text}.{part.text}`"
+            return Mistake("malformed-number", "a comma parts two operands", span, help=said)
+    return None
+
+
+def _is_decimal(whole: Token, comma: Token, part: Token) -> bool:
+    """Two numbers with nothing but a comma between them, the second of digits."""
+    close = whole.end == comma.start and comma.end == part.start
+    return close and whole.kind is NUMBER and part.kind is NUMBER and part.text.isdigit()
 
 
 def is_unterminated(token: Token) -> bool:
