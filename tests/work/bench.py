@@ -19,6 +19,7 @@ from handeye.cell.ports import Drive
 from handeye.cell.scene.dimensions import dimensions
 from handeye.cell.scene.drawing import base_top, screw_holes, standard
 from handeye.cell.simulated import SimulatedCell
+from handeye.plan.plan import Plan
 from handeye.plan.planner import make_plan
 from handeye.plan.program import Part, Position
 from handeye.plan.taught import Taught, load_taught
@@ -182,10 +183,12 @@ def bench(
     parts: dict[str, Part] | None = None,
     lay: dict[str, Pose] | None = None,
     camera: str = "ray",
+    edited: Callable[[Plan], Plan] = lambda plan: plan,
 ) -> Bench:
     """A cell with a script compiled for it, ready to go.
 
     Args:
+        edited: what somebody has done to the plan by hand.
         positions: taught positions besides those of the water-pump program.
         parts: parts as the program believes them, instead of the water pump's.
         lay: where the experimenter lays free bodies (`X_WP`) before the run begins.
@@ -202,7 +205,7 @@ def bench(
         put(cell, part, X_WP)
     settle(cell)
     events: list[Event] = []
-    run = Run(plan=plan, arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
+    run = Run(plan=edited(plan), arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(state=run), events=events, first=first)
 

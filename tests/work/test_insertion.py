@@ -4,11 +4,14 @@ The base stands in its standard position; the hole is displaced by teaching T be
 far the hole lies from T.
 """
 
+import msgspec
 import pytest
 from bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifted, written
 
 from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
-from handeye.plan.program import Position
+from handeye.plan.plan import Plan
+from handeye.plan.program import AnyOperation, Change, Position, Search, Stop
+from handeye.units import OUNCE_FORCE
 from handeye.work.events import Saved, SearchAdvanced
 
 pytestmark = pytest.mark.slow
@@ -79,6 +82,30 @@ def test_row_17_a_pin_that_fell_over_in_the_large_hole_is_missed_by_the_closing_
     run.flick("pin0", (-0.05, 0.0, 0.0)).go()
     assert run.called.error == NOTHING_HELD
     assert "nothing, or too thin a thing" in run.called.message
+
+
+def at_six_hundred(plan: Plan) -> Plan:
+    """The plan with the other reading of the second stop, and a search of two places."""
+
+    def read(operation: AnyOperation) -> AnyOperation:
+        if isinstance(operation, Search):
+            return msgspec.structs.replace(operation, limit=2)
+        if isinstance(operation, Change) and operation.stop == Stop(force=(0.0, 0.0, -60 * OUNCE_FORCE)):
+            return msgspec.structs.replace(operation, stop=Stop(force=(0.0, 0.0, -600 * OUNCE_FORCE)))
+        return operation
+
+    steps = [msgspec.structs.replace(step, operation=read(step.operation)) for step in plan.program.steps]
+    return msgspec.structs.replace(plan, program=msgspec.structs.replace(plan.program, steps=tuple(steps)))
+
+
+def test_row_18_at_600_oz_the_pin_is_in_the_hole_and_the_search_goes_on_for_ever() -> None:
+    """So 60 oz it must have been: the checker refuses 600, and the plan is altered behind its back."""
+    positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
+    run = bench("OPEN 1\n" + INSERT, positions=positions, lay=at_standard(), edited=at_six_hundred)
+    assert run.to("SKIPN").place("pin0")[2] == pytest.approx(SEATED, abs=0.02)
+    assert run.go().errors[:2] == [23, 23]
+    assert run.called.error == SEARCH_EXHAUSTED
+    assert not run.all(Saved)
 
 
 def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() -> None:
