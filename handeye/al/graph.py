@@ -1,7 +1,8 @@
 """The steps of a program as a graph: what leads where, what comes before what."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field
+from heapq import heappop, heappush
 
 from handeye.plan.program import Countdown, Operation, Step, Test
 
@@ -48,11 +49,50 @@ class Graph:
         """The steps after which, sooner or later, one of these can come."""
         return _spread([before for number in numbers for before in self.back[number]], self.back)
 
-    def between(self, first: int | None, last: int, without: Iterable[int] = ()) -> set[int]:
-        """The steps on the ways from one to another, both included, that avoid some; none if there is no way."""
-        barred = set(without)
-        found = _spread([first], self.onward, barred)
-        return found & _spread([last], self.back, barred) if last in found else set()
+    def leads(self, first: int, last: int, without: Container[int]) -> bool:
+        """Whether there is a way from one step to another that avoids some; near steps are tried first."""
+        waiting = [] if first in without else [first]
+        seen = set(waiting)
+        while waiting:
+            number = heappop(waiting)
+            if number == last:
+                return True
+            for target in self.onward[number]:
+                if target is not None and target not in seen and target not in without:
+                    seen.add(target)
+                    heappush(waiting, target)
+        return False
+
+    def circles(self) -> list[set[int]]:
+        """For each step: the steps it leads to that lead back to it, and itself.
+
+        They are its strongly connected component, found as Kosaraju does.
+        """
+        found: list[set[int]] = [set() for _ in self.steps]
+        for start in reversed(self._finished()):
+            circle, waiting = found[start], [start]
+            while waiting:
+                number = waiting.pop()
+                if not found[number]:
+                    circle.add(number)
+                    found[number] = circle
+                    waiting += self.back[number]
+        return found
+
+    def _finished(self) -> list[int]:
+        """All steps, each behind those that it leads to and that do not lead back to it."""
+        finished: list[int] = []
+        seen: set[int] = set()
+        waiting = [(number, False) for number in range(len(self.steps))]
+        while waiting:
+            number, done = waiting.pop()
+            if done:
+                finished.append(number)
+            elif number not in seen:
+                seen.add(number)
+                waiting.append((number, True))
+                waiting += [(target, False) for target in self.onward[number] if target is not None]
+        return finished
 
     def trapped(self, exits: Iterable[int]) -> set[int]:
         """The steps from which the program neither ends nor comes to an exit."""

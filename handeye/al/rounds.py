@@ -19,22 +19,26 @@ class Stale:
 
 def stale_rounds(graph: Graph) -> Iterator[Stale]:
     """The jumps of searches and counts that cannot come to an end by themselves."""
+    circles, moves = graph.circles(), set(graph.which(op.Move))
+    searches, assigns = set(graph.which(op.Search)), _assigns(graph)
     for jump in graph.which(op.Advance, op.Countdown):
-        step = graph.steps[jump]
+        step, again = graph.steps[jump], circles[jump]
+        target, begins = step.next, searches
         if isinstance(step.operation, op.Countdown):
-            target, begins, moves = step.operation.positive, _assigns(graph, step.operation.counter), None
-        else:
-            target, begins, moves = step.next, graph.which(op.Search), graph.which(op.Move)
-        again = graph.between(target, jump)
-        if not again:
+            target, begins = step.operation.positive, assigns.get(step.operation.counter, set())
+        if target is None or target not in again:
             continue
-        if not graph.between(target, jump, without=begins):
-            yield Stale(jump, min(again.intersection(begins)))
-        elif moves is not None and again.isdisjoint(moves):
+        if not graph.leads(target, jump, without=begins):
+            yield Stale(jump, min(again & begins))
+        elif isinstance(step.operation, op.Advance) and again.isdisjoint(moves):
             yield Stale(jump, None)
 
 
-def _assigns(graph: Graph, counter: str) -> list[int]:
-    """The steps that set a counter."""
-    steps = ((number, graph.steps[number].operation) for number in graph.which(op.Assign))
-    return [number for number, step in steps if isinstance(step, op.Assign) and step.counter == counter]
+def _assigns(graph: Graph) -> dict[str, set[int]]:
+    """The steps that set each counter."""
+    found: dict[str, set[int]] = {}
+    for number in graph.which(op.Assign):
+        operation = graph.steps[number].operation
+        assert isinstance(operation, op.Assign)
+        found.setdefault(operation.counter, set()).add(number)
+    return found

@@ -1,0 +1,42 @@
+"""The graph of steps against the plainest way of asking it."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from handeye.al.graph import Graph
+from handeye.plan.program import Countdown, Step
+
+GRAPHS = st.integers(1, 9).flatmap(
+    lambda size: st.lists(
+        st.tuples(*[st.none() | st.integers(0, size - 1)] * 2), min_size=size, max_size=size
+    )
+)
+"""For each step, the two it leads to."""
+
+
+def graph_of(ways: list[tuple[int | None, int | None]]) -> Graph:
+    return Graph(
+        [
+            Step(operation=Countdown(counter="N", positive=other), stage=0, line=1, text="", next=next)
+            for next, other in ways
+        ]
+    )
+
+
+@given(GRAPHS)
+def test_a_step_is_in_one_circle_with_all_that_come_before_and_after_it(
+    ways: list[tuple[int | None, int | None]],
+) -> None:
+    graph = graph_of(ways)
+    plainly = [{number} | (graph.after([number]) & graph.before([number])) for number in range(len(ways))]
+    assert graph.circles() == plainly
+
+
+@given(GRAPHS, st.sets(st.integers(0, 8)))
+def test_a_way_avoids_steps_as_if_they_led_nowhere(
+    ways: list[tuple[int | None, int | None]], without: set[int]
+) -> None:
+    graph, cut = graph_of(ways), graph_of([(None, None) if n in without else w for n, w in enumerate(ways)])
+    last = len(ways) - 1
+    plainly = not without & {0, last} and last in {0} | cut.after([0])
+    assert graph.leads(0, last, without) == plainly
