@@ -97,6 +97,7 @@ CODES: Final[dict[str, Code]] = {
         "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
     ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
+    "opened-too-little": _warning("a grasp asks for more than the hand is open", "OPEN .2\nCLOSE .25"),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
     "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
     "position-twice": _error(
@@ -137,6 +138,9 @@ CODES: Final[dict[str, Code]] = {
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
+    "stop-away-from-motion": _warning(
+        "a motion goes away from what its STOP is to press on", "STOP [0 0 -50]\nCHANGE Z 1"
+    ),
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force or moment that the arm cannot exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
@@ -149,6 +153,9 @@ CODES: Final[dict[str, Code]] = {
         "too many files are required, or too large ones",
         "REQUIRE 1.al\nPARK",
         {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
+    ),
+    "travel-too-long": _warning(
+        "a TRAVEL asks for a longer way than the motion before it goes", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
     "travel-without-change": _warning(
         "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"

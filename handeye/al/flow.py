@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from handeye.al.graph import Graph
 from handeye.al.rounds import stale_rounds
 from handeye.al.syntax import Name, Statement
+from handeye.al.vain import in_vain
 from handeye.diagnostics import Diagnostic, Label
 from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
 from handeye.plan import program as op
@@ -28,7 +29,7 @@ def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
     """What is wrong with the flow of a program whose statements are all right; `origins`: those of its steps."""
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
-    for check in (flow.tests, flow.rounds, *(_order(flow, order) for order in _ORDERS)):
+    for check in (flow.tests, flow.rounds, flow.vain, *(_order(flow, order) for order in _ORDERS)):
         found += flow.everywhere(check)
     return found
 
@@ -169,6 +170,7 @@ class _Flow:
 
     def rounds(self) -> Iterator[Finding]:
         """Searches and counts that try the same in every round."""
+        told: dict[int, Span] = {}
         for found in stale_rounds(self.graph):
             word = self.word(found.jump).text
             if found.cause is None:
@@ -176,12 +178,20 @@ class _Flow:
                 help = "the `MOVE` behind the label goes to the next place"
                 yield found.jump, self.problem("search-stands-still", found.jump, message, help=help)
                 continue
+            if told.setdefault(found.cause, self.span(found.jump)) != self.span(found.jump):
+                continue  # one search may have several jumps back
             begin = self.word(found.cause)
             message = f"`{word}` leads back to before the `{begin.text}`: every round is the first"
             help = f"put the label behind the `{begin.text}`"
             code = "search-begun-anew" if begin.text == "SEARCH" else "count-begun-anew"
             cause = Label(span=begin.span, text="this begins anew")
             yield found.jump, self.problem(code, found.jump, message, cause, help=help)
+
+    def vain(self) -> Iterator[Finding]:
+        """Stops and checks that come out in one way only."""
+        for found in in_vain(self.graph):
+            cause = () if found.cause is None else (Label(span=self.span(found.cause), text="by this"),)
+            yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
         """For each test: the errors that can be pending when it is come to, and the actions that raise them."""

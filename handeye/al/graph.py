@@ -3,8 +3,12 @@
 from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
+from typing import Final
 
 from handeye.plan.program import Countdown, Operation, Step, Test
+
+FAR: Final = 100
+"""Steps that are looked at for what was done last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +52,25 @@ class Graph:
     def before(self, numbers: Iterable[int]) -> set[int]:
         """The steps after which, sooner or later, one of these can come."""
         return _spread([before for number in numbers for before in self.back[number]], self.back)
+
+    def last(self, number: int, *kinds: type[Operation]) -> list[int]:
+        """The steps of these kinds that can be the last before a step; none if it can come without one.
+
+        Nor if they lie `FAR` back.
+        """
+        found: list[int] = []
+        seen: set[int] = set()
+        waiting = [number]
+        while waiting:
+            here = waiting.pop()
+            if here == 0 or len(seen) > FAR:
+                return []
+            for before in self.back[here]:
+                if before in seen:
+                    continue
+                seen.add(before)
+                (found if isinstance(self.steps[before].operation, kinds) else waiting).append(before)
+        return found
 
     def leads(self, first: int | None, last: int, without: Container[int]) -> bool:
         """Whether there is a way from one step to another that avoids some; near steps are tried first."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import msgspec
 
 from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
-from handeye.al.instructions import AXES, FREE
+from handeye.al.instructions import AXES, FREE, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.diagnostics import Diagnostic, Label, quoted
@@ -71,23 +71,26 @@ def _without_commas(tokens: Sequence[Token]) -> list[Token]:
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
     """What is at the bottom of a mistake in these operands, where their marks tell it."""
     opened = False
-    for at, token in enumerate(tokens):
+    for token in tokens:
         if token.text == "]" and not opened:
             said = "a vector stands in brackets, as `[0 0 -1]`"
             return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=said)
         if token.text in ("[", "]"):
             opened = token.text == "["
-        around = tokens[at - 1 : at + 2]
-        if token.text == "," and len(around) == 3 and _is_decimal(*around):
-            whole, _, part = around
-            span = Span(start=whole.start, end=part.end)
-            said = f"a number is written with a point: `{whole.text}.{part.text}`"
-            return Mistake("malformed-number", "a comma parts two operands", span, help=said)
+    commas = [at for at, token in enumerate(tokens) if token.text == ","]
+    if len(commas) == 1 and _is_decimal(tokens[commas[0] - 1 : commas[0] + 2]):
+        whole, _, part = tokens[commas[0] - 1 : commas[0] + 2]
+        said = f"a number is written with a point: `{whole.text}.{part.text}`"
+        span = Span(start=whole.start, end=part.end)
+        return Mistake("malformed-number", "a comma parts two operands", span, help=said)
     return None
 
 
-def _is_decimal(whole: Token, comma: Token, part: Token) -> bool:
+def _is_decimal(tokens: Sequence[Token]) -> bool:
     """Two numbers with nothing but a comma between them, the second of digits."""
+    if len(tokens) < 3:
+        return False
+    whole, comma, part = tokens
     close = whole.end == comma.start and comma.end == part.start
     return close and whole.kind is NUMBER and part.kind is NUMBER and part.text.isdigit()
 
@@ -270,7 +273,13 @@ class _Reader(msgspec.Struct, gc=False):
         span = Span(start=first.start, end=last.end)
         count = len(self.definition.operands)
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
-        raise Mistake("too-many-operands", message, span, help=self.usage())
+        help = self.usage()
+        second = next(
+            (token.text.upper() for token in self.tokens if token.text.upper() in INSTRUCTIONS), None
+        )
+        if second is not None:
+            help = f"`{second}` is an instruction: it begins a line of its own"
+        raise Mistake("too-many-operands", message, span, help=help)
 
     def unterminated_string(self, token: Token) -> Mistake:
         start = Span(start=token.start, end=token.start + 1)
@@ -308,4 +317,6 @@ def _no_number(token: Token) -> Mistake:
 
 
 def _unexpected(token: Token) -> Mistake:
-    return Mistake("unexpected-character", f"{quoted(token.text)} is no part of the language", token.span)
+    help = "a comment begins with `;`" if token.text[0] in ":#/'" else None
+    message = f"{quoted(token.text)} is no part of the language"
+    return Mistake("unexpected-character", message, token.span, help=help)

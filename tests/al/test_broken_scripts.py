@@ -1,0 +1,75 @@
+"""Forty scripts with one mistake each, written by people who had not seen the checker: each is told, and nothing else.
+
+Of the first twenty (`a`) sixteen were told as their writers wished at once, of the second (`b`) seventeen; the others
+have led to new diagnostics and better words.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from handeye.al import compile_text
+from handeye.arm.stanford import STANFORD
+from handeye.plan.planner import make_plan
+from handeye.plan.taught import Taught
+from handeye.source import read_source
+
+HERE = Path(__file__).parent / "broken"
+MISTAKES = {
+    "a01": ("unknown-instruction", 6, "there is no instruction `CLOES`"),
+    "a02": ("unknown-position", 9, "position `p` is neither taught nor written"),
+    "a03": ("missing-operand", 7, "`CHANGE` lacks its distance"),
+    "a04": ("unopened-vector", 3, "a vector has no opening bracket"),
+    "a05": ("unterminated-macro", 4, "macro `GRAB` has no end"),
+    "a06": ("unknown-label", 12, "no statement has the label `AGAIN`"),
+    "a07": ("malformed-number", 6, "a comma parts two operands"),
+    "a08": ("modifier-misplaced", 7, "`FORCE` cannot modify `MOVE`"),
+    "a09": ("error-never-raised", 12, "`OPEN` does not raise error 23 here"),
+    "a10": ("error-never-raised", 8, "`CLOSE` does not raise error 7 here"),
+    "a11": ("search-begun-anew", 12, "`AOJ` leads back to before the `SEARCH`"),
+    "a12": ("search-stands-still", 12, "no `MOVE` comes between the label and this `AOJ`"),
+    "a13": ("unterminated-string", 4, "the string has no closing quote"),
+    "a14": ("restore-without-move", 10, "there is no `MOVE` to shift"),
+    "a15": ("label-twice", 17, "label `GOT` stands twice"),
+    "a16": ("number-out-of-range", 5, "`4.5` is too large as gap of `OPEN`"),
+    "a17": ("unreachable-position", 8, "BOX is 21.87 in beyond the reach"),
+    "a18": ("stop-beyond-arm", 9, "the arm cannot press with 6000 oz here"),
+    "a19": ("count-begun-anew", 12, "`SOJG` leads back to before the `ASSIGN`"),
+    "a20": ("unknown-position", 9, "`DOWN` is a vector, and a position is wanted here"),
+    "b01": ("unterminated-macro", 6, "macro `GRASP` has no end"),
+    "b02": ("search-begun-anew", 13, "`AOJ` leads back to before the `SEARCH`"),
+    "b03": ("unreachable-code", 12, "this is never carried out"),
+    "b04": ("test-without-action", 11, "`SKIPN` follows no action"),
+    "b05": ("stop-away-from-motion", 9, "the hand moves away from what its `STOP`"),
+    "b06": ("too-many-operands", 8, "`STOP` takes no more operands"),
+    "b07": ("count-begun-anew", 12, "`SOJG` leads back to before the `ASSIGN`"),
+    "b08": ("modifier-misplaced", 10, "`SPIN` cannot modify `MOVE`"),
+    "b09": ("restore-without-move", 12, "there is no `MOVE` to shift"),
+    "b10": ("position-before-here", 11, "position `TOP` is used before `HERE` defines it"),
+    "b11": ("faint-moment", 9, "a moment of 0.2 oz-in is less than joint friction"),
+    "b12": ("load-beyond-arm", 9, "the arm cannot hold 900 oz up"),
+    "b13": ("joint-limit", 10, "`MOVE STUD` would take joint 5 (wrist bend) 25.4 degrees beyond"),
+    "b14": ("joint-limit", 8, "`TURN` would take joint 6 (hand roll) 362.2 degrees beyond"),
+    "b15": ("unexpected-character", 8, "`:` is no part of the language"),
+    "b16": ("travel-too-long", 11, "at least 0.7 in are asked for, and the motion goes 0.6 in"),
+    "b17": ("error-never-raised", 8, "`CHANGE` does not raise error 23 here"),
+    "b18": ("modifier-without-motion", 12, "no motion follows `VIA`"),
+    "b19": ("opened-too-little", 6, "at least 0.25 in are to be grasped, and the hand is open by 0.2 in"),
+    "b20": ("hand-through-table", 10, "the hand would be 2.00 in below the table"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_the_mistake_is_told_at_its_line_and_nothing_else_is(name: str) -> None:
+    source = read_source(HERE / f"{name}.al")
+    program, found = compile_text(source, Taught())
+    if program is not None:
+        found += make_plan(program, STANFORD)[1]
+    (told,) = found
+    code, line, message = MISTAKES[name]
+    assert (told.code, source.position(told.primary.span.start)[0]) == (code, line)
+    assert told.message.startswith(message)
+
+
+def test_every_script_is_in_the_table() -> None:
+    assert {file.stem for file in HERE.iterdir()} == set(MISTAKES)
