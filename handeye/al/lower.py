@@ -51,7 +51,7 @@ def lower(placed: Sequence[Placed], source: Source, report: Report) -> Lowered:
     kept = [draft for draft in drafts if draft.operation is not None]
     return Lowered(
         stages=tuple(lowering.stages), steps=steps, origins=tuple(draft.statement for draft in kept),
-        shifts=tuple(tuple(draft.shifts) for draft in kept),
+        shifts=tuple(draft.shifts for draft in kept),
     )  # fmt: skip
 
 
@@ -75,7 +75,7 @@ class _Draft(msgspec.Struct, gc=False):
     """None if the statement is broken."""
     modifier: Placed | None
     """The first of its modifiers."""
-    shifts: list[Statement] = []
+    shifts: tuple[Statement, ...] = ()
 
     @property
     def word(self) -> str:
@@ -156,7 +156,7 @@ class _Lowering:
         elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
             shifts = (*move.restore, restore(statement))
             self.drafts[-1].operation = replace(move, restore=shifts)
-            self.drafts[-1].shifts.append(statement)
+            self.drafts[-1].shifts += (statement,)
 
     def step(self, item: Placed, role: Role) -> None:
         statement = item.statement
@@ -216,7 +216,8 @@ class _Lowering:
 
     def link(self, index: int) -> int | None:
         """What follows a step; sets what follows after an error."""
-        draft, following = self.drafts[index], self.at(index + 1)
+        draft = self.drafts[index]
+        following = index + 1 if index + 1 < len(self.drafts) else None
         if isinstance(draft.operation, (Advance, Jump)):
             return self.jump(index)
         if isinstance(draft.operation, Countdown):

@@ -119,10 +119,12 @@ class _Reader(msgspec.Struct, gc=False):
         return tuple(self.values)
 
     def operand(self, operand: Operand) -> Value | None:
-        if operand.word and not self.takes(operand.word):
-            return None
-        if operand.word and not operand.takes:
-            return Name(operand.word, self.tokens[self.at - 1].span)
+        if operand.word:
+            if not self.takes(operand.word):
+                return None
+            if not operand.takes:
+                read = self.tokens[self.at - 1]
+                return Name(operand.word, read.start, read.end)
         if self.at == len(self.tokens):
             if operand.optional and not operand.word:
                 return None
@@ -170,7 +172,7 @@ class _Reader(msgspec.Struct, gc=False):
         if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
         if token.kind is NAME:
-            return Name(token.text, token.span)
+            return Name(token.text, token.start, token.end)
         raise _unexpected(token)
 
     def axes(self) -> Vector:

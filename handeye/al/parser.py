@@ -137,9 +137,9 @@ class _Parser:
             self.report(
                 "missing-operand", "`DEFINE` needs the name of the macro", at, "the name is expected here"
             )
-            self.opened = Name("", tokens[0].span)
+            self.opened = Name("", tokens[0].start, tokens[0].end)
             return
-        name = Name(tokens[1].text.upper(), tokens[1].span)
+        name = Name(tokens[1].text.upper(), tokens[1].start, tokens[1].end)
         if len(tokens) > 2:
             self.beyond(name, tokens[2:])
         elif name.text in INSTRUCTIONS or name.text == "DEFINE":
@@ -177,7 +177,7 @@ class _Parser:
             return Statement(labels, None, line.number, span)
         span = Span(start=tokens[0].start, end=tokens[-1].end)
         head, rest = tokens[0], tokens[1:]
-        word = Name(head.text.upper(), head.span)
+        word = Name(head.text.upper(), head.start, head.end)
         if head.kind is not NAME:
             self.unreadable(head)
             return Statement(labels, None, line.number, span, broken=True)
@@ -240,7 +240,7 @@ class _Parser:
 
 
 def _name(token: Token) -> Name:
-    return Name(token.text, token.span)
+    return Name(token.text, token.start, token.end)
 
 
 def _alone(rest: tuple[Token, ...]) -> str:

@@ -50,6 +50,8 @@ class Line(msgspec.Struct, frozen=True, gc=False):
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
         """The names of the labels, and what follows them."""
         tokens, at = self.tokens, 0
+        if len(tokens) < 2 or tokens[1].text != ":":
+            return (), tokens
         while at + 1 < len(tokens) and tokens[at + 1].text == ":" and tokens[at].kind is NAME:
             at += 2
         return tokens[:at:2], tokens[at:]

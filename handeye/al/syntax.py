@@ -8,11 +8,16 @@ from handeye.source import Span
 
 
 class Name(msgspec.Struct, frozen=True, gc=False):
-    """A word: the name of something, or a word of the language."""
+    """A word: the name of something, or a word of the language; most of a tree is names."""
 
     what: ClassVar[str] = "a name"
     text: str
-    span: Span
+    start: int
+    end: int
+
+    @property
+    def span(self) -> Span:
+        return Span(start=self.start, end=self.end)
 
 
 class Number(msgspec.Struct, frozen=True, gc=False):

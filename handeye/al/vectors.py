@@ -12,7 +12,6 @@ from handeye.al.syntax import Macro, Name, Script, Statement, Value, Vector
 _TAKE_NAMES: Final = {
     i.op for i in INSTRUCTIONS.values() if any(operand.refers is Refers.VECTOR for operand in i.operands)
 }
-_VECTOR: Final = Refers.VECTOR
 _UNITS: Final = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
 
@@ -42,7 +41,7 @@ def _with(statement: Statement, known: dict[str, tuple[float, float, float]]) ->
     operands: list[Value | None] = []
     changed = False
     for operand, value in pairs(statement):
-        if isinstance(value, Name) and operand.refers is _VECTOR:
+        if isinstance(value, Name) and operand.refers is Refers.VECTOR:
             value, changed = Vector(known.get(value.text, _UNITS["Z"]), value.span), True
         operands.append(value)
     return replace(statement, operands=tuple(operands)) if changed else statement
