@@ -83,6 +83,9 @@ def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[s
     return trace
 
 
+_WHERE = ("span", "start", "end", "line")
+
+
 def said(tree: object) -> object:
     """What a syntax tree says, wherever it stands."""
     if isinstance(tree, tuple):
@@ -91,7 +94,7 @@ def said(tree: object) -> object:
         return {name: said(part) for name, part in tree.items()}
     if isinstance(tree, msgspec.Struct):
         parts = msgspec.structs.asdict(tree)
-        return type(tree), {name: said(part) for name, part in parts.items() if name not in ("span", "line")}
+        return type(tree), {name: said(part) for name, part in parts.items() if name not in _WHERE}
     return tree
 
 
