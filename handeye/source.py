@@ -43,6 +43,8 @@ class Source:
 
     def find(self, offset: int) -> "tuple[Source, int]":
         """The text that an offset of the whole lies in, and the offset in that text alone."""
+        if not self.required:
+            return self, offset
         number = bisect_right(self._begins, offset) - 1
         return self.texts[number], offset - self._begins[number]
 

@@ -1,7 +1,7 @@
 """What an instruction of the language is: its operands, their units, and its part in the flow."""
 
 from dataclasses import dataclass
-from enum import Enum
+from enum import Enum, StrEnum
 from typing import Final
 
 from handeye import units
@@ -35,7 +35,7 @@ OZ_IN = Unit(name="oz-in", si=units.OUNCE_INCH)
 REV_PER_MIN = Unit(name="rpm", si=units.RPM)
 
 
-class Refers(Enum):
+class Refers(StrEnum):
     """What a name must be the name of."""
 
     POSITION = "position"
@@ -96,6 +96,10 @@ class Role(Enum):
     SKIP = "skip"
     DECLARATION = "declaration"  # no step of its own
     STEP = "step"
+
+
+MOTION, MODIFIER, SHIFT, SKIP, DECLARATION, STEP = Role
+"""For those who ask often: a member of an enumeration takes its time to be found."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

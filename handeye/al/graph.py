@@ -27,9 +27,9 @@ class Graph:
         back: list[list[int]] = [[] for _ in self.steps]
         kinds: dict[type[Operation], list[int]] = {}
         for number, step in enumerate(self.steps):
-            onward.append(_onward(step))
+            targets = _onward(step)
+            onward.append(targets)
             kinds.setdefault(type(step.operation), []).append(number)
-        for number, targets in enumerate(onward):
             for target in targets:
                 if target is not None:
                     back[target].append(number)
@@ -72,9 +72,9 @@ class Graph:
                 (found if isinstance(self.steps[before].operation, kinds) else waiting).append(before)
         return found
 
-    def leads(self, first: int, last: int, without: Container[int]) -> bool:
+    def leads(self, first: int | None, last: int, without: Container[int]) -> bool:
         """Whether there is a way from one step to another that avoids some; near steps are tried first."""
-        waiting = [] if first in without else [first]
+        waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
         while waiting:
             number = heappop(waiting)

@@ -24,6 +24,8 @@ def check_here(placed: Sequence[Placed], known: Container[str]) -> Iterator[Diag
         word, operands = item.statement.word, item.statement.operands
         if word is not None and word.text == "HERE" and isinstance(operands[0], Name):
             defined.setdefault(operands[0].text, number)
+    if not defined:
+        return
     for number, item in enumerate(placed):
         for operand, value in pairs(item.statement):
             if isinstance(value, Name) and operand.refers in _PLACES and value.text not in known:

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from itertools import accumulate
 
 import msgspec
+from msgspec.structs import replace
 
-from handeye.al.definition import Role
+from handeye.al.definition import DECLARATION, MODIFIER, MOTION, SHIFT, STEP, Role
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.macros import Call, Placed
 from handeye.al.operations import operation, restore
@@ -50,7 +51,7 @@ def lower(placed: Sequence[Placed], source: Source, report: Report) -> Lowered:
     kept = [draft for draft in drafts if draft.operation is not None]
     return Lowered(
         stages=tuple(lowering.stages), steps=steps, origins=tuple(draft.statement for draft in kept),
-        shifts=tuple(tuple(draft.shifts) for draft in kept),
+        shifts=tuple(draft.shifts for draft in kept),
     )  # fmt: skip
 
 
@@ -64,8 +65,7 @@ def _step(
     )  # fmt: skip
 
 
-@dataclass(slots=True)
-class _Draft:
+class _Draft(msgspec.Struct, gc=False):
     """A step in the making."""
 
     statement: Statement
@@ -75,7 +75,7 @@ class _Draft:
     """None if the statement is broken."""
     modifier: Placed | None
     """The first of its modifiers."""
-    shifts: list[Statement] = field(default_factory=list)
+    shifts: tuple[Statement, ...] = ()
 
     @property
     def word(self) -> str:
@@ -106,19 +106,19 @@ class _Lowering:
         if statement.word is None and not statement.broken:
             return
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
-        role = Role.STEP if definition is None else definition.role
+        role = STEP if definition is None else definition.role
         if statement.broken:
             # It may have been anything: say nothing about what depends on it.
-            if role not in (Role.MODIFIER, Role.DECLARATION, Role.SHIFT):
+            if role not in (MODIFIER, DECLARATION, SHIFT):
                 self.pending.clear()
                 self.draft(item, None)
             self.shiftable = True
-        elif role is Role.MODIFIER:
+        elif role is MODIFIER:
             self.pending.append(item)
             self.shiftable = False
-        elif role is Role.SHIFT:
+        elif role is SHIFT:
             self.restore(statement)
-        elif role is Role.DECLARATION:
+        elif role is DECLARATION:
             self.declare(statement)
         else:
             self.step(item, role)
@@ -155,22 +155,26 @@ class _Lowering:
             self.problem("restore-without-move", "there is no `MOVE` to shift", statement.word, help=help)
         elif self.drafts and isinstance(move := self.drafts[-1].operation, Move):
             shifts = (*move.restore, restore(statement))
-            self.drafts[-1].operation = msgspec.structs.replace(move, restore=shifts)
-            self.drafts[-1].shifts.append(statement)
+            self.drafts[-1].operation = replace(move, restore=shifts)
+            self.drafts[-1].shifts += (statement,)
 
     def step(self, item: Placed, role: Role) -> None:
         statement = item.statement
-        if role is not Role.MOTION and self.pending:
+        if role is not MOTION and self.pending:
             self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
-        firsts: dict[str, Placed] = {}
-        modifiers = []
-        for modifier in self.pending:
-            first = firsts.setdefault(_WAY.get(_word(modifier).text, ""), modifier)
-            if self.fits(modifier, first, statement):
-                modifiers.append(modifier)
-        self.draft(item, operation(statement, [m.statement for m in modifiers]))
+        self.draft(item, operation(statement, self.modifiers(statement) if self.pending else ()))
         self.pending.clear()
         self.shiftable = statement.word is not None and statement.word.text == "MOVE"
+
+    def modifiers(self, motion: Statement) -> list[Statement]:
+        """Those that wait and fit a motion."""
+        firsts: dict[str, Placed] = {}
+        found = []
+        for modifier in self.pending:
+            first = firsts.setdefault(_WAY.get(_word(modifier).text, ""), modifier)
+            if self.fits(modifier, first, motion):
+                found.append(modifier.statement)
+        return found
 
     def draft(self, item: Placed, made: AnyOperation | None) -> None:
         if not self.stages:
@@ -213,15 +217,15 @@ class _Lowering:
     def link(self, index: int) -> int | None:
         """What follows a step; sets what follows after an error."""
         draft = self.drafts[index]
-        following = self.at(index + 1)
+        following = index + 1 if index + 1 < len(self.drafts) else None
         if isinstance(draft.operation, (Advance, Jump)):
             return self.jump(index)
         if isinstance(draft.operation, Countdown):
-            draft.operation = msgspec.structs.replace(draft.operation, positive=self.jump(index))
+            draft.operation = replace(draft.operation, positive=self.jump(index))
         elif isinstance(draft.operation, Test):
             skipped = self.skip(index)
             raised, other = (skipped, following) if draft.word == "SKIPE" else (following, skipped)
-            draft.operation = msgspec.structs.replace(draft.operation, raised=raised)
+            draft.operation = replace(draft.operation, raised=raised)
             return other
         return following
 
@@ -256,7 +260,7 @@ class _Lowering:
                 change[last] -= 1
         for draft, loops in zip(self.drafts, accumulate(change), strict=False):
             if loops and isinstance(draft.operation, Move) and draft.word == "MOVE":
-                draft.operation = msgspec.structs.replace(draft.operation, searching=True)
+                draft.operation = replace(draft.operation, searching=True)
 
     def skip(self, index: int) -> int | None:
         """The step after the instruction after a skip; a call of a macro is one instruction."""
@@ -268,10 +272,7 @@ class _Lowering:
             )
             return None
         skipped = self.drafts[index + 1]
-        depth = next(
-            (d for d, (a, b) in enumerate(zip(draft.call, skipped.call, strict=False)) if a != b),
-            min(len(draft.call), len(skipped.call)),
-        )
+        depth = _shared(draft.call, skipped.call)
         unit, end = skipped.call[: depth + 1], index + 2
         if len(unit) > depth:
             while end < len(self.drafts) and self.drafts[end].call[: depth + 1] == unit:
@@ -297,6 +298,14 @@ class _Lowering:
     ) -> None:
         primary = Label(span=at.span)
         self.report(Diagnostic(code=code, message=message, primary=primary, secondary=secondary, help=help))
+
+
+def _shared(one: Call, other: Call) -> int:
+    """How many calls, from the outermost on, are the same."""
+    for depth, (a, b) in enumerate(zip(one, other, strict=False)):
+        if a != b:
+            return depth
+    return min(len(one), len(other))
 
 
 def _word(item: Placed) -> Name:

@@ -30,6 +30,11 @@ _MESSAGES = {
     Refers.SAVED: "no `SAVE` keeps a difference {}: the goal is not shifted",
 }
 _TESTS = {instruction.op for instruction in INSTRUCTIONS.values() if instruction.role is Role.SKIP}
+_NAMED = {
+    i.op: [(place, operand.refers) for place, operand in enumerate(i.operands) if Name in operand.takes]
+    for i in INSTRUCTIONS.values()
+}
+"""Operands that may be names, by their places."""
 
 
 def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
@@ -54,11 +59,15 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
 def uses(statements: Iterable[Statement]) -> Iterator[tuple[Name, Refers]]:
     """Every name that stands for something, and for what."""
     for statement in statements:
-        for operand, value in pairs(statement):
+        word = statement.word
+        if word is None:
+            continue
+        for place, refers in _NAMED.get(word.text, ()) if not statement.broken else ():
+            value = statement.operands[place]
             if isinstance(value, Name):
-                yield value, operand.refers
-        if statement.word is not None and statement.word.text == "PARK":
-            yield statement.word, Refers.POSITION
+                yield value, refers
+        if word.text == "PARK":
+            yield word, Refers.POSITION
 
 
 def _error_numbers(statements: list[Statement]) -> list[Diagnostic]:

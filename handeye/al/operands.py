@@ -4,6 +4,8 @@ import math
 import re
 from collections.abc import Sequence
 
+import msgspec
+
 from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.instructions import AXES, FREE, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
@@ -11,7 +13,6 @@ from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Span
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 _NO_LENGTH = 1e-6
 
@@ -50,13 +51,21 @@ def free_text(tokens: Sequence[Token]) -> str:
 
 def _separated(tokens: Sequence[Token]) -> Sequence[Token]:
     """Without the commas of the dialect of 1977, each of which stands between two values."""
-    commas = [at for at, token in enumerate(tokens) if token.text == ","]
-    for at in commas:
+    for token in tokens:
+        if token.text == ",":
+            return _without_commas(tokens)
+    return tokens
+
+
+def _without_commas(tokens: Sequence[Token]) -> list[Token]:
+    for at, token in enumerate(tokens):
+        if token.text != ",":
+            continue
         if at == 0 or tokens[at - 1].text in (",", "["):
-            raise Mistake("misplaced-comma", "nothing stands before this comma", tokens[at].span)
+            raise Mistake("misplaced-comma", "nothing stands before this comma", token.span)
         if at + 1 == len(tokens) or tokens[at + 1].text == "]":
-            raise Mistake("misplaced-comma", "nothing stands behind this comma", tokens[at].span)
-    return [token for token in tokens if token.text != ","] if commas else tokens
+            raise Mistake("misplaced-comma", "nothing stands behind this comma", token.span)
+    return [token for token in tokens if token.text != ","]
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
@@ -91,13 +100,12 @@ def is_unterminated(token: Token) -> bool:
     return token.kind is STRING and (len(token.text) == 1 or token.text[-1] != '"')
 
 
-class _Reader:
-    def __init__(self, definition: Instruction, head: Token, tokens: Sequence[Token]) -> None:
-        self.definition = definition
-        self.head = head
-        self.tokens = tokens
-        self.at = 0
-        self.values: list[Value | None] = []
+class _Reader(msgspec.Struct, gc=False):
+    definition: Instruction
+    head: Token
+    tokens: Sequence[Token]
+    at: int = 0
+    values: list[Value | None] = []
 
     def read(self) -> tuple[Value | None, ...]:
         if self.definition.axes and self.tokens and self.tokens[0].kind is NUMBER:
@@ -111,10 +119,12 @@ class _Reader:
         return tuple(self.values)
 
     def operand(self, operand: Operand) -> Value | None:
-        if operand.word and not self.takes(operand.word):
-            return None
-        if operand.word and not operand.takes:
-            return Name(operand.word, self.tokens[self.at - 1].span)
+        if operand.word:
+            if not self.takes(operand.word):
+                return None
+            if not operand.takes:
+                read = self.tokens[self.at - 1]
+                return Name(operand.word, read.start, read.end)
         if self.at == len(self.tokens):
             if operand.optional and not operand.word:
                 return None
@@ -162,7 +172,7 @@ class _Reader:
         if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
         if token.kind is NAME:
-            return Name(token.text, token.span)
+            return Name(token.text, token.start, token.end)
         raise _unexpected(token)
 
     def axes(self) -> Vector:
@@ -283,9 +293,12 @@ class _Reader:
 
 
 def _number(token: Token) -> float:
-    if not _NUMBER.fullmatch(token.text):
+    try:
+        value = float(token.text)
+    except ValueError:
+        raise _malformed(token) from None
+    if "_" in token.text:
         raise _malformed(token)
-    value = float(token.text)
     if math.isinf(value):
         raise Mistake("number-out-of-range", f"{quoted(token.text)} is too large for a number", token.span)
     return value

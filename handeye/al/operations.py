@@ -17,10 +17,13 @@ PLACE_DEPTH: Final = 3.0 * INCH
 PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
 """What PLACE stops on. The least with which the pump script stops a motion; friction is felt as up to 0.2 N, and
 an arm that moves as some ten times that."""
-_KEYS: Final = {op: [o.name or o.word for o in i.operands] for op, i in INSTRUCTIONS.items()}
+_PLACES: Final = {
+    op: {o.name or o.word: number for number, o in enumerate(i.operands)} for op, i in INSTRUCTIONS.items()
+}
+"""Which operand of each instruction has which name."""
 _UNITS: Final = {
-    op: {o.name or o.word: tuple(unit.si for unit in o.units) for o in instruction.operands}
-    for op, instruction in INSTRUCTIONS.items()
+    op: {o.name or o.word: tuple(unit.si for unit in o.units) for o in i.operands}
+    for op, i in INSTRUCTIONS.items()
 }
 """Of each operand of each instruction, in SI."""
 
@@ -30,20 +33,21 @@ class Operands:
 
     def __init__(self, statement: Statement) -> None:
         assert statement.word is not None
-        self._values = dict(zip(_KEYS[statement.word.text], statement.operands, strict=True))
+        self._values = statement.operands
+        self._places = _PLACES[statement.word.text]
         self._units = _UNITS[statement.word.text]
 
     def has(self, key: str) -> bool:
         """Whether an optional operand or word is there."""
-        return self._values[key] is not None
+        return self._values[self._places[key]] is not None
 
     def number(self, key: str) -> float:
-        value = self._values[key]
+        value = self._values[self._places[key]]
         assert isinstance(value, Number)
         return value.value * self._units[key][0]
 
     def vector(self, key: str) -> tuple[float, ...]:
-        value = self._values[key]
+        value = self._values[self._places[key]]
         assert isinstance(value, Vector)
         return tuple(x * si for x, si in zip(value.values, self._units[key], strict=True))
 
@@ -52,13 +56,13 @@ class Operands:
         return x, y, z
 
     def vector3_or(self, key: str) -> p.Vector | None:
-        return self.vector3(key) if isinstance(self._values[key], Vector) else None
+        return self.vector3(key) if isinstance(self._values[self._places[key]], Vector) else None
 
     def number_or(self, key: str) -> float | None:
-        return self.number(key) if isinstance(self._values[key], Number) else None
+        return self.number(key) if isinstance(self._values[self._places[key]], Number) else None
 
     def name(self, key: str) -> str:
-        value = self._values[key]
+        value = self._values[self._places[key]]
         assert isinstance(value, (Name, Text))
         return value.text
 

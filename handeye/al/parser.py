@@ -3,17 +3,16 @@
 from dataclasses import dataclass, field
 from typing import Final
 
-from msgspec.structs import replace
-
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, free_text, read_operands
 from handeye.al.requirements import Requirements
-from handeye.al.scanner import Kind, Line, Token, scan
+from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
 from handeye.al.sewing import REQUIRE
 from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.source import Source, Span
 
+_DEFINE: Final = "DEFINE"
 _TYPED: Final = ("DO", "GO")
 """Words of the console: they have an instruction, or the program, carried out."""
 
@@ -33,7 +32,8 @@ def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
 
 def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
     texts = {text.key: scan(text.text, source.begins[text.key]) for text in source.texts}
-    names = {name for lines in texts.values() for name in _macro_names(lines)}
+    defining = (text.key for text in source.texts if _DEFINE in text.text.upper())
+    names = {name for key in defining for name in _macro_names(texts[key])}
     parser = _Parser(texts=texts, macro_names=names, requirements=requirements)
     parser.read(source)
     return Script(statements=tuple(parser.statements), macros=parser.macros), parser.diagnostics
@@ -44,7 +44,7 @@ def _macro_names(lines: list[Line]) -> set[str]:
     found = set()
     for line in lines:
         tokens = line.split()[1]
-        if len(tokens) > 1 and tokens[0].text.upper() == "DEFINE" and tokens[1].kind is Kind.NAME:
+        if len(tokens) > 1 and tokens[0].text.upper() == _DEFINE and tokens[1].kind is NAME:
             found.add(tokens[1].text.upper())
     return found
 
@@ -63,16 +63,11 @@ class _Parser:
     """The macro whose body is being read."""
     body: list[Statement] = field(default_factory=list)
 
-    @property
-    def full(self) -> bool:
-        """There are as many errors as anybody reads."""
-        return self.errors >= LIMIT
-
     def read(self, source: Source) -> None:
         """A text from its beginning to its end."""
         for line in self.texts[source.key]:
             self.line(line)
-            if self.full:
+            if self.errors >= LIMIT:
                 break
         self.end()
 
@@ -82,14 +77,16 @@ class _Parser:
         if line.end - line.start > LONGEST_LINE:
             self.too_long(line)
             return
+        if not line.tokens:
+            return
         heads, tokens = line.split()
-        labels = [Name(token.text, token.span) for token in heads]
-        if tokens and tokens[0].text.upper() == "DEFINE":
+        labels = tuple(map(_name, heads))
+        if tokens and tokens[0].text.upper() == _DEFINE:
             self.define(tokens)
             if labels:
                 # They belong to what follows the macro.
                 self.statements.append(self.statement(line, labels, ()))
-        elif line.tokens:
+        else:
             statement = self.statement(line, labels, tokens)
             (self.statements if self.opened is None else self.body).append(statement)
             if statement.word is not None and statement.word.text == REQUIRE and not statement.broken:
@@ -117,11 +114,11 @@ class _Parser:
         span = Span(start=line.start + LONGEST_LINE, end=line.end)
         message = f"the line has {line.end - line.start} characters"
         self.report("line-too-long", message, span, help=f"a line has at most {LONGEST_LINE}")
-        broken = _statement([], None, line, span, broken=True)
+        broken = Statement((), None, line.number, span, broken=True)
         (self.statements if self.opened is None else self.body).append(broken)
 
     def end(self) -> None:
-        if self.opened is not None and not self.full:
+        if self.opened is not None and self.errors < LIMIT:
             self.unterminated("the text ends before it does")
         self.close()
 
@@ -135,14 +132,14 @@ class _Parser:
         if self.opened is not None:
             self.unterminated(f"line {quoted(' '.join(t.text for t in tokens[:2]))} comes before its end")
             self.close()
-        if len(tokens) < 2 or tokens[1].kind is not Kind.NAME:
+        if len(tokens) < 2 or tokens[1].kind is not NAME:
             at = tokens[1].span if len(tokens) > 1 else _behind(tokens[0])
             self.report(
                 "missing-operand", "`DEFINE` needs the name of the macro", at, "the name is expected here"
             )
-            self.opened = Name("", tokens[0].span)
+            self.opened = Name("", tokens[0].start, tokens[0].end)
             return
-        name = Name(tokens[1].text.upper(), tokens[1].span)
+        name = Name(tokens[1].text.upper(), tokens[1].start, tokens[1].end)
         if len(tokens) > 2:
             self.beyond(name, tokens[2:])
         elif name.text in INSTRUCTIONS or name.text == "DEFINE":
@@ -174,30 +171,28 @@ class _Parser:
             help="end a macro with a blank line",
         )
 
-    def statement(self, line: Line, labels: list[Name], tokens: tuple[Token, ...]) -> Statement:
+    def statement(self, line: Line, labels: tuple[Name, ...], tokens: tuple[Token, ...]) -> Statement:
         if not tokens:
             span = Span(start=line.tokens[0].start, end=line.end)
-            return _statement(labels, None, line, span)
+            return Statement(labels, None, line.number, span)
         span = Span(start=tokens[0].start, end=tokens[-1].end)
         head, rest = tokens[0], tokens[1:]
-        word = Name(head.text.upper(), head.span)
-        if head.kind is not Kind.NAME:
+        word = Name(head.text.upper(), head.start, head.end)
+        if head.kind is not NAME:
             self.unreadable(head)
-            return _statement(labels, None, line, span, broken=True)
+            return Statement(labels, None, line.number, span, broken=True)
         definition = INSTRUCTIONS.get(word.text)
         if definition is None:
-            return _statement(labels, word, line, span, broken=not self.is_call(word, head, rest))
+            is_call = self.is_call(word, head, rest)
+            return Statement(labels, word, line.number, span, broken=not is_call)
         try:
             operands = read_operands(definition, head, rest)
         except Mistake as mistake:
             self.tell(mistake.diagnostic)
             # What it would have named is not missing as well.
-            named = tuple(Name(t.text, t.span) for t in rest[:1] if t.kind is Kind.NAME)
-            broken = _statement(labels, word, line, span, broken=True)
-            return replace(broken, operands=named)
-        return Statement(
-            labels=tuple(labels), word=word, operands=operands, broken=False, line=line.number, span=span
-        )
+            named = tuple(_name(token) for token in rest[:1] if token.kind is NAME)
+            return Statement(labels, word, line.number, span, operands=named, broken=True)
+        return Statement(labels, word, line.number, span, operands)
 
     def is_call(self, word: Name, head: Token, rest: tuple[Token, ...]) -> bool:
         if word.text in self.macro_names:
@@ -223,7 +218,7 @@ class _Parser:
 
     def unreadable(self, token: Token) -> None:
         message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"
-        code = "unexpected-character" if token.kind in (Kind.JUNK, Kind.MARK) else "unknown-instruction"
+        code = "unexpected-character" if token.kind in (JUNK, MARK) else "unknown-instruction"
         self.report(code, message, token.span)
 
     def report(
@@ -244,10 +239,8 @@ class _Parser:
         self.diagnostics.append(diagnostic)
 
 
-def _statement(
-    labels: list[Name], word: Name | None, line: Line, span: Span, *, broken: bool = False
-) -> Statement:
-    return Statement(labels=tuple(labels), word=word, operands=(), broken=broken, line=line.number, span=span)
+def _name(token: Token) -> Name:
+    return Name(token.text, token.start, token.end)
 
 
 def _alone(rest: tuple[Token, ...]) -> str:

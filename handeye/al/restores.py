@@ -16,21 +16,23 @@ from handeye.source import Span
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
     """A warning for each that is at fault in every call; a name that no SAVE has is told of with the names."""
+    saves = {number: _name(lowered.origins[number]) for number in graph.which(Save)}
     first: dict[str, Name] = {}
-    for step, origin in zip(lowered.steps, lowered.origins, strict=True):
-        if isinstance(step.operation, Save):
-            first.setdefault(step.operation.name, _name(origin))
+    for save in saves.values():
+        first.setdefault(save.text, save)
     bits = {name: 1 << number for number, name in enumerate(first)}
+    saved = _saved(graph, {number: bits[save.text] for number, save in saves.items()})
     lost: dict[Span, Name] = {}
     right: set[Span] = set()
-    for number, saved in _saved(graph, bits).items():
-        operation = lowered.steps[number].operation
-        restores = operation.restore if isinstance(operation, Move) else ()
-        for restore, statement in zip(restores, lowered.shifts[number], strict=True):
-            if saved & bits.get(restore.name, 0) or _follows(graph, number, restore.name):
+    for number, shifts in enumerate(lowered.shifts):
+        if number not in saved:
+            continue
+        for statement in shifts:
+            name = _name(statement)
+            if saved[number] & bits.get(name.text, 0) or _follows(graph, number, name.text):
                 right.add(statement.span)
-            elif restore.name in bits:
-                lost[statement.span] = _name(statement)
+            elif name.text in bits:
+                lost[statement.span] = name
     for span, name in lost.items():
         if span not in right:
             yield _never_saved(name, first[name.text])
@@ -53,17 +55,19 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
     return False
 
 
-def _saved(graph: Graph, bits: dict[str, int]) -> dict[int, int]:
-    """For each step that is come to: the names that may have been saved, as bits."""
+def _saved(graph: Graph, bits: dict[int, int]) -> dict[int, int]:
+    """For each step that is come to: what may have been saved before it, by the bits that steps set."""
     before = {0: 0}
     waiting = [0]
     while waiting:
         number = heappop(waiting)
-        operation = graph.steps[number].operation
-        after = before[number] | (bits[operation.name] if isinstance(operation, Save) else 0)
+        after = before[number] | bits.get(number, 0)
         for target in graph.onward[number]:
-            if target is not None and (target not in before or after & ~before[target]):
-                before[target] = before.get(target, 0) | after
+            if target is None:
+                continue
+            known = before.get(target)
+            if known is None or after & ~known:
+                before[target] = after | (known or 0)
                 heappush(waiting, target)
     return before
 

@@ -1,7 +1,8 @@
 """Loops that search or count, and try the same again in every round."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache
 
 from handeye.al.graph import Graph
 from handeye.plan import program as op
@@ -17,21 +18,30 @@ class Stale:
     """The step that begins the search or the count anew; None: nothing moves to the next place."""
 
 
+Circles = Callable[[], list[set[int]]]
+
+
 def stale_rounds(graph: Graph) -> Iterator[Stale]:
     """The jumps of searches and counts that cannot come to an end by themselves."""
-    circles, moves = graph.circles(), set(graph.which(op.Move))
-    searches, assigns = set(graph.which(op.Search)), _assigns(graph)
-    for jump in graph.which(op.Advance, op.Countdown):
-        step, again = graph.steps[jump], circles[jump]
-        target, begins = step.next, searches
-        if isinstance(step.operation, op.Countdown):
-            target, begins = step.operation.positive, assigns.get(step.operation.counter, set())
-        if target is None or target not in again:
-            continue
-        if not graph.leads(target, jump, without=begins):
-            yield Stale(jump, min(again & begins))
-        elif isinstance(step.operation, op.Advance) and again.isdisjoint(moves):
+    circles = cache(graph.circles)  # asked for only where something looks wrong
+    searches, moves = set(graph.which(op.Search)), set(graph.which(op.Move))
+    places = searches | moves
+    for jump in graph.which(op.Advance):
+        target = graph.steps[jump].next
+        yield from _anew(graph, circles, jump, target, searches)
+        if graph.leads(target, jump, without=places) and circles()[jump].isdisjoint(moves):
             yield Stale(jump, None)
+    assigns = _assigns(graph)
+    for jump in graph.which(op.Countdown):
+        operation = graph.steps[jump].operation
+        assert isinstance(operation, op.Countdown)
+        yield from _anew(graph, circles, jump, operation.positive, assigns.get(operation.counter, set()))
+
+
+def _anew(graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]) -> Iterator[Stale]:
+    """A jump back whose every round begins anew."""
+    if not graph.leads(target, jump, without=begins) and target in circles()[jump]:
+        yield Stale(jump, min(circles()[jump] & begins))
 
 
 def _assigns(graph: Graph) -> dict[str, set[int]]:

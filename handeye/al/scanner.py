@@ -50,6 +50,8 @@ class Line(msgspec.Struct, frozen=True, gc=False):
     def split(self) -> tuple[tuple[Token, ...], tuple[Token, ...]]:
         """The names of the labels, and what follows them."""
         tokens, at = self.tokens, 0
+        if len(tokens) < 2 or tokens[1].text != ":":
+            return (), tokens
         while at + 1 < len(tokens) and tokens[at + 1].text == ":" and tokens[at].kind is NAME:
             at += 2
         return tokens[:at:2], tokens[at:]
@@ -73,7 +75,8 @@ _TOKEN = re.compile(
     )""",
     re.ASCII | re.VERBOSE,
 )
-_KINDS = {kind.name: kind for kind in Kind}
+_KINDS = {_TOKEN.groupindex[kind.name]: kind for kind in Kind}
+_COMMENT = _TOKEN.groupindex["COMMENT"]
 
 
 def scan(text: str, offset: int = 0) -> list[Line]:
@@ -83,18 +86,18 @@ def scan(text: str, offset: int = 0) -> list[Line]:
     comment = None
     start = end = offset
     for match in _TOKEN.finditer(text):
-        kind, behind = match.lastgroup, offset + match.end()
-        assert kind is not None
-        piece = match[kind]
-        if kind == "END":
+        group, behind = match.lastindex, offset + match.end()
+        assert group is not None
+        piece = match[group]
+        if group in _KINDS:
+            tokens.append(Token(_KINDS[group], piece, behind - len(piece), behind))
+            end = behind
+        elif group == _COMMENT:
+            comment = piece.rstrip(_BLANKS)
+            end = behind - len(piece) + len(comment)
+        else:
             if behind > start:
                 indented = text[start - offset] in " \t"
                 lines.append(Line(len(lines) + 1, start, end, tuple(tokens), comment, indented))
             tokens, comment, start, end = [], None, behind, behind
-        elif kind == "COMMENT":
-            comment = piece.rstrip(_BLANKS)
-            end = behind - len(piece) + len(comment)
-        else:
-            tokens.append(Token(_KINDS[kind], piece, behind - len(piece), behind))
-            end = behind
     return lines

@@ -8,11 +8,16 @@ from handeye.source import Span
 
 
 class Name(msgspec.Struct, frozen=True, gc=False):
-    """A word: the name of something, or a word of the language."""
+    """A word: the name of something, or a word of the language; most of a tree is names."""
 
     what: ClassVar[str] = "a name"
     text: str
-    span: Span
+    start: int
+    end: int
+
+    @property
+    def span(self) -> Span:
+        return Span(start=self.start, end=self.end)
 
 
 class Number(msgspec.Struct, frozen=True, gc=False):
@@ -42,20 +47,20 @@ class Text(msgspec.Struct, frozen=True, gc=False):
 Value = Name | Number | Vector | Text
 
 
-class Statement(msgspec.Struct, frozen=True, gc=False, kw_only=True):
+class Statement(msgspec.Struct, frozen=True, gc=False):
     """A line: labels and perhaps an instruction or the name of a macro."""
 
     labels: tuple[Name, ...]
     word: Name | None
     """The instruction, in capitals, or the macro; None when the line has labels only."""
-    operands: tuple[Value | None, ...]
-    """One for each operand in the definition of the instruction; None where an optional one is left out."""
-    broken: bool
-    """A mistake in it has been reported; `operands` is empty."""
     line: int
     """In its own text; spans are of the whole."""
     span: Span
     """From the instruction to the last operand."""
+    operands: tuple[Value | None, ...] = ()
+    """One for each operand in the definition of the instruction; None where an optional one is left out."""
+    broken: bool = False
+    """A mistake in it has been reported; `operands` is empty, but for a name it begins with."""
 
 
 class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):

@@ -18,7 +18,7 @@ VIAS: Final = 4
 """Positions that a motion can be led by."""
 
 
-class Record(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Record(msgspec.Struct, frozen=True, gc=False, kw_only=True, forbid_unknown_fields=True):
     """Base of everything that goes to disk."""
 
 
