@@ -1,6 +1,7 @@
 """Files are read if they are files of a sensible size, and written whole or not at all."""
 
 import os
+import stat
 import tempfile
 from pathlib import Path
 from typing import Final
@@ -34,21 +35,37 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
         raise InvalidInput(f"{path} cannot be read: {reason}") from None
 
 
-def write_whole(path: Path, data: bytes) -> None:
-    """Write `data` beside `path`, then put it in its place in one act.
+def beside(path: Path, ending: str) -> Path:
+    """The file of the same name with another ending.
 
     Raises:
-        InvalidInput: the file cannot be written; nothing is left behind.
+        InvalidInput: the path has no name: it is a directory.
+    """
+    if not path.name:
+        raise InvalidInput(f"{path} is a directory, not a file")
+    return path.with_suffix(ending)
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write `data` beside `path`, then put it in its place in one act. What a link leads to is written, and who may
+    read a file that was there may still.
+
+    Raises:
+        InvalidInput: the file cannot be written, or is none; nothing is left behind.
     """
     temporary = None
+    place = Path(os.path.realpath(path))
     try:
-        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        if place.exists() and not place.is_file():
+            raise InvalidInput(f"{path} cannot be written: it is no file")
+        mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~_umask()
+        handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=f".{place.name}.")
         with os.fdopen(handle, "wb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
+        os.chmod(temporary, mode)
+        os.replace(temporary, place)
     except BaseException as error:  # Ctrl-C too
         if temporary is not None:
             Path(temporary).unlink(missing_ok=True)

@@ -37,6 +37,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     resolved = with_vectors(script)
     placed = expand(resolved, found.append)
     lowered = lower(placed, source, found.append)
+    found = _without_lost_labels(source, found)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
@@ -63,6 +64,19 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         required={text.key: text.text for text in source.required},
     )
     return program, arranged(found)
+
+
+def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
+    """A label without its colon is one mistake, and not another one at every jump to it."""
+    unknown = {_word(source, d) for d in found if d.code == "unknown-instruction"}
+    return [d for d in found if d.code != "unknown-label" or _word(source, d) not in unknown]
+
+
+def _word(source: Source, diagnostic: Diagnostic) -> str:
+    """What a diagnostic marks."""
+    span = diagnostic.primary.span
+    text, start = source.find(span.start)
+    return text.text[start : start + span.end - span.start]
 
 
 def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:

@@ -87,12 +87,12 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
 
 
 def _is_decimal(tokens: Sequence[Token]) -> bool:
-    """Two numbers with nothing but a comma between them, the second of digits."""
+    """Two numbers with nothing but a comma between them, both of digits."""
     if len(tokens) < 3:
         return False
     whole, comma, part = tokens
     close = whole.end == comma.start and comma.end == part.start
-    return close and whole.kind is NUMBER and part.kind is NUMBER and part.text.isdigit()
+    return close and whole.text.lstrip("+-").isdigit() and part.text.isdigit()
 
 
 def is_unterminated(token: Token) -> bool:

@@ -37,6 +37,6 @@ def main() -> NoReturn:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(141)
     except OSError as error:  # a path that is too long, a folder that may not be looked into
-        complain(f"{error.filename or error}: {error.strerror}")
+        complain(f"{error.filename or 'standard output'}: {error.strerror}")
         sys.exit(2)
     sys.exit(code if isinstance(code, int) else 0)

@@ -10,6 +10,7 @@ from handeye.al import compile_text, read_script
 from handeye.diagnostics import Diagnostic, as_json, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
+from handeye.files import beside
 from handeye.plan.plan import Plan
 from handeye.plan.taught import Taught, load_taught
 from handeye.source import Source
@@ -25,8 +26,15 @@ Out = Annotated[
     Parameter(help="Folder for plan, events, trace, checkpoints, pictures and result."),
 ]
 
-screen = Console(highlight=False, emoji=False)
-notes = Console(stderr=True, highlight=False, emoji=False)
+
+class _Screen(Console):
+    def on_broken_pipe(self) -> None:
+        """Leave it to the command line, which has an exit code for it."""
+        raise BrokenPipeError
+
+
+screen = _Screen(highlight=False, emoji=False)
+notes = _Screen(stderr=True, highlight=False, emoji=False)
 
 
 def say(text: str, to: Console = screen) -> None:
@@ -79,8 +87,8 @@ def compiled(file: Path) -> Plan:
 
 def taught(file: Path) -> Taught:
     """Positions and parts taught for a script, from the file beside it; a script may do without."""
-    beside = file.with_suffix(".toml")
-    return load_taught(beside) if beside.exists() else Taught()
+    path = beside(file, ".toml")
+    return load_taught(path) if path.exists() else Taught()
 
 
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:

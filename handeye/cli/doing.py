@@ -10,6 +10,7 @@ from handeye.cli.common import Camera, Json, Seed, notes, screen, world
 from handeye.cli.panic import PanicButton
 from handeye.cli.typing import typed_lines
 from handeye.errors import InvalidInput
+from handeye.files import beside
 from handeye.plan.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import read_source
@@ -56,7 +57,7 @@ def do(
     from handeye.doing.repl import Repl
     from handeye.stepping.checkpoint_file import write_checkpoint
 
-    if not functions:
+    if not all(map(str.strip, functions or ("",))):
         raise InvalidInput('a function is wanted, such as `handeye do "OPEN 3"`')
     with PanicButton() as panic:
         workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
@@ -93,8 +94,8 @@ def repl(
     from handeye.doing.commands import COMMANDS, Typist
     from handeye.doing.repl import Repl
 
-    if script is not None and taught is None and script.with_suffix(".toml").exists():
-        taught = script.with_suffix(".toml")
+    if script is not None and taught is None and beside(script, ".toml").exists():
+        taught = beside(script, ".toml")
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
         workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
@@ -127,7 +128,7 @@ def teach(
     from handeye.doing.lessons import LESSONS, Pupil
     from handeye.doing.teaching import Teacher
 
-    path = file if file.suffix == ".toml" else file.with_suffix(".toml")
+    path = file if file.suffix == ".toml" else beside(file, ".toml")
     text = read_source(path).text if path.exists() else ""
     known = load_taught(path) if path.exists() else Taught()
     with PanicButton() as panic:

@@ -13,6 +13,7 @@ from handeye.al import compile_text, extensions, read_script
 from handeye.cli.common import compiled, complain, say, screen, show, taught
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
+from handeye.files import beside
 from handeye.plan.store import read_plan, write_plan
 
 Version = tuple[int, int, int] | None
@@ -73,7 +74,7 @@ def _files(file: Path) -> list[Path]:
         required = [Path(text.name) for text in read_script(file).required]
     except InvalidInput:
         required = []
-    return [file, file.with_suffix(".toml"), *required]
+    return [file, beside(file, ".toml"), *required]
 
 
 def _version(path: Path) -> Version:
@@ -111,7 +112,7 @@ def plan(file: Path, *, output: Annotated[Path | None, Parameter(name=["--output
     output
         Where the plan goes; by default beside the script, with the ending .plan.json.
     """
-    target = output or file.with_suffix(".plan.json")
+    target = output or beside(file, ".plan.json")
     made = compiled(file)
     write_plan(target, made)
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}

@@ -15,7 +15,7 @@ except ImportError:  # not everywhere
 def typed_lines(
     prompt: str, aside: Callable[[], AbstractContextManager[None]], words: Callable[[], Iterable[str]]
 ) -> Iterator[str]:
-    """The lines of standard input, without their ends.
+    """The lines of standard input, without their ends. At a terminal, Ctrl-C drops the line, and Ctrl-D ends them.
 
     Args:
         prompt: put out before each line, on a terminal.
@@ -31,6 +31,11 @@ def typed_lines(
                 line = input(prompt) if terminal else sys.stdin.readline()
             except EOFError:
                 return
+            except KeyboardInterrupt:
+                if not terminal:
+                    raise
+                sys.stdout.write("\n")
+                continue
         if not line and not terminal:
             return
         yield line.rstrip("\r\n")

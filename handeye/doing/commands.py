@@ -15,7 +15,7 @@ from handeye.doing.carrying import answer
 from handeye.doing.functions import lasting
 from handeye.doing.repl import Repl
 from handeye.errors import HandeyeError, InvalidInput
-from handeye.files import write_whole
+from handeye.files import beside, write_whole
 from handeye.stepping.showing import show
 from handeye.work.executor import Choice
 
@@ -106,9 +106,9 @@ def _clear(repl: Repl, _: str) -> Answer:
 
 
 def _write(repl: Repl, rest: str) -> Answer:
-    path = Path(rest).with_suffix(".al") if rest else None
-    if path is None or path.name == ".al":
+    if not rest:
         raise InvalidInput("`WRITE` takes the name of a file")
+    path = beside(Path(rest), ".al")
     if path.exists():
         raise InvalidInput(f"{path} is there already; it is left alone")
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())

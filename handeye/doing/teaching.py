@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from handeye.arm.jog import jog
@@ -22,7 +22,7 @@ from handeye.plan.planner import SPEED
 from handeye.plan.program import Change, Position, Vector
 from handeye.plan.taught import Taught
 from handeye.plan.taughttext import with_position
-from handeye.source import Source
+from handeye.source import Source, read_source
 from handeye.work.drive import Halted, Outcome
 
 REST = 0.5
@@ -155,13 +155,22 @@ class Teacher:
         text = with_position(self.text, name, position)
         self._before.append(_Named(taught, self.text))
         self.text = text
-        self.workplace.taught = Taught(positions={**taught.positions, name: position}, parts=taught.parts)
+        self.workplace.taught = replace(taught, positions={**taught.positions, name: position})
         return position
 
     def save(self) -> list[str]:
-        """Write the file; the names that were not in it, or otherwise."""
+        """Write the file; the names that were not in it, or otherwise.
+
+        Raises:
+            InvalidInput: somebody else has written it meanwhile, or it cannot be written.
+        """
         names = self.unsaved
         if names:
+            now = read_source(self.file).text if self.file.exists() else ""
+            if now != self.saved:
+                raise InvalidInput(
+                    f"{self.file} has been changed meanwhile, and is left alone; `list` tells what to put into it"
+                )
             write_whole(self.file, self.text.encode())
             self.saved = self.text
         return names

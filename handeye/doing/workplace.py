@@ -1,6 +1,7 @@
 """A cell in which plans are carried out one after the other; each begins with what those before it have left."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 import msgspec
@@ -61,7 +62,9 @@ class Workplace:
         """
         program = checkpoint.setup.plan.program
         made = cls.__new__(cls)
-        made.taught = taught or Taught(positions=program.positions, parts=program.parts)
+        made.taught = taught or Taught(
+            positions=program.positions, parts=program.parts, fixtures=program.fixtures, held=program.held
+        )
         made.halt, made.before = halt, []
         made.runner = Runner(checkpoint, halt=halt)
         return made
@@ -72,7 +75,7 @@ class Workplace:
     def known(self) -> Taught:
         """Positions and parts as they are now: taught, and defined since by `HERE`."""
         positions = {**self.taught.positions, **self.runner.run.world.moved}
-        return Taught(positions=positions, parts=self.taught.parts)
+        return replace(self.taught, positions=positions)
 
     @property
     def q(self) -> Array:

@@ -162,7 +162,7 @@ def _code_actions(server: ArmServer, params: lsp.CodeActionParams) -> list[lsp.C
                     kind=lsp.CodeActionKind.QuickFix,
                     diagnostics=[cured],
                     edit=script.edit(fix.edits),
-                    is_preferred=number == 0,
+                    is_preferred=number == 0 and not fix.choice,
                 )
             )
     return actions

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from handeye.al.definition import NIL, Operand, Refers
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.instructions import AXES, INSTRUCTIONS
 from handeye.al.scanner import Kind, scan
 from handeye.al.syntax import Name
 from handeye.editor.document import Document
@@ -92,6 +92,8 @@ def _operand(document: Document, operand: Operand, *, after: str) -> Iterator[Pr
         kinds = (POSITION, PART) if operand.refers is Refers.TARGET else (operand.refers.value,)
         for kind in kinds:
             yield from _named(document, kind)
+        if operand.refers is Refers.VECTOR:
+            yield from (Proposal(text=axis, kind="word", detail="axis of the table") for axis in AXES)
     for choice in operand.choices:
         yield Proposal(text=f"{choice:g}", kind="number", detail=f"{choice:g} {operand.units[0].name}")
     if operand.whole and operand.name == "error":

@@ -1,7 +1,9 @@
 """What a code, an error number or an instruction means, for people."""
 
 from functools import cache
+from typing import Final
 
+from handeye.al import extensions
 from handeye.al.compiler import compile_text
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.sewing import sewn_of
@@ -18,6 +20,11 @@ from handeye.plan.taught import Taught
 from handeye.source import Source
 from handeye.units import DEGREE, INCH
 
+_FOUND: Final = {
+    "language": "while the script is checked",
+    "planning": "when its motions are planned",
+    "strict": "by `handeye check --strict-1973` only",
+}
 _FILES = 2
 """Required files of an example that are shown."""
 _DOWN = (90 * DEGREE, 90 * DEGREE, 0.0)
@@ -84,8 +91,7 @@ def listing() -> str:
 
 def _code(code: str) -> str:
     entry = CODES[code]
-    found = "while the script is checked" if entry.phase == "language" else "when its motions are planned"
-    out = [f"{entry.severity}[{code}]: {entry.meaning}", f"found {found}", "", "for example"]
+    out = [f"{entry.severity}[{code}]: {entry.meaning}", f"found {_FOUND[entry.phase]}", "", "for example"]
     out += ["", *(f"    {line}".rstrip() for line in _shortened(entry.example.split("\n"))), ""]
     for file, text in [*entry.required.items()][:_FILES]:
         out += [f"where {file} says", "", *(f"    {line}".rstrip() for line in text.split("\n")), ""]
@@ -95,7 +101,7 @@ def _code(code: str) -> str:
     if diagnostic is not None:
         out += ["gives", "", *(f"    {line}".rstrip() for line in render(diagnostic, source).split("\n")), ""]
         cures = fixes(Document(source=source, taught=SAMPLE), diagnostic)
-        if cures:
+        if cures and not cures[0].choice:
             becomes = cured(source.text, cures[0]).rstrip("\n").split("\n")
             out += [f"cure: {cures[0].title}", "", *(f"    {line}".rstrip() for line in _shortened(becomes))]
     return "\n".join(out).rstrip()
@@ -113,4 +119,6 @@ def example(code: str) -> tuple[Source, Diagnostic | None]:
     program, found = compile_text(source, SAMPLE)
     if program is not None:
         found = [*found, *planning(program)]
+    if CODES[code].phase == "strict":
+        found = [*found, *extensions(source)]
     return source, next((diagnostic for diagnostic in found if diagnostic.code == code), None)

@@ -18,6 +18,8 @@ class Fix:
 
     title: str
     edits: tuple[Edit, ...]
+    choice: bool = False
+    """One of several as likely, which nobody but the writer can choose."""
 
 
 def cured(text: str, fix: Fix) -> str:
@@ -27,9 +29,9 @@ def cured(text: str, fix: Fix) -> str:
     return text
 
 
-def replace(span: Span, text: str, title: str) -> Fix:
+def replace(span: Span, text: str, title: str, *, choice: bool = False) -> Fix:
     """One place is written otherwise."""
-    return Fix(title=title, edits=(Edit(span=span, text=text),))
+    return Fix(title=title, edits=(Edit(span=span, text=text),), choice=choice)
 
 
 def insert(at: int, text: str, title: str) -> Fix:

@@ -34,7 +34,7 @@ def _suggested(diagnostic: Diagnostic) -> Iterator[Fix]:
         yield replace(span, name, f"change to {quoted(name)}")
     if known := _KNOWN.search(help):
         for name in re.findall(r"`(.+?)`", known[1]):
-            yield replace(span, name, f"change to {quoted(name)}")
+            yield replace(span, name, f"change to {quoted(name)}", choice=True)
 
 
 _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {

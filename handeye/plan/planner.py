@@ -122,6 +122,7 @@ class _Walk:
         first = HOME if HOME in known else (goals[0] if goals else None)
         self.q = (self.arm.lower + self.arm.upper) / 2
         if first is None:
+            self.known = False
             return
         start = solve(self.arm, self.world.position(first), self.q)
         if start.q is not None:

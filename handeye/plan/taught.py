@@ -68,6 +68,8 @@ def load_taught(path: str | Path) -> Taught:
         raise InvalidInput(f"{path} is not TOML: nested too deeply") from None
     except msgspec.ValidationError as error:
         raise InvalidInput(f"{path}: {lower_first(error)}") from None
+    except ValueError:  # of a whole number that Python does not read
+        raise InvalidInput(f"{path}: a number has too many digits") from None
     name = str(path)
     positions = {n: t.si() for n, t in read_tables(name, "positions", tables.positions, PositionTable)}
     parts = {n: t.si() for n, t in read_tables(name, "parts", tables.parts, PartTable)}

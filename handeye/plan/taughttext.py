@@ -13,7 +13,7 @@ from handeye.errors import InvalidInput
 from handeye.plan.program import Position
 from handeye.units import DEGREE, INCH
 
-_HEADER: Final = re.compile(r"[ \t]*\[\s*positions\s*\][ \t]*(?:#.*)?$", re.MULTILINE)
+_HEADER: Final = re.compile(r"^[ \t]*\[\s*positions\s*\][ \t]*(?:#.*)?\r?$", re.MULTILINE)
 _NEXT: Final = re.compile(r"^[ \t]*\[", re.MULTILINE)
 _AT: Final = r"\bat\s*=\s*\[[^\]#\n]*\]"
 _OF: Final = r"\bof\s*=\s*(?:\"[^\"\n]*\"|'[^'\n]*')"
@@ -66,18 +66,18 @@ def _line(name: str, position: Position) -> str:
 
 def _added(text: str, name: str, position: Position) -> str:
     """A line behind the last entry of the table, or behind everything."""
-    header = _HEADER.search(text)
+    header, line_end = _HEADER.search(text), "\r\n" if "\r\n" in text else "\n"
     if header is None:
-        gap = "" if not text or text.endswith("\n\n") else "\n" if text.endswith("\n") else "\n\n"
-        return f"{text}{gap}[positions]\n{_line(name, position)}\n"
+        gap = "" if not text else line_end if text.endswith("\n") else 2 * line_end
+        return f"{text}{gap}[positions]{line_end}{_line(name, position)}{line_end}"
     following = _NEXT.search(text, header.end())
     end = len(text) if following is None else following.start()
     lines = text[:end].splitlines(keepends=True)
     while not lines[-1].strip() or lines[-1].lstrip().startswith("#"):
         lines.pop()  # remarks before the next table are about that
     place = len("".join(lines))
-    gap = "" if text[:place].endswith("\n") else "\n"
-    return f"{text[:place]}{gap}{_line(name, position)}\n{text[place:]}"
+    gap = "" if text[:place].endswith("\n") else line_end
+    return f"{text[:place]}{gap}{_line(name, position)}{line_end}{text[place:]}"
 
 
 def _replaced(text: str, name: str, position: Position) -> str:
@@ -94,7 +94,14 @@ def _replaced(text: str, name: str, position: Position) -> str:
 
 def _with_fields(entry: str, position: Position, between: str) -> str:
     at, of = _fields(position)
-    if of and re.search(_OF, entry):
-        return re.sub(_AT, at, re.sub(_OF, of, entry, count=1), count=1)
-    alone = re.sub(_OF_ALONE, "", entry, count=1)
-    return re.sub(_AT, between.join(filter(None, (at, of))), alone, count=1)
+    if of and _outside_remarks(_OF).search(entry):
+        return _put(_AT, at, _put(_OF, of, entry))
+    return _put(_AT, between.join(filter(None, (at, of))), _put(_OF_ALONE, "", entry))
+
+
+def _put(pattern: str, fields: str, entry: str) -> str:
+    return _outside_remarks(pattern).sub(lambda found: found[1] + fields, entry, count=1)
+
+
+def _outside_remarks(pattern: str) -> re.Pattern[str]:
+    return re.compile(rf"^([^#\n]*?)(?:{pattern})", re.MULTILINE)

@@ -115,6 +115,10 @@ def test_help_names_what_was_probably_meant(text: str, help: str) -> None:
     assert diagnose(text)[0].help == help
 
 
+def test_a_label_without_its_colon_is_one_mistake() -> None:
+    assert [d.code for d in diagnose("L1 MOVE T\nJUMP L1")] == ["unknown-instruction"]
+
+
 def test_suggestion_is_at_most_a_third_of_the_name_away() -> None:
     assert suggestion("bolt_hloe", ["bolt_hole", "nut"]) == "did you mean `bolt_hole`?"
     assert suggestion("abcdef", ["abxyzf"]) == "known: `abxyzf`"

@@ -182,3 +182,16 @@ def test_a_file_that_is_no_taught_file_is_refused_before_anything_moves(command:
     code, _, err = command("teach", "job.toml", typed="save\n")
     assert code == 2
     assert err.startswith("handeye: job.toml is not TOML: ")
+
+
+def test_a_file_that_somebody_else_has_changed_meanwhile_is_left_alone(pupil: Pupil) -> None:
+    pupil.teacher.file.write_text(FILE + "# mine\n", encoding="utf-8")
+    assert say(pupil, "here NEW", "save").endswith(
+        "has been changed meanwhile, and is left alone; `list` tells what to put into it"
+    )
+    assert pupil.teacher.file.read_text(encoding="utf-8") == FILE + "# mine\n"
+
+
+def test_what_somebody_names_leaves_fixtures_known(pupil: Pupil) -> None:
+    say(pupil, "here NEW")
+    assert pupil.teacher.workplace.known.fixtures == TAUGHT.fixtures

@@ -139,6 +139,12 @@ def test_a_function_is_planned_from_where_the_arm_stands(console: Console) -> No
     assert "in below the table" in console.read("DO CHANGE Z -9")
 
 
+def test_a_function_that_leads_into_a_fixture_is_not_carried_out(console: Console) -> None:
+    console.type("TRANS INTO [24 40.9 .2 90 90 0]")
+    said = console.read("DO MOVE INTO")
+    assert said.startswith("error[hand-through-fixture]: the hand would go 0.30 in into `FAR_BLOCK` at INTO")
+
+
 def test_a_position_defined_here_is_known_to_the_functions_after_it(console: Console) -> None:
     console.type("DO PARK", "DO CHANGE Z 1", "DO HERE UP", "DO PARK")
     assert "hand at (20.0" in console.read("DO MOVE UP")
@@ -176,6 +182,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
         ("LIST all", "`LIST` takes nothing behind it; `all` is too much"),
         ("PROCEED", "`proceed` is for when the operator is called, and nobody has called"),
         ("WRITE", "`WRITE` takes the name of a file"),
+        ("WRITE .", ". is a directory, not a file"),
         ("DO LOOK VIEW", "the camera is not set up; begin with --look for a plan that takes pictures"),
         ("HELP OPNE", "there is no instruction `OPNE`; did you mean `OPEN`?"),
         ("DROP", "nothing is collected"),

@@ -145,7 +145,7 @@ def test_a_line_begins_with_an_instruction_or_a_macro() -> None:
         ("SAVE H\nMOVE T\nRESTORE |", ["H"]),
         ("AIM |", ["FAR", "LOW", "P", "PARK", "T", "BASE", "GASKET"]),
         ("LENS |", ["25", "50"]),
-        ("FORCE [0 0 -9] |", ["NIL"]),
+        ("FORCE [0 0 -9] |", ["NIL", "X", "Y", "Z"]),
         ("OPEN |", []),
         ("OPEN 1 |", []),
         ("OPEN 1 ;|", []),

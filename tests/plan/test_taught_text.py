@@ -50,6 +50,11 @@ def test_a_position_taught_anew_has_other_figures_on_its_line_and_no_other_line_
             "[positions]\nA = { at = [1.0, 2.0, 3.0, 90.0, 90.0, 0.0] } # a",
         ),
         (
+            "[positions]\nA = { at = [0, 0, 0, 0, 0, 0] } # a, of = 'P'",
+            "[positions]\nA = { at = [1.0, 2.0, 3.0, 90.0, 90.0, 0.0] } # a, of = 'P'",
+        ),
+        ("[positions]\r\n# b\r\n", "[positions]\r\nA = { at = [1.0, 2.0, 3.0, 90.0, 90.0, 0.0] }\r\n# b\r\n"),
+        (
             "[positions.A] # a\nat = [0, 0, 0, 0, 0, 0] # b\nof = 'P'\n# c\n[parts.P]\nat = [0, 0, 0, 0]\n",
             "[positions.A] # a\nat = [1.0, 2.0, 3.0, 90.0, 90.0, 0.0] # b\n\n# c\n[parts.P]\nat = [0, 0, 0, 0]\n",
         ),
