@@ -168,7 +168,7 @@ class _Reader(msgspec.Struct, gc=False):
             return self.vector(token, operand)
         self.at += 1
         if token.kind is NUMBER:
-            return Number(_number(token), token.span)
+            return Number(_number(token), token.start, token.end)
         if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
         if token.kind is NAME:

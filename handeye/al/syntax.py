@@ -8,7 +8,7 @@ from handeye.source import Span
 
 
 class Name(msgspec.Struct, frozen=True, gc=False):
-    """A word: the name of something, or a word of the language; most of a tree is names."""
+    """A word: the name of something, or a word of the language."""
 
     what: ClassVar[str] = "a name"
     text: str
@@ -25,7 +25,12 @@ class Number(msgspec.Struct, frozen=True, gc=False):
 
     what: ClassVar[str] = "a number"
     value: float
-    span: Span
+    start: int
+    end: int
+
+    @property
+    def span(self) -> Span:
+        return Span(start=self.start, end=self.end)
 
 
 class Vector(msgspec.Struct, frozen=True, gc=False):
