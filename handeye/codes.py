@@ -144,6 +144,7 @@ CODES: Final[dict[str, Code]] = {
     "stop-beyond-arm": _planning(
         "a motion is to stop on a force or moment that the arm cannot exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
+        "warning",
     ),
     "test-without-action": _warning(
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
@@ -164,6 +165,7 @@ CODES: Final[dict[str, Code]] = {
         "a word is typed to have something done, and is no instruction of a script", "OPEN 3\nDO PARK"
     ),
     "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
+    "unit-written": _error("a unit is written behind a number", "OPEN 1.5 in"),
     "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
     "unknown-error-number": _warning("an error is tested that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"),

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator
 from handeye.al.definition import NIL, Operand, Refers, Role
 from handeye.al.instructions import AXES, INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Script, Statement, Value
+from handeye.al.unitwords import no_units
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS
 from handeye.plan.taught import Taught
@@ -168,6 +169,10 @@ def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
 
 
 def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
+    said = no_units(name.text) if refers is Refers.VECTOR else None
+    if said is not None:
+        message = f"{quoted(name.text)} is written behind a number"
+        return Diagnostic(code="unit-written", message=message, primary=Label(span=name.span), help=said)
     message = _MESSAGES[refers].format(quoted(name.text))
     other = next((kind for kind, names in known.items() if name.text in names), None)
     if other is not None and refers is not Refers.SAVED:

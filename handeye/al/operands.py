@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 import msgspec
 
@@ -10,6 +11,7 @@ from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.instructions import AXES, FREE, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
+from handeye.al.unitwords import no_units
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Span
 
@@ -77,6 +79,12 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
             return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=said)
         if token.text in ("[", "]"):
             opened = token.text == "["
+    for before, token in pairwise(tokens):
+        unit = no_units(token.text) if token.kind is NAME else None
+        if unit is not None and (before.kind is NUMBER or before.text == "]"):
+            return Mistake(
+                "unit-written", f"{quoted(token.text)} is written behind a number", token.span, help=unit
+            )
     commas = [at for at, token in enumerate(tokens) if token.text == ","]
     if len(commas) == 1 and _is_decimal(tokens[commas[0] - 1 : commas[0] + 2]):
         whole, _, part = tokens[commas[0] - 1 : commas[0] + 2]

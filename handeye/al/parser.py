@@ -219,7 +219,8 @@ class _Parser:
     def unreadable(self, token: Token) -> None:
         message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"
         code = "unexpected-character" if token.kind in (JUNK, MARK) else "unknown-instruction"
-        self.report(code, message, token.span)
+        help = "a comment begins with `;`" if token.text[0] in "#/'" else None
+        self.report(code, message, token.span, help=help)
 
     def report(
         self,

@@ -7,7 +7,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from handeye.al import compile_text, read_script
-from handeye.diagnostics import Diagnostic, as_json, visible
+from handeye.diagnostics import LIMIT, Diagnostic, as_json, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
 from handeye.files import beside
@@ -96,5 +96,7 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
     if json:
         screen.print_json(data=[as_json(d, source) for d in diagnostics])
         return
+    if len(diagnostics) == LIMIT:
+        note(f"no more than {LIMIT} are told at a time")
     for diagnostic in diagnostics:
         notes.print(render_diagnostic(diagnostic, source), markup=False, soft_wrap=True, end="\n\n")

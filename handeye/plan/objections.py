@@ -125,8 +125,9 @@ class Objections:
         if code == "stop-beyond-arm":
             message += ", so the stop would never fire"
             riddle = round(wanted / si) == 600 and not turning
+        modifier = "STOP" if code == "stop-beyond-arm" else "FORCE"
         self._add(
-            code, step, _word(step), message, note=RIDDLE if riddle else None,
+            code, step, modifier, message, note=RIDDLE if riddle else None,
             help=f"{self._joint(weak.joint)} gives out at {weak.most / si:.0f} {unit}",
         )  # fmt: skip
 

@@ -7,7 +7,7 @@ from handeye.source import Source, Span
 
 
 def word_span(whole: Source, step: Step, word: str) -> Span:
-    """Where a word of a step stands: its instruction, what comes after that, or the name in a `VIA` above it.
+    """Where a word of a step stands: its instruction, what comes after that, or a modifier or its name above it.
 
     The whole line if it is not found; offsets are those of the whole text.
     """
@@ -16,7 +16,7 @@ def word_span(whole: Source, step: Step, word: str) -> Span:
     for searched in dict.fromkeys((step.text.split()[0], word)):
         rest = line if found == line else Span(start=found.end, end=line.end)
         found = _search(searched, text.text, rest) or found
-    if isinstance(step.operation, Move) and word in step.operation.via:
+    if word in ("STOP", "FORCE") or (isinstance(step.operation, Move) and word in step.operation.via):
         above = (text.line_span(number) for number in range(step.line - 1, 0, -1))
         found = next(filter(None, (_search(word, text.text, line) for line in above)), found)
     begin = whole.begins[step.file]

@@ -7,6 +7,7 @@ over from the time before.
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from dataclasses import replace as replaced
 from functools import partial
 from statistics import median
 from typing import Final
@@ -142,4 +143,4 @@ def _moved(taught: Taught, times: int) -> Taught:
         x, *rest = position.at
         return replace(position, at=(x + times * 1e-6, *rest))
 
-    return Taught(positions={name: moved(p) for name, p in taught.positions.items()}, parts=taught.parts)
+    return replaced(taught, positions={name: moved(p) for name, p in taught.positions.items()})

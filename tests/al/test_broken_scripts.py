@@ -33,7 +33,7 @@ MISTAKES = {
     "a15": ("label-twice", 17, "label `GOT` stands twice"),
     "a16": ("number-out-of-range", 5, "`4.5` is too large as gap of `OPEN`"),
     "a17": ("unreachable-position", 8, "BOX is 21.87 in beyond the reach"),
-    "a18": ("stop-beyond-arm", 9, "the arm cannot press with 6000 oz here"),
+    "a18": ("stop-beyond-arm", 8, "the arm cannot press with 6000 oz here"),
     "a19": ("count-begun-anew", 12, "`SOJG` leads back to before the `ASSIGN`"),
     "a20": ("unknown-position", 9, "`DOWN` is a vector, and a position is wanted here"),
     "b01": ("unterminated-macro", 6, "macro `GRASP` has no end"),

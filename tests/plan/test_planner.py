@@ -26,8 +26,8 @@ def plan_of(text: str) -> tuple[Plan | None, list[Diagnostic]]:
 
 def only(text: str) -> Diagnostic:
     plan, problems = plan_of(text)
-    assert plan is None
     (problem,) = problems
+    assert (plan is None) == (problem.severity == "error")
     return problem
 
 

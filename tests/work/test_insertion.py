@@ -10,8 +10,7 @@ from bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifted, wr
 
 from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
 from handeye.plan.plan import Plan
-from handeye.plan.program import AnyOperation, Change, Position, Search, Stop
-from handeye.units import OUNCE_FORCE
+from handeye.plan.program import AnyOperation, Position, Search
 from handeye.work.events import Saved, SearchAdvanced
 
 pytestmark = pytest.mark.slow
@@ -84,24 +83,21 @@ def test_row_17_a_pin_that_fell_over_in_the_large_hole_is_missed_by_the_closing_
     assert "nothing, or too thin a thing" in run.called.message
 
 
-def at_six_hundred(plan: Plan) -> Plan:
-    """The plan with the other reading of the second stop, and a search of two places."""
+def two_places(plan: Plan) -> Plan:
+    """The plan with searches of two places."""
 
-    def read(operation: AnyOperation) -> AnyOperation:
-        if isinstance(operation, Search):
-            return msgspec.structs.replace(operation, limit=2)
-        if isinstance(operation, Change) and operation.stop == Stop(force=(0.0, 0.0, -60 * OUNCE_FORCE)):
-            return msgspec.structs.replace(operation, stop=Stop(force=(0.0, 0.0, -600 * OUNCE_FORCE)))
-        return operation
+    def short(operation: AnyOperation) -> AnyOperation:
+        return msgspec.structs.replace(operation, limit=2) if isinstance(operation, Search) else operation
 
-    steps = [msgspec.structs.replace(step, operation=read(step.operation)) for step in plan.program.steps]
+    steps = [msgspec.structs.replace(step, operation=short(step.operation)) for step in plan.program.steps]
     return msgspec.structs.replace(plan, program=msgspec.structs.replace(plan.program, steps=tuple(steps)))
 
 
-def test_row_18_at_600_oz_the_pin_is_in_the_hole_and_the_search_goes_on_for_ever() -> None:
-    """So 60 oz it must have been: the checker refuses 600, and the plan is altered behind its back."""
+def test_row_18_at_600_oz_the_pin_is_in_the_hole_and_the_search_goes_on() -> None:
+    """So 60 oz it must have been. The checker warns of it; to save time the search has two places only."""
+    script = "OPEN 1\n" + INSERT.replace("-60]", "-600]")
     positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
-    run = bench("OPEN 1\n" + INSERT, positions=positions, lay=at_standard(), edited=at_six_hundred)
+    run = bench(script, positions=positions, lay=at_standard(), edited=two_places)
     assert run.to("SKIPN").place("pin0")[2] == pytest.approx(SEATED, abs=0.02)
     assert run.go().errors[:2] == [23, 23]
     assert run.called.error == SEARCH_EXHAUSTED
