@@ -8,7 +8,7 @@ import numpy as np
 from handeye.arm.kinematics import IKResult, branches, drift, forward, jacobian, solve
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples, length
-from handeye.pose import Array, Pose, rotation_z, translated
+from handeye.pose import Array, Pose, displaced, rotation_z, translated
 from handeye.units import JIFFY
 
 RAMP = 0.1
@@ -58,6 +58,22 @@ def arc(
     V = np.concatenate([sd[:, None] * across, sd[:, None] * up], axis=1)
     A = np.concatenate([sdd[:, None] * across - (sd**2)[:, None] * lever, sdd[:, None] * up], axis=1)
     return _follow(arm, q_start, X, V, A)
+
+
+def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float = RAMP) -> Samples | IKResult:
+    """Set-points of a turn of the hand on the spot, its tool point held, or why there are none.
+
+    Args:
+        turn: rotation vector, shape (3,), rad, world.
+        speed: rad/s while cruising, at most.
+    """
+    angle = float(np.linalg.norm(turn))
+    s, sd, sdd = _profile(angle, speed, ramp)
+    u = turn / angle if angle else turn
+    X_start, still = forward(arm, q_start), np.zeros(3)
+    X = np.stack([displaced(X_start, still, a * u) for a in s]) if len(s) else np.zeros((0, 4, 4))
+    about = np.concatenate([still, u])
+    return _follow(arm, q_start, X, sd[:, None] * about, sdd[:, None] * about)
 
 
 def _turned(X: Pose, centre: Array, angle: float) -> Pose:

@@ -5,12 +5,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
 
+import numpy as np
+
 from handeye.diagnostics import quoted, suggestion
 from handeye.doing.answers import Answer
 from handeye.doing.carrying import answer
 from handeye.doing.teaching import Teacher
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.plan.program import Position, Vector
+from handeye.pose import Array
 from handeye.stepping.showing import show
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
@@ -91,15 +94,20 @@ def _joint(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _table(teacher: Teacher, words: list[str]) -> Answer:
-    axis, amount = _exactly(words, 2, "table x +.5")
-    teacher.straight(_along(axis, _number(amount) * INCH))
-    return _where(teacher)
+    return _jogged(teacher, words, np.eye(3), "table x +.5` or `table turn z 10")
 
 
 def _hand(teacher: Teacher, words: list[str]) -> Answer:
-    axis, amount = _exactly(words, 2, "hand z -.2")
-    x, y, z = teacher.workplace.runner.run.drive.hand()[:3, :3] @ _along(axis, _number(amount) * INCH)
-    teacher.straight((float(x), float(y), float(z)))
+    R_WT = teacher.workplace.runner.run.drive.hand()[:3, :3]
+    return _jogged(teacher, words, R_WT, "hand z -.2` or `hand turn y 5")
+
+
+def _jogged(teacher: Teacher, words: list[str], R: Array, example: str) -> Answer:
+    """Move the hand along an axis of a frame with rotation `R`, or turn it about one."""
+    turns = bool(words) and words[0].lower() == "turn"
+    axis, amount = _exactly(words[1:] if turns else words, 2, example)
+    x, y, z = R @ _along(axis, _number(amount) * (DEGREE if turns else INCH))
+    (teacher.turn if turns else teacher.straight)((float(x), float(y), float(z)))
     return _where(teacher)
 
 
@@ -209,8 +217,16 @@ def _along(axis: str, size: float) -> Vector:
 
 TABLE: Final = (
     Lesson(usage="j3 +1", act=_joint, help="move a joint by so much; without a sign, to there"),
-    Lesson(usage="table x +.5", act=_table, help="move the hand along an axis of the table"),
-    Lesson(usage="hand z -.2", act=_hand, help="move it along an axis of its own; z is where it points"),
+    Lesson(
+        usage="table x +.5",
+        act=_table,
+        help="move the hand along an axis of the table; or `table turn z 10`",
+    ),
+    Lesson(
+        usage="hand z -.2",
+        act=_hand,
+        help="move it along an axis of its own, z is where it points; or `hand turn y 5`",
+    ),
     Lesson(usage="move NAME", act=_function("MOVE"), help="go to a position"),
     Lesson(usage="open GAP", act=_function("OPEN"), help="open the hand"),
     Lesson(usage="close [MIN]", act=_function("CLOSE"), help="close it"),

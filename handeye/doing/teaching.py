@@ -5,8 +5,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import numpy as np
+
 from handeye.arm.jog import jog
 from handeye.arm.kinematics import IKResult
+from handeye.arm.line import pivot
 from handeye.arm.samples import Samples
 from handeye.cell.ports import TICK
 from handeye.cell.pushing import pushed
@@ -17,7 +20,7 @@ from handeye.doing.functions import TYPED
 from handeye.doing.workplace import Workplace
 from handeye.errors import ERRORS, InvalidInput
 from handeye.files import write_whole
-from handeye.plan.motions import change_samples
+from handeye.plan.motions import TURN_SPEED, change_samples
 from handeye.plan.planner import SPEED
 from handeye.plan.program import Change, Position, Vector
 from handeye.plan.taught import Taught
@@ -89,6 +92,15 @@ class Teacher:
         """
         arm = self.workplace.runner.arm
         self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
+
+    def turn(self, turn: Vector) -> None:
+        """Turn the hand on the spot by a rotation vector (rad, table coordinates).
+
+        Raises:
+            InvalidInput: it cannot be turned so, or something is in the way.
+        """
+        arm = self.workplace.runner.arm
+        self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
     def _follow(self, samples: Samples | IKResult) -> None:
         if isinstance(samples, IKResult):

@@ -2,9 +2,10 @@ import numpy as np
 import pytest
 
 from handeye.arm.kinematics import forward, solve
+from handeye.arm.line import pivot
 from handeye.arm.stanford import STANFORD
 from handeye.arm.trajectory import arc, straight
-from handeye.pose import hand, rotation_z
+from handeye.pose import hand, rotation, rotation_z
 from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])
@@ -37,6 +38,13 @@ def test_rates_and_accelerations_are_the_derivatives_of_positions(motion: str) -
     for f, derivative in ((samples.q, samples.qd), (samples.qd, samples.qdd)):
         central = (f[2:] - f[:-2]) / (2 * JIFFY)
         np.testing.assert_allclose(derivative[1:-1], central, atol=0.02 * np.abs(derivative).max())
+
+
+def test_a_pivot_turns_the_hand_on_the_spot() -> None:
+    q, turn = at(24, 38, 3, tilt=0.3), np.array([0.1, -0.2, 0.3])
+    X0, X = forward(STANFORD, q), forward(STANFORD, pivot(STANFORD, q, turn, 0.5).q)
+    np.testing.assert_allclose(X[:, :3, 3], np.tile(X0[:3, 3], (len(X), 1)), atol=1e-12)
+    np.testing.assert_allclose(X[-1, :3, :3], rotation(turn) @ X0[:3, :3], atol=1e-12)
 
 
 def test_a_line_cruises_at_its_speed_after_six_periods_and_ends_at_rest() -> None:

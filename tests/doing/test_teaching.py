@@ -13,8 +13,9 @@ from handeye.doing.lessons import LESSONS, Pupil
 from handeye.doing.teaching import Teacher
 from handeye.doing.workplace import Workplace
 from handeye.plan.taught import load_taught
+from handeye.pose import rotation, rotation_z
 from handeye.resources import plans
-from handeye.units import INCH
+from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
 
@@ -70,6 +71,22 @@ def test_the_hand_moves_along_an_axis_of_its_own(pupil: Pupil) -> None:
     before = hand(pupil)
     say(pupil, "hand z -1")  # it points down, so back is up
     assert hand(pupil) - before == pytest.approx((0, 0, 1), abs=0.05)
+
+
+def test_the_hand_is_turned_on_the_spot_about_an_axis_of_the_table(pupil: Pupil) -> None:
+    before = pupil.teacher.workplace.runner.run.drive.hand()
+    say(pupil, "table turn z 20")
+    after = pupil.teacher.workplace.runner.run.drive.hand()
+    assert (after[:3, 3] - before[:3, 3]) / INCH == pytest.approx((0, 0, 0), abs=0.05)
+    np.testing.assert_allclose(after[:3, :3], rotation_z(20 * DEGREE) @ before[:3, :3], atol=0.01)
+
+
+def test_the_hand_is_turned_about_an_axis_of_its_own(pupil: Pupil) -> None:
+    before = pupil.teacher.workplace.runner.run.drive.hand()
+    say(pupil, "hand turn y 10")
+    after = pupil.teacher.workplace.runner.run.drive.hand()
+    turned = rotation(10 * DEGREE * before[:3, 1]) @ before[:3, :3]
+    np.testing.assert_allclose(after[:3, :3], turned, atol=0.01)
 
 
 def test_an_arm_that_floats_stays_where_it_is_until_somebody_pushes_it(pupil: Pupil) -> None:
@@ -143,7 +160,7 @@ def test_nobody_quits_unsaved_without_being_told(pupil: Pupil) -> None:
     [
         ("fly", "there is no command `fly`; `help` tells which there are"),
         ("tabel x 1", "there is no command `tabel`; did you mean `table`?"),
-        ("table x", "this is said like `table x +.5`"),
+        ("table x", "this is said like `table x +.5` or `table turn z 10`"),
         ("table w 1", "`w` is no axis; there are x, y and z"),
         ("table x inf", "`inf` is no number"),
         ("here 1A", "`1A` is no name: letters, digits and _, no digit first"),
