@@ -39,7 +39,8 @@ def _stops(graph: Graph) -> Iterator[Vain]:
         stop = change.stop
         if stop is None or stop.force is None or stop.moment is not None:
             continue
-        if sum(a * b for a, b in zip(change.displacement, stop.force, strict=True)) < 0:
+        (x, y, z), (f, g, h) = change.displacement, stop.force
+        if x * f + y * g + z * h < 0:
             yield Vain(
                 code="stop-away-from-motion",
                 step=number,
