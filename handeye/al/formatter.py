@@ -39,7 +39,18 @@ def _column(text: str, column: int) -> str:
 
 def _operands(tokens: Sequence[Token]) -> str:
     text = ""
-    for token in tokens:
-        tight = not text or text[-1] in "[," or token.text in ("]", ":", ",")
+    for at, token in enumerate(tokens):
+        tight = at == 0 or token.text in ("]", ":", ",") or _is_tight(tokens[max(at - 2, 0) : at + 1])
         text += token.text if tight else f" {token.text}"
     return text
+
+
+def _is_tight(tokens: Sequence[Token]) -> bool:
+    """Whether the last token stands against its neighbour: behind a bracket, or a comma with no blanks.
+
+    A blank at a comma is kept, on its right: `0, 5` are two numbers, `0,5` is a wrongly written one.
+    """
+    mark, token = tokens[-2:]
+    if mark.text != ",":
+        return mark.text == "["
+    return mark.end == token.start and tokens[0].end in (mark.start, mark.end)
