@@ -82,6 +82,9 @@ CODES: Final[dict[str, Code]] = {
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
+    "faint-force": _warning(
+        "a force is less than what joint friction is felt as", "STOP [0 0 -.2]\nCHANGE Z -1"
+    ),
     "faint-moment": _warning(
         "a moment is less than what joint friction is felt as", "STOP NIL [5 0 0]\nCHANGE X 1"
     ),
@@ -155,6 +158,9 @@ CODES: Final[dict[str, Code]] = {
         "REQUIRE 1.al\nPARK",
         {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
     ),
+    "torque-without-tool": _warning(
+        "a torque is to end a motion, and no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
+    ),
     "travel-too-long": _warning(
         "a TRAVEL asks for a longer way than the motion before it goes", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
@@ -192,6 +198,7 @@ CODES: Final[dict[str, Code]] = {
     "vector-twice": _error(
         "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
     ),
+    "wait-for-time": _warning("a WAIT is to let time pass, and calls the operator", "PARK\nWAIT 2"),
     "wrist-in-line": _planning(
         "joints 4 and 6 come into line on a straight motion, where the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",

@@ -78,6 +78,8 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
 # --- names ---------------------------------------------------------------------------------------
 
 
+LOOKALIKES: Final = str.maketrans("OoIl", "0011")
+"""Letters, to the digits they look like."""
 MOST_COMPARED: Final = 500
 LONGEST_COMPARED: Final = 40
 """Characters. Finding the nearest name takes as many steps as there are names, times the square of their length."""
@@ -90,10 +92,15 @@ def quoted(name: str) -> str:
 
 
 def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """`did you mean ...` for the nearest known name, at most a third of its length away; else few choices."""
+    """`did you mean ...` for a known name that looks the same, or the nearest, at most a third of its length away;
+    else few choices."""
     choices = sorted(set(known))
     if len(choices) > MOST_COMPARED or len(name) > LONGEST_COMPARED:
         return None
+    looks = name.translate(LOOKALIKES)
+    for choice in choices:
+        if choice.translate(LOOKALIKES) == looks:
+            return f"did you mean {quoted(choice)}?"
     ranked = sorted((_distance(name.upper(), choice.upper()), choice) for choice in choices)
     if ranked and ranked[0][0] <= len(name) // 3:
         return f"did you mean {quoted(ranked[0][1])}?"
@@ -199,7 +206,7 @@ def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
     text = ("…" if cut else "") + shown[cut : cut + WIDTH] + ("…" if len(shown) > cut + WIDTH else "")
     shift = cut - (1 if cut else 0)
     return text, _rows(
-        [(a - shift, min(b - shift, WIDTH + 2), m, t) for a, b, m, t in marks if a - shift < WIDTH]
+        [(a - shift, min(b - shift, WIDTH + 2), m, t) for a, b, m, t in marks if a - shift <= WIDTH]
     )
 
 

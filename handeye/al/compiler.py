@@ -2,7 +2,7 @@
 
 from pathlib import PurePath
 
-from handeye.al.faint import faint_moments
+from handeye.al.faint import faint
 from handeye.al.flow import check_flow
 from handeye.al.form import MISSING
 from handeye.al.graph import Graph
@@ -13,6 +13,7 @@ from handeye.al.names import all_statements, check_names, written_names
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.restores import check_restores
+from handeye.al.syntax import Name, Script
 from handeye.al.unused import check_unused
 from handeye.al.vectors import with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
@@ -36,14 +37,14 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     found += check_names(script, taught)
     resolved = with_vectors(script)
     placed = expand(resolved, found.append)
-    lowered = lower(placed, source, found.append)
+    lowered = lower(placed, source, found.append, inner=_inner_labels(script))
     found = _without_lost_labels(source, found)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
     if not has_errors(found):  # else a mistake would be told twice, as what it leads to
         graph = Graph(lowered.steps)
         found += check_flow(graph, lowered.origins)
-        found += faint_moments(resolved)
+        found += faint(resolved)
         found += check_restores(lowered, graph)
         lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
         found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
@@ -66,10 +67,26 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     return program, arranged(found)
 
 
+def _inner_labels(script: Script) -> dict[str, Name]:
+    """The labels of macros, called or not."""
+    bodies = (macro.body for macro in script.macros.values())
+    return {label.text: label for body in bodies for statement in body for label in statement.labels}
+
+
 def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagnostic]:
-    """A label without its colon is one mistake, and not another one at every jump to it."""
+    """A label without its colon is one mistake, and not another one at every jump to it; nor is one that stands
+    where another name should."""
+    lost = [d for d in found if d.code == "unknown-label"]
+    if not lost:
+        return found
     unknown = {_word(source, d) for d in found if d.code == "unknown-instruction"}
-    return [d for d in found if d.code != "unknown-label" or _word(source, d) not in unknown]
+    wrong = [d.primary.span for d in found if d.code == "wrong-operand"]
+    said = [
+        d
+        for d in lost
+        if _word(source, d) in unknown or any(s.start <= d.primary.span.start < s.end for s in wrong)
+    ]
+    return [d for d in found if d not in said]
 
 
 def _word(source: Source, diagnostic: Diagnostic) -> str:

@@ -76,9 +76,14 @@ class Operand:
     ours: bool = False
 
     @property
+    def is_vector(self) -> bool:
+        """Whether nothing but a vector, or the name of one, may stand here."""
+        return self.name.startswith("[")
+
+    @property
     def plain(self) -> str:
         """As a sentence calls it."""
-        return f"vector {self.name}" if self.name.startswith("[") else self.name
+        return f"vector {self.name}" if self.is_vector else self.name
 
     @property
     def shown(self) -> str:

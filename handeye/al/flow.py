@@ -236,6 +236,11 @@ class _Flow:
         can = ", ".join(map(str, sorted(raised)))
         help = _CURES.get(error, f"what can be raised here: {can}")
         message = f"{who} does not raise error {error} here"
+        if any(error in raises(self.graph.steps[n].operation) for n in actions):
+            message = f"error {error} cannot be there any more"
+            help = "once an error has been tested, it is cleared"
+            asked = [n for n in self.graph.which(op.Test) if n in self.graph.back[number]]
+            cause = Label(span=self.word((asked or [max(actions)])[-1]).span, text="this has tested for it")
         return self.problem("error-never-raised", number, message, cause, help=help)
 
     def span(self, number: int) -> Span:

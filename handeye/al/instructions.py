@@ -33,6 +33,8 @@ AXES: Final = ("X", "Y", "Z")
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
 MOST: Final = 1000
 """What a counter can be set to."""
+LARGEST_STEP: Final = 1.0
+"""in, of a search."""
 LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
 
 
@@ -264,7 +266,16 @@ _TABLE = (
         op="SEARCH",
         group=FLOW,
         help="start a spiral search with this step (in); the present place is the first",
-        operands=(_number("step", IN, SMALLEST),),
+        operands=(
+            Operand(
+                name="step",
+                takes=(Number,),
+                units=(IN,),
+                low=SMALLEST,
+                high=LARGEST_STEP,
+                why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search goes three of them to each side",
+            ),
+        ),
     ),
     Instruction(
         op="AOJ",

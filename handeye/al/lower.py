@@ -1,6 +1,6 @@
 """Statements to steps: modifiers join motions, RESTOREs their MOVE, jumps and skips find their targets."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate
 
@@ -34,9 +34,15 @@ class Lowered:
     """The RESTOREs of each step."""
 
 
-def lower(placed: Sequence[Placed], source: Source, report: Report) -> Lowered:
-    """Stages and steps of an expanded program; worth something only if no error was reported."""
-    lowering = _Lowering(report=report)
+def lower(
+    placed: Sequence[Placed], source: Source, report: Report, *, inner: Mapping[str, Name] | None = None
+) -> Lowered:
+    """Stages and steps of an expanded program; worth something only if no error was reported.
+
+    Args:
+        inner: the labels of macros, of which nothing outside can know.
+    """
+    lowering = _Lowering(report=report, inner=inner or {})
     for item in placed:
         lowering.place(item)
     lowering.end()
@@ -85,6 +91,7 @@ class _Draft(msgspec.Struct, gc=False):
 @dataclass(slots=True)
 class _Lowering:
     report: Report
+    inner: Mapping[str, Name]
     drafts: list[_Draft] = field(default_factory=list)
     stages: dict[str, Span] = field(default_factory=dict)
     """Their names, and where they stand."""
@@ -243,13 +250,23 @@ class _Lowering:
                 if draft.word == "AOJ":
                     self.loops.append((target, index))
                 return self.at(target)
+        self.lost_label(label, scopes)
+        return None
+
+    def lost_label(self, label: Name, scopes: Sequence[Call]) -> None:
+        """Tell of a jump to nowhere."""
+        self.lost += 1
+        inner = self.inner.get(label.text)
+        if inner is not None:
+            there = Label(span=inner.span, text="this is inside a macro")
+            message = f"label {quoted(label.text)} belongs to a macro"
+            help = "a macro keeps its labels to itself, and ends with the first blank line"
+            self.problem("unknown-label", message, label, there, help=help)
+            return
         message = f"no statement has the label {quoted(label.text)}"
         # Looking for what was meant takes time: only for those that will be shown.
-        known = [name for scope, name in self.labels if scope in scopes] if self.lost < LIMIT else []
-        help = suggestion(label.text, known)
-        self.lost += 1
-        self.problem("unknown-label", message, label, help=help)
-        return None
+        known = [name for scope, name in self.labels if scope in scopes] if self.lost <= LIMIT else []
+        self.problem("unknown-label", message, label, help=suggestion(label.text, known))
 
     def mark_searching(self) -> None:
         """Every MOVE between a label and an AOJ that goes back to it belongs to a search."""

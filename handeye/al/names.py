@@ -1,6 +1,7 @@
 """Every name must be the name of something: positions, parts, pictures, saved differences, error numbers."""
 
 from collections.abc import Iterable, Iterator
+from itertools import pairwise
 
 from handeye.al.definition import NIL, Operand, Refers, Role
 from handeye.al.instructions import AXES, INSTRUCTIONS
@@ -9,6 +10,7 @@ from handeye.al.unitwords import no_units
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS
 from handeye.plan.taught import Taught
+from handeye.source import Span
 
 _CODES = {
     Refers.POSITION: "unknown-position",
@@ -48,11 +50,15 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
         for name, refers in uses(statements)
         if (there := known.get(refers)) is not None and name.text not in there
     ]
+    swapped = list(_swapped(statements, {**known, Refers.LABEL: _labels(statements)})) if unknown else []
+    marked = [d.primary.span for d in swapped]
+    unknown = [use for use in unknown if not any(mark.start <= use[0].start < mark.end for mark in marked)]
     unknown.sort(key=lambda use: use[0].span)
     # Looking for what was meant takes time: only for those that will be shown.
     errors = [u for u in unknown if u[1] is not Refers.SAVED][:LIMIT]
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
     found = [_unknown(name, refers, known) for name, refers in errors + warnings]
+    found += swapped
     found += _error_numbers(statements)
     return found + _twice(declared.get("TRANS", []), taught) + _vectors_twice(declared.get("VECT", []))
 
@@ -69,6 +75,29 @@ def uses(statements: Iterable[Statement]) -> Iterator[tuple[Name, Refers]]:
                 yield value, refers
         if word.text == "PARK":
             yield word, Refers.POSITION
+
+
+def _swapped(statements: list[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
+    """Two names of an instruction that would be right the other way round."""
+    for statement in statements:
+        named = [(o.refers, v) for o, v in pairs(statement) if isinstance(v, Name) and o.refers in known]
+        for (first, a), (second, b) in pairwise(named):
+            right = a.text in known[first] or b.text in known[second]
+            if right or a.text not in known[second] or b.text not in known[first]:
+                continue
+            assert statement.word is not None
+            op = statement.word.text
+            yield Diagnostic(
+                code="wrong-operand",
+                message=f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: "
+                f"`{op}` takes them the other way round",
+                primary=Label(span=Span(start=a.start, end=b.end)),
+                help=f"usage: `{INSTRUCTIONS[op].usage}`",
+            )
+
+
+def _labels(statements: list[Statement]) -> set[str]:
+    return {label.text for statement in statements for label in statement.labels}
 
 
 def _error_numbers(statements: list[Statement]) -> list[Diagnostic]:
@@ -174,15 +203,13 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
         message = f"{quoted(name.text)} is written behind a number"
         return Diagnostic(code="unit-written", message=message, primary=Label(span=name.span), help=said)
     message = _MESSAGES[refers].format(quoted(name.text))
+    help = suggestion(name.text, known[refers])
     other = next((kind for kind, names in known.items() if name.text in names), None)
-    if other is not None and refers is not Refers.SAVED:
+    if other is not None and refers is Refers.SAVED:
+        help = f"{quoted(name.text)} is a {other.value}; `SAVE` keeps a difference"
+    elif other is not None:
         message = f"{quoted(name.text)} is a {other.value}, and a {refers.value} is wanted here"
-    return Diagnostic(
-        code=_CODES[refers],
-        message=message,
-        primary=Label(span=name.span),
-        help=suggestion(name.text, known[refers]),
-    )
+    return Diagnostic(code=_CODES[refers], message=message, primary=Label(span=name.span), help=help)
 
 
 def _unknown_error(number: Number) -> Diagnostic:

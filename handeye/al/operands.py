@@ -10,6 +10,7 @@ import msgspec
 from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.instructions import AXES, FREE, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
+from handeye.al.slips import alone, letters_for_digits, strange, with_unit
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.al.unitwords import no_units
 from handeye.diagnostics import Diagnostic, Label, quoted
@@ -80,6 +81,9 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
         if token.text in ("[", "]"):
             opened = token.text == "["
     for before, token in pairwise(tokens):
+        glued = before.text + token.text if before.end == token.start else ""
+        if before.kind is NAME and token.kind is NUMBER and letters_for_digits(glued):
+            return _malformed(Token(NUMBER, glued, before.start, token.end))
         unit = no_units(token.text) if token.kind is NAME else None
         if unit is not None and (before.kind is NUMBER or before.text == "]"):
             return Mistake(
@@ -228,9 +232,27 @@ class _Reader(msgspec.Struct, gc=False):
         return Vector(tuple(values), span)
 
     def wrong(self, value: Value, operand: Operand) -> Mistake:
-        takes = " or ".join(kind.what for kind in operand.takes)
-        message = f"`{self.definition.op}` takes {takes} as {operand.plain}, not {value.what}"
-        return Mistake("wrong-operand", message, value.span, help=self.usage())
+        takes = f"{' or '.join(kind.what for kind in operand.takes)} as {operand.name}"
+        if operand.is_vector:
+            takes = f"a vector {operand.name}{' or its name' if Name in operand.takes else ''}"
+        message = f"`{self.definition.op}` takes {takes}, not {value.what}"
+        return Mistake("wrong-operand", message, value.span, help=self.cure(value, operand) or self.usage())
+
+    def cure(self, value: Value, operand: Operand) -> str | None:
+        """What helps where a value of a wrong kind stands."""
+        if isinstance(value, Name) and value.text.upper() in INSTRUCTIONS:
+            return _begins_a_line(value.text)
+        if isinstance(value, Name) and Number in operand.takes:
+            return letters_for_digits(value.text)
+        if isinstance(value, Number) and operand.is_vector:
+            behind = [token.kind is NUMBER for token in self.tokens[self.at : self.at + 2]]
+            bare = len(behind) == 2 and all(behind)
+            return (
+                "a vector stands in brackets, as `[0 0 -1]`"
+                if bare
+                else f"the vector comes first; {self.usage()}"
+            )
+        return None
 
     def check_vector(self, value: Vector, operand: Operand) -> None:
         if max(map(abs, value.values)) > BIGGEST:
@@ -270,9 +292,8 @@ class _Reader(msgspec.Struct, gc=False):
     def missing(self, operand: Operand) -> Mistake:
         message = f"`{self.definition.op}` lacks its {operand.plain}"
         end = (self.tokens[-1] if self.tokens else self.head).end
-        return Mistake(
-            "missing-operand", message, Span(start=end, end=end), "it is expected here", self.usage()
-        )
+        help = self.usage() if self.tokens else alone(self.definition.op) or self.usage()
+        return Mistake("missing-operand", message, Span(start=end, end=end), "it is expected here", help)
 
     def too_many(self) -> None:
         first, last = self.tokens[self.at], self.tokens[-1]
@@ -283,13 +304,20 @@ class _Reader(msgspec.Struct, gc=False):
         span = Span(start=first.start, end=last.end)
         count = len(self.definition.operands)
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
-        help = self.usage()
-        second = next(
-            (token.text.upper() for token in self.tokens if token.text.upper() in INSTRUCTIONS), None
-        )
-        if second is not None:
-            help = f"`{second}` is an instruction: it begins a line of its own"
+        early = next((token for token in self.tokens[: self.at] if self.is_too_early(token)), None)
+        if early is not None:
+            message = f"`{early.text}` stands before what it belongs behind"
+            raise Mistake("wrong-operand", message, early.span, help=self.usage())
+        second = next((token.text for token in self.tokens if token.text.upper() in INSTRUCTIONS), None)
+        help = self.usage() if second is None else _begins_a_line(second)
         raise Mistake("too-many-operands", message, span, help=help)
+
+    def is_too_early(self, token: Token) -> bool:
+        """Whether a word of the language was read as a name, in the place before its own."""
+        words = {
+            o.word for o, v in zip(self.definition.operands, self.values, strict=True) if o.word and v is None
+        }
+        return token.kind is NAME and token.text.upper() in words - {NIL}
 
     def unterminated_string(self, token: Token) -> Mistake:
         start = Span(start=token.start, end=token.start + 1)
@@ -298,6 +326,10 @@ class _Reader(msgspec.Struct, gc=False):
     def usage(self) -> str:
         counted = f" or `{self.definition.op} 2 X Y`" if self.definition.axes else ""
         return f"usage: `{self.definition.usage}`{counted}"
+
+
+def _begins_a_line(instruction: str) -> str:
+    return f"`{instruction.upper()}` is an instruction: it begins a line of its own"
 
 
 def _number(token: Token) -> float:
@@ -313,7 +345,12 @@ def _number(token: Token) -> float:
 
 
 def _malformed(token: Token) -> Mistake:
-    help = "numbers look like 3, .07, -0.6 or 1e-3"
+    glued = with_unit(token.text)
+    if glued is not None:
+        unit, said = glued
+        span = Span(start=token.end - len(unit), end=token.end)
+        return Mistake("unit-written", f"{quoted(unit)} is written behind a number", span, help=said)
+    help = letters_for_digits(token.text) or "numbers look like 3, .07, -0.6 or 1e-3"
     return Mistake("malformed-number", f"{quoted(token.text)} is not a number", token.span, help=help)
 
 
@@ -322,11 +359,10 @@ def _no_number(token: Token) -> Mistake:
         return _malformed(token)
     if token.kind is NAME:
         message = f"a vector consists of numbers, not of {quoted(token.text)}"
-        return Mistake("wrong-operand", message, token.span)
+        return Mistake("wrong-operand", message, token.span, help=letters_for_digits(token.text))
     return _unexpected(token)
 
 
 def _unexpected(token: Token) -> Mistake:
-    help = "a comment begins with `;`" if token.text[0] in ":#/'" else None
     message = f"{quoted(token.text)} is no part of the language"
-    return Mistake("unexpected-character", message, token.span, help=help)
+    return Mistake("unexpected-character", message, token.span, help=strange(token.text))

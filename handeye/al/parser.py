@@ -8,6 +8,7 @@ from handeye.al.operands import Mistake, free_text, read_operands
 from handeye.al.requirements import Requirements
 from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
 from handeye.al.sewing import REQUIRE
+from handeye.al.slips import elsewhere, strange
 from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.source import Source, Span
@@ -183,7 +184,7 @@ class _Parser:
             return Statement(labels, None, line.number, span, broken=True)
         definition = INSTRUCTIONS.get(word.text)
         if definition is None:
-            is_call = self.is_call(word, head, rest)
+            is_call = self.is_call(word, line, rest)
             return Statement(labels, word, line.number, span, broken=not is_call)
         try:
             operands = read_operands(definition, head, rest)
@@ -194,7 +195,7 @@ class _Parser:
             return Statement(labels, word, line.number, span, operands=named, broken=True)
         return Statement(labels, word, line.number, span, operands)
 
-    def is_call(self, word: Name, head: Token, rest: tuple[Token, ...]) -> bool:
+    def is_call(self, word: Name, line: Line, rest: tuple[Token, ...]) -> bool:
         if word.text in self.macro_names:
             if rest:
                 extra = Span(start=rest[0].start, end=rest[-1].end)
@@ -208,19 +209,33 @@ class _Parser:
                 help=_alone(rest),
             )
             return False
-        help = suggestion(word.text, {*INSTRUCTIONS, *self.macro_names, "DEFINE"})
-        if help is None and rest and rest[0].text.upper() in INSTRUCTIONS:
-            help = f"a label ends with a colon: `{head.text}:`"
-        self.report(
-            "unknown-instruction", f"there is no instruction {quoted(head.text)}", word.span, help=help
-        )
+        written = line.split()[1][0].text
+        message = f"there is no instruction {quoted(written)}"
+        self.report("unknown-instruction", message, word.span, help=self.meant(written, line, rest))
         return False
+
+    def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> str | None:
+        """What helps where a line begins with a word that is neither an instruction nor a macro."""
+        label = f"a label ends with a colon: `{written}:`"
+        if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):
+            return f"{label}; a `;` begins a comment"
+        if rest and rest[0].text.upper() in self.macro_names:
+            return elsewhere(written) or label
+        if (
+            said := elsewhere(written) or suggestion(written, {*INSTRUCTIONS, *self.macro_names, _DEFINE})
+        ) is not None:
+            return said
+        if rest and rest[0].text.upper() in INSTRUCTIONS:
+            return label
+        if rest and rest[0].text.startswith("="):
+            return "`ASSIGN` sets a counter, `TRANS` writes a position"
+        words = sum(token.kind is NAME for token in rest)
+        return "a comment begins with `;`" if words > 1 else None
 
     def unreadable(self, token: Token) -> None:
         message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"
         code = "unexpected-character" if token.kind in (JUNK, MARK) else "unknown-instruction"
-        help = "a comment begins with `;`" if token.text[0] in "#/'" else None
-        self.report(code, message, token.span, help=help)
+        self.report(code, message, token.span, help=strange(token.text))
 
     def report(
         self,

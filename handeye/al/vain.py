@@ -1,6 +1,7 @@
 """Stops and checks that come out in one way only, whatever the arm meets."""
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
@@ -9,6 +10,7 @@ from handeye.al.graph import Graph
 from handeye.plan import program as op
 from handeye.units import INCH
 
+_TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNORECASE)
 LEAST: Final = 1e-6
 """m by which a figure has to be off before anything is said of it."""
 
@@ -30,6 +32,8 @@ def in_vain(graph: Graph) -> Iterator[Vain]:
     yield from _stops(graph)
     yield from _grasps(graph)
     yield from _travels(graph)
+    yield from _torques(graph)
+    yield from _pauses(graph)
 
 
 def _stops(graph: Graph) -> Iterator[Vain]:
@@ -86,4 +90,40 @@ def _travels(graph: Graph) -> Iterator[Vain]:
                 f"{max(ways) / INCH:g} in at most",
                 help="it would always raise error 8",
                 cause=max(before),
+            )
+
+
+def _torques(graph: Graph) -> Iterator[Vain]:
+    """Stops on the torque of a screwdriver that does not turn."""
+    tools = graph.which(op.Tool)
+    running = {number for number in tools if graph.steps[number].operation != op.Tool(speed=0.0)}
+    started: set[int] | None = None
+    for number in graph.which(op.Move, op.Change, op.Turn):
+        motion = graph.steps[number].operation
+        assert isinstance(motion, op.Move | op.Change | op.Turn)
+        if motion.stop is None or motion.stop.torque is None:
+            continue
+        started = graph.after(running) if started is None else started
+        last = graph.last(number, op.Tool)
+        if number not in started or (last and running.isdisjoint(last)):
+            yield Vain(
+                code="torque-without-tool",
+                step=number,
+                message="a torque is to end this motion, and the screwdriver does not turn",
+                help="`TOOL` runs the screwdriver; without it this always raises error 24",
+                cause=max(last, default=None),
+            )
+
+
+def _pauses(graph: Graph) -> Iterator[Vain]:
+    """Calls of the operator that were meant to let time pass."""
+    for number in graph.which(op.Wait):
+        wait = graph.steps[number].operation
+        assert isinstance(wait, op.Wait)
+        if _TIME.fullmatch(wait.message):
+            yield Vain(
+                code="wait-for-time",
+                step=number,
+                message="`WAIT` stops the work and calls the operator: it waits for no time",
+                help="leave it out: the arm has come to rest when a motion ends",
             )

@@ -100,3 +100,10 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
         note(f"no more than {LIMIT} are told at a time")
     for diagnostic in diagnostics:
         notes.print(render_diagnostic(diagnostic, source), markup=False, soft_wrap=True, end="\n\n")
+
+
+def show_unreadable(file: Path, error: InvalidInput) -> None:
+    """Print as JSON, in the place of diagnostics, why there are none: a script, or what is taught, cannot be used."""
+    place = {"file": str(file), "line": 1, "column": 1, "end": 1, "text": ""}
+    said = {"code": "unreadable-file", "severity": "error", "message": str(error), "file": str(file)}
+    screen.print_json(data=[{**said, "primary": place, "secondary": [], "notes": [], "help": None}])

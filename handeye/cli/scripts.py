@@ -10,7 +10,7 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.al import compile_text, extensions, read_script
-from handeye.cli.common import compiled, complain, say, screen, show, taught
+from handeye.cli.common import compiled, complain, say, screen, show, show_unreadable, taught
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
@@ -37,9 +37,17 @@ def check(
     ] = False,
 ) -> int:
     """Check a script and its taught positions, the arm's reach included; nothing moves."""
-    if not watch:
-        return _check(file, json=json, strict=strict)
-    return watched(file, lambda: _check(file, json=json, strict=strict))
+
+    def once() -> int:
+        try:
+            return _check(file, json=json, strict=strict)
+        except InvalidInput as error:
+            if not json:
+                raise
+            show_unreadable(file, error)
+            return 2
+
+    return watched(file, once) if watch else once()
 
 
 def _wait() -> None:

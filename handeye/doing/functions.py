@@ -22,7 +22,8 @@ OPEN: Final = frozenset(
 _ALONE: Final = frozenset(
     {
         "aoj-without-search", "search-without-aoj", "save-without-move", "travel-without-change",
-        "specific-without-general", "unused-label", "unused-macro", "unused-position", "unused-vector",
+        "specific-without-general", "torque-without-tool", "unused-label", "unused-macro",
+        "unused-position", "unused-vector",
     }
 )  # fmt: skip
 """Warnings about what is not in the text; it may have been done before, or be done afterwards."""

@@ -2,12 +2,12 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import TypeVar
+from typing import Final, TypeVar
 
 import msgspec
 
 from handeye.boxes import Box
-from handeye.errors import InvalidInput
+from handeye.diagnostics import quoted
 from handeye.plan.program import Fixture, Held, Hole, Part, Position
 from handeye.units import DEGREE, INCH
 
@@ -73,39 +73,46 @@ class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
 Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
 
 
+class Fault(Exception):
+    """What is wrong with an entry; `key` is `positions.NAME`."""
+
+    def __init__(self, key: str, said: str) -> None:
+        super().__init__(said)
+        self.key = key
+
+
 def read_tables(
-    path: str, kind: str, tables: dict[str, dict[str, object]], type: type[Entry]
+    kind: str, tables: dict[str, dict[str, object]], type: type[Entry]
 ) -> Iterator[tuple[str, Entry]]:
     """The tables of a kind by name, as they are written.
 
     Raises:
-        InvalidInput: what is in one cannot be used; the sentence names the path of the file, and the key.
+        Fault: what is in one cannot be used.
     """
     for name, table in tables.items():
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
-            raise InvalidInput(
-                f"{path}: {kind}.{name}: a name consists of letters, digits and _, and starts with no digit"
-            )
-        yield name, _read(path, f"{kind}.{name}", table, type)
+            said = "a name consists of letters, digits and _, and starts with no digit"
+            raise Fault(f"{kind}.{name}", said)
+        yield name, _read(f"{kind}.{name}", table, type)
 
 
-def _read(path: str, key: str, table: dict[str, object], kind: type[Entry]) -> Entry:
+def _read(key: str, table: dict[str, object], kind: type[Entry]) -> Entry:
     try:
         entry: Entry = msgspec.convert(table, kind)
     except msgspec.ValidationError as error:
-        raise InvalidInput(f"{path}: {key}: {lower_first(error)}") from None
+        raise Fault(key, unfit(error)) from None
     for name in kind.__struct_fields__:
         if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, name))):
-            raise InvalidInput(f"{path}: {key}: {name} has a number that is not below a million")
+            raise Fault(key, f"{name} has a number that is not below a million")
     if isinstance(entry, PartTable):
         for x, y, diameter in (*entry.holes, *entry.screw_holes):
             if diameter <= 0:
-                raise InvalidInput(f"{path}: {key}: the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
+                raise Fault(key, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
     if isinstance(entry, FixtureTable | HeldTable):
         for box in entry.boxes:
             if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
                 corners = " to ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in (box[:3], box[3:]))
-                raise InvalidInput(f"{path}: {key}: the box from {corners} has no inside")
+                raise Fault(key, f"the box from {corners} has no inside")
     return entry
 
 
@@ -125,7 +132,24 @@ def _boxes(boxes: Iterable[Box]) -> tuple[Box, ...]:
     return tuple((a * INCH, b * INCH, c * INCH, d * INCH, e * INCH, f * INCH) for a, b, c, d, e, f in boxes)
 
 
-def lower_first(error: Exception) -> str:
-    """What an error says, as the rest of a sentence."""
-    text = str(error)
-    return text[:1].lower() + text[1:]
+_KINDS: Final = {
+    "array": "a list", "object": "a table", "str": "a text", "float": "a number", "int": "a whole number",
+    "bool": "true or false", "null": "nothing",
+}  # fmt: skip
+
+
+def unfit(error: msgspec.ValidationError) -> str:
+    """What does not fit, and where, as the rest of a sentence."""
+    said, _, where = str(error).partition(" - at `$")
+    where = where.rstrip("`").lstrip(".")
+    about = f"{where}: " if where else ""
+    if size := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", said):
+        return f"{about}{size[2]} entries, and {size[1]} are wanted"
+    if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
+        wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
+        return f"{about}{got} stands where {wanted} is wanted"
+    if key := re.fullmatch(r"Object (contains unknown|missing required) field `(.*)`", said, re.DOTALL):
+        return (
+            f"{about}{quoted(key[2])} {'is missing' if key[1].startswith('missing') else 'is no key of it'}"
+        )
+    return f"{about}{said[:1].lower()}{said[1:]}"

@@ -18,6 +18,7 @@ positions = ["PIN"]                # when it has closed at one of these
 boxes = [[-1, -1, -1, 1, 1, 4]]    # across the fingers, along the finger line, out from the tips: from and to
 """
 
+import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -26,10 +27,11 @@ from typing import Final
 
 import msgspec
 
+from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.plan.program import Fixture, Held, Part, Position
-from handeye.plan.tables import FixtureTable, HeldTable, PartTable, PositionTable, lower_first, read_tables
-from handeye.source import read_source
+from handeye.plan.tables import Fault, FixtureTable, HeldTable, PartTable, PositionTable, read_tables, unfit
+from handeye.source import Source, read_source
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,38 +64,63 @@ def load_taught(path: str | Path) -> Taught:
     source = read_source(path)
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
+        return _taught(tables)
     except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"{path} is not TOML: {lower_first(error)}") from None
+        raise InvalidInput(f"{path} is not TOML: {_spoilt(error)}") from None
     except RecursionError:
         raise InvalidInput(f"{path} is not TOML: nested too deeply") from None
     except msgspec.ValidationError as error:
-        raise InvalidInput(f"{path}: {lower_first(error)}") from None
+        raise InvalidInput(f"{path}: {unfit(error)}") from None
     except ValueError:  # of a whole number that Python does not read
         raise InvalidInput(f"{path}: a number has too many digits") from None
-    name = str(path)
-    positions = {n: t.si() for n, t in read_tables(name, "positions", tables.positions, PositionTable)}
-    parts = {n: t.si() for n, t in read_tables(name, "parts", tables.parts, PartTable)}
-    fixtures = {n: t.si() for n, t in read_tables(name, "fixtures", tables.fixtures, FixtureTable)}
-    held = {n: t.si() for n, t in read_tables(name, "held", tables.held, HeldTable)}
-    taught = Taught(positions=positions, parts=parts, fixtures=fixtures, held=held)
+    except Fault as fault:
+        line = _line(source, fault.key)
+        raise InvalidInput(f"{path}{'' if line is None else f':{line}'}: {fault.key}: {fault}") from None
+
+
+def _taught(tables: _File) -> Taught:
+    taught = Taught(
+        positions={n: t.si() for n, t in read_tables("positions", tables.positions, PositionTable)},
+        parts={n: t.si() for n, t in read_tables("parts", tables.parts, PartTable)},
+        fixtures={n: t.si() for n, t in read_tables("fixtures", tables.fixtures, FixtureTable)},
+        held={n: t.si() for n, t in read_tables("held", tables.held, HeldTable)},
+    )
     for fault in _faults(taught):
-        raise InvalidInput(f"{path}: {fault}")
+        raise fault
     return taught
 
 
-def _faults(taught: Taught) -> Iterator[str]:
+def _spoilt(error: tomllib.TOMLDecodeError) -> str:
+    """What a TOML reader says, as the rest of a sentence."""
+    said = str(error).replace("Cannot overwrite a value", "a name stands twice")
+    return said[:1].lower() + said[1:]
+
+
+def _line(source: Source, key: str) -> int | None:
+    """The line, from 1, on which an entry begins, if it is written as people write it."""
+    kind, name = map(re.escape, key.split(".", 1))
+    header = rf"\[\s*{kind}\s*\.\s*[\"']?{name}[\"']?\s*\]"
+    found = re.search(rf"^[ \t]*(?:{header}|[\"']?{name}[\"']?[ \t]*=)", source.text, re.MULTILINE)
+    return None if found is None else source.position(found.end())[0]
+
+
+def _faults(taught: Taught) -> Iterator[Fault]:
     """What is wrong between the entries of a file."""
     for name, position in taught.positions.items():
         if position.of is not None and position.of not in taught.parts:
-            yield f"positions.{name}: of = {position.of!r}, but there is no such part"
+            meant = suggestion(position.of, taught.parts)
+            said = f"there is no part {quoted(position.of)}"
+            yield Fault(f"positions.{name}", said if meant is None else f"{said}; {meant}")
     where: dict[str, str] = {}
     for name, held in taught.held.items():
         for at in held.positions:
             if at not in taught.positions:
-                yield f"held.{name}: there is no position {at!r} in this file"
+                yield Fault(f"held.{name}", f"there is no position {quoted(at)} in this file")
             if where.setdefault(at, name) != name:
-                yield f"held.{name}: at {at} the hand already holds {where[at]}"
-    solids: list[Fixture | Held] = [*taught.fixtures.values(), *taught.held.values()]
-    count = sum(len(solid.boxes) for solid in solids)
-    if count > MOST_BOXES:
-        yield f"it has {count} boxes; at most {MOST_BOXES} can be looked after"
+                yield Fault(f"held.{name}", f"at {at} the hand already holds {where[at]}")
+    count = 0
+    for key, solids in (("fixtures", taught.fixtures), ("held", taught.held)):
+        for name, solid in solids.items():
+            count += len(solid.boxes)
+            if count > MOST_BOXES:
+                yield Fault(f"{key}.{name}", f"more than {MOST_BOXES} boxes; no more can be looked after")

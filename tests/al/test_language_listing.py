@@ -29,7 +29,11 @@ def test_pin_insertion_compiles_as_printed() -> None:
 
 
 def test_pin_insertion_compiles_with_the_other_reading_of_its_last_line() -> None:
-    assert diagnose(LISTING.replace("OPEN  1 ", "WAIT  1 ")) == []
+    other = LISTING.replace("OPEN  1 ", "WAIT  1 ")
+    assert [d.code for d in diagnose(other)] == [
+        "wait-for-time"
+    ]  # accepted; but nobody would write it so today
+    assert compiled(other).steps[-1].operation == Wait(message="1")
 
 
 def test_steps_carry_line_and_statement() -> None:

@@ -56,47 +56,60 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[positions.A]\nat = [1, 2]", r"positions\.A: expected `array` of length 6, got 2 - at `\$\.at`"),
+        ("[positions.A]\nat = [1, 2]", r":1: positions\.A: at: 2 entries, and 6 are wanted"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, 0]\nto = 1",
-            r"positions\.A: object contains unknown field `to`",
+            r":1: positions\.A: `to` is no key of it",
         ),
-        ("[positions.A]", r"positions\.A: object missing required field `at`"),
+        ("[positions.A]", r":1: positions\.A: `at` is missing"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, nan]",
-            r"positions\.A: at has a number that is not below a million",
+            r":1: positions\.A: at has a number that is not below a million",
         ),
-        ("[positions.A]\nat = [0,0,0,0,0,0]\nof = 'B'", r"positions\.A: of = 'B', but there is no such part"),
-        ("[positions.'A B']\nat = [0,0,0,0,0,0]", r"positions\.A B: a name consists of letters, .*"),
-        ("[parts.B]\nat = [0,0,0,0]\nholes = [[0,0,0]]", r"parts\.B: the hole at \(0, 0\) has diameter 0"),
-        ("[parts.B]\nat = 'here'", r"parts\.B: expected `array`, got `str` - at `\$\.at`"),
-        ("[place.A]", r"object contains unknown field `place`"),
+        ("[positions.A]\nat = [0,0,0,0,0,0]\nof = 'B'", r":1: positions\.A: there is no part `B`"),
+        (
+            "[parts.LID]\nat = [0,0,0,0]\n[positions]\nA = {at=[0,0,0,0,0,0], of='LIDS'}",
+            r":4: positions\.A: there is no part `LIDS`; did you mean `LID`\?",
+        ),
+        ("[positions.'A B']\nat = [0,0,0,0,0,0]", r":1: positions\.A B: a name consists of letters, .*"),
+        (
+            "[parts.B]\nat = [0,0,0,0]\nholes = [[0,0,0]]",
+            r":1: parts\.B: the hole at \(0, 0\) has diameter 0",
+        ),
+        ("[parts.B]\nat = 'here'", r":1: parts\.B: at: a text stands where a list is wanted"),
+        ("[place.A]", r": `place` is no key of it"),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, 0]]",
-            r"fixtures\.F: the box from \(0, 0, 0\) to \(1, 1, 0\) has no inside",
+            r":1: fixtures\.F: the box from \(0, 0, 0\) to \(1, 1, 0\) has no inside",
         ),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, inf]]",
-            r"fixtures\.F: boxes has a number that is not below .*",
+            r":1: fixtures\.F: boxes has a number that is not below .*",
         ),
-        ("[fixtures.F]", r"fixtures\.F: object missing required field `boxes`"),
+        ("[fixtures.F]", r":1: fixtures\.F: `boxes` is missing"),
         (
             "[held.H]\npositions = ['A']\nboxes = []",
-            r"held\.H: there is no position 'A' in this file",
+            r":1: held\.H: there is no position `A` in this file",
         ),
         (
             f"{AT}[held.G]\npositions = ['A']\nboxes = []\n[held.H]\npositions = ['A']\nboxes = []",
-            r"held\.H: at A the hand already holds G",
+            r":6: held\.H: at A the hand already holds G",
         ),
         (
             f"[fixtures.F]\nboxes = {[[0, 0, 0, 1, 1, 1]] * 501}",
-            r"it has 501 boxes; at most 500 can be looked after",
+            r":1: fixtures\.F: more than 500 boxes; no more can be looked after",
         ),
-        ("positions = 3", r"expected `object`, got `int` - at `\$\.positions`"),
+        ("positions = 3", r": positions: a whole number stands where a table is wanted"),
     ],
 )
 def test_mistake_in_a_taught_file_is_named_with_its_key(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(InvalidInput, match=rf"taught\.toml: {message}$"):
+    with pytest.raises(InvalidInput, match=rf"taught\.toml{message}$"):
+        load_taught(write(tmp_path, text))
+
+
+def test_a_name_that_stands_twice_is_told_with_its_line(tmp_path: Path) -> None:
+    text = "[positions]\nA = {at = [1, 2, 3, 0, 0, 0]}\nA = {at = [1, 2, 3, 0, 0, 0]}\n"
+    with pytest.raises(InvalidInput, match=r"not TOML: a name stands twice \(at line 3, column \d+\)$"):
         load_taught(write(tmp_path, text))
 
 

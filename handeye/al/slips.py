@@ -1,0 +1,98 @@
+"""What people write by a slip, or because another language has it, and the word that helps them on."""
+
+import re
+from typing import Final
+
+from handeye.al.unitwords import no_units
+from handeye.diagnostics import LOOKALIKES
+
+_COMMENT: Final = "a comment begins with `;`"
+_BLANKS: Final = "operands stand behind their instruction, with nothing but blanks between"
+_VECTOR: Final = "a vector stands in brackets, as `[0 0 -1]`"
+_NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)"
+_PLAIN: Final = re.compile(_NUMBER, re.ASCII)
+_WITH_UNIT: Final = re.compile(rf"({_NUMBER})([A-Za-z]+)", re.ASCII)
+
+_ENDS: Final = "a program ends where its text ends"
+_TESTS: Final = "`SKIPE` and `SKIPN` test an error, and skip one instruction"
+_ROUNDS: Final = "`JUMP` goes back to a label; `ASSIGN` and `SOJG` count the rounds"
+_MACRO: Final = "`DEFINE` makes a macro, which ends with a blank line"
+_CALL: Final = "the name of a macro alone calls it"
+_PAUSE: Final = "nothing waits for a time; `WAIT` calls the operator"
+_STRAIGHT: Final = "`CHANGE` moves straight from where the hand is, `MOVE` goes to a position"
+_GRASP: Final = "`CLOSE` grasps, and `CENTER` does without pushing"
+
+_ELSEWHERE: Final[dict[str, str]] = {
+    **dict.fromkeys(("END", "ENDPROGRAM", "EXIT", "HALT", "QUIT"), _ENDS),
+    **dict.fromkeys(
+        ("RETURN", "RET", "ENDDEF", "ENDPROC", "ENDSUB"), f"a macro ends with a blank line; {_ENDS}"
+    ),
+    **dict.fromkeys(("IF", "THEN", "ELSE", "ELSEIF", "ENDIF", "CASE", "SWITCH"), _TESTS),
+    **dict.fromkeys(("FOR", "WHILE", "LOOP", "REPEAT", "UNTIL", "DO", "NEXT"), _ROUNDS),
+    **dict.fromkeys(("GOTO", "BRANCH", "JMP"), "`JUMP` goes on at a label"),
+    **dict.fromkeys(("CALL", "GOSUB", "PERFORM"), _CALL),
+    **dict.fromkeys(("MACRO", "PROC", "PROCEDURE", "SUB", "SUBROUTINE", "FUNCTION", "DEF"), _MACRO),
+    **dict.fromkeys(("INCLUDE", "IMPORT", "USE"), "`REQUIRE` reads another file"),
+    **dict.fromkeys(("DELAY", "PAUSE", "SLEEP", "DWELL", "TIMER"), _PAUSE),
+    **dict.fromkeys(("PRINT", "SAY", "TYPE", "MESSAGE"), "`WAIT` tells the operator something, and stops"),
+    **dict.fromkeys(("MOVEL", "MOVES", "MOVEJ", "LINEAR", "APPRO", "DEPART", "LIFT", "LOWER"), _STRAIGHT),
+    **dict.fromkeys(("GRASP", "GRIP", "GRAB", "PICK", "CLAMP"), _GRASP),
+    **dict.fromkeys(("RELEASE", "LETGO", "UNGRASP", "DROP"), "`OPEN` lets go"),
+    **dict.fromkeys(("HOME", "REST"), "`PARK` goes to the position called PARK"),
+    **dict.fromkeys(("SPEED", "VELOCITY"), "a speed stands last in a `CHANGE`, in inches a second"),
+    **dict.fromkeys(("LET", "SET", "VAR", "INT"), "`ASSIGN` sets a counter"),
+    **dict.fromkeys(("POINT", "FRAME", "POSE"), "`TRANS` writes a position"),
+}
+"""Words of other languages, and how it is said in this one."""
+
+
+def elsewhere(word: str) -> str | None:
+    """How that is said here which another language says with this word; None if no such word is known."""
+    return _ELSEWHERE.get(word.upper())
+
+
+def alone(word: str) -> str | None:
+    """What to say of an instruction that stands there without an operand, as another language has it."""
+    return f"it modifies the motion after it; {_ENDS}" if word == "STOP" else None
+
+
+def with_digits(text: str) -> str | None:
+    """The number that is meant by a text in which letters stand for digits they look like; None: there is none."""
+    right = text.translate(LOOKALIKES)
+    return right if right != text and _PLAIN.fullmatch(right) else None
+
+
+def letters_for_digits(text: str) -> str | None:
+    """What to say of a text in which letters stand for digits; None if they do not."""
+    right = with_digits(text)
+    return None if right is None else f"a digit is wanted, not a letter that looks like it: `{right}`"
+
+
+def with_unit(text: str) -> tuple[str, str] | None:
+    """A unit written against its number, and what to say of it; None if that is not what the text is."""
+    found = _WITH_UNIT.fullmatch(text)
+    said = None if found is None else no_units(found[2])
+    return None if found is None or said is None else (found[2], said)
+
+
+def strange(text: str) -> str | None:
+    """What to say of characters that are no part of the language; None if nothing helps."""
+    first = text[0]
+    if first in ":#/'":
+        return _COMMENT
+    if first in "({<" or text[-1] in ")}>":
+        inside = text.strip("({<>})")
+        return _VECTOR if not inside or _PLAIN.fullmatch(inside) else _BLANKS
+    if first == "=":
+        return _BLANKS
+    if first in "−–—":
+        return f"this looks like a minus sign and is none: `-{text[1:]}`"
+    if first in "“”„«»‘’":
+        return 'words stand in straight quotes, as `"this"`'
+    if first in "+-" and text[1:2].isalpha():
+        return letters_for_digits(text) or f"a name has no sign; {_VECTOR}"
+    if first == "\N{NO-BREAK SPACE}":
+        return "this looks like a blank and is none: write an ordinary one"
+    if first.isalpha():
+        return "names consist of letters from A to Z, digits and `_`"
+    return None
