@@ -123,7 +123,8 @@ class _Reader(msgspec.Struct, gc=False):
         if self.definition.axes and self.tokens and self.tokens[0].kind is NUMBER:
             return (self.axes(),)
         for operand in self.definition.operands:
-            self.values.append(self.operand(operand))
+            left_out = operand.optional and self.at == len(self.tokens)
+            self.values.append(None if left_out else self.operand(operand))
         if self.at < len(self.tokens):
             self.too_many()
         if self.values and self.values[0] is None:
@@ -138,8 +139,6 @@ class _Reader(msgspec.Struct, gc=False):
                 read = self.tokens[self.at - 1]
                 return Name(operand.word, read.start, read.end)
         if self.at == len(self.tokens):
-            if operand.optional and not operand.word:
-                return None
             raise self.missing(operand)
         token = self.tokens[self.at]
         if operand.nil and token.text.upper() == NIL:
@@ -156,8 +155,6 @@ class _Reader(msgspec.Struct, gc=False):
 
     def takes(self, word: str) -> bool:
         """Whether a word of the language stands here; it is read."""
-        if self.at == len(self.tokens):
-            return False
         token = self.tokens[self.at]
         found = token.kind is NAME and token.text.upper() == word
         self.at += found
