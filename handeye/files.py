@@ -1,8 +1,10 @@
 """Files are read if they are files of a sensible size, and written whole or not at all."""
 
 import os
+import re
 import stat
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -10,6 +12,20 @@ from handeye.errors import InvalidInput
 
 LARGEST: Final = 1 << 30
 """Bytes: a hundred times what the trace of a whole run takes."""
+
+_FRONT: Final = 1024
+"""Bytes of a file by which it is known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of file that this program writes where somebody says."""
+
+    name: str
+    begins: bytes
+    """How each of them begins: a regular expression."""
+    ending: str = ""
+    """What its name has to end with, if other programs go by that."""
 
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
@@ -44,6 +60,36 @@ def beside(path: Path, ending: str) -> Path:
     if not path.name:
         raise InvalidInput(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
+
+
+def check_place(path: Path, kind: Kind) -> None:
+    """Look whether a file of a kind may be written, and can be: it replaces none of another kind.
+
+    Raises:
+        InvalidInput: it may not, or cannot.
+    """
+    if not path.name.lower().endswith(kind.ending):
+        raise InvalidInput(f"{path}: the name of the {kind.name} has to end in {kind.ending}")
+    try:
+        if path.is_file():
+            with path.open("rb") as file:
+                front = file.read(_FRONT)
+            if front and not re.match(kind.begins, front):
+                raise InvalidInput(f"{path} is there already and is no {kind.name}; it is left alone")
+        with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
+            pass
+    except OSError as error:
+        raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+
+
+def write_over(path: Path, data: bytes, kind: Kind) -> None:
+    """Write a file of a kind, as `write_whole`, where `check_place` has nothing against it.
+
+    Raises:
+        InvalidInput: as both.
+    """
+    check_place(path, kind)
+    write_whole(path, data)
 
 
 def write_whole(path: Path, data: bytes) -> None:

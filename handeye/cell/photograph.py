@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from handeye.cell.opengl import MOST_GEOMS, context
 from handeye.errors import InvalidInput
+from handeye.files import Kind
 
+PNG: Final = Kind("PNG picture", rb"\x89PNG\r\n\x1a\n", ending=".png")
 LARGEST: Final = 4096
 """Most points along a side."""
 FINE_SHADOW: Final = 4096

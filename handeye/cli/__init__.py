@@ -4,11 +4,11 @@ import os
 import sys
 from typing import NoReturn
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, Parameter
 
 from handeye import __version__
 from handeye.cli import benches, doing, editing, measuring, plans, runs, scripts, traces
-from handeye.cli.common import complain, notes
+from handeye.cli.common import complain, notes, screen
 from handeye.errors import HandeyeError
 
 app = App(
@@ -16,6 +16,9 @@ app = App(
     version=__version__,
     help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.",
     suppress_keyboard_interrupt=False,
+    default_parameter=Parameter(negative=""),
+    console=screen,
+    error_console=notes,
 )
 for commands in (runs, doing, scripts, editing, plans, traces, measuring, benches):
     commands.register(app)
@@ -23,6 +26,7 @@ for commands in (runs, doing, scripts, editing, plans, traces, measuring, benche
 
 def main() -> NoReturn:
     """Run the command line; the exit code says how it went."""
+    _open_streams()
     try:
         code = app(result_action="return_value", exit_on_error=False)
     except CycloptsError:
@@ -40,3 +44,10 @@ def main() -> NoReturn:
         complain(f"{error.filename or 'standard output'}: {error.strerror}")
         sys.exit(2)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _open_streams() -> None:
+    """Put the null device where a standard stream was closed before we came."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115 - it is open for good

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Seed, compiled, notes, screen, world
+from handeye.cli.common import Camera, Json, Seed, Whole, compiled, notes, screen, world
 from handeye.errors import InvalidInput
 from handeye.resources import plans
 
@@ -72,7 +72,7 @@ def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
 
 def language(
     *,
-    times: Annotated[int, Parameter(help="How often each is measured.")] = 15,
+    times: Annotated[Whole, Parameter(help="How often each is measured.")] = 15,
     json: Json = False,
 ) -> int:
     """Say how long a check, a keystroke and a plan make people wait, each time on a text not seen before.

@@ -1,13 +1,14 @@
 """What the commands share: consoles, options, scripts and their diagnostics."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
-from cyclopts import Parameter
+from cyclopts import Parameter, Token
 from rich.console import Console
 
 from handeye.al import compile_text, read_script
-from handeye.diagnostics import LIMIT, Diagnostic, as_json, visible
+from handeye.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
 from handeye.files import beside
@@ -16,7 +17,22 @@ from handeye.plan.taught import Taught, load_taught
 from handeye.source import Source
 
 CameraKind = Literal["auto", "gl", "ray"]
-Seed = Annotated[int, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
+
+
+def _whole(_: type, tokens: Sequence[Token]) -> int:
+    """A whole number as typed.
+
+    Raises:
+        ValueError: it is none, as 1.5 is.
+    """
+    try:
+        return int(tokens[0].value)
+    except ValueError:
+        raise ValueError(f"{quoted(tokens[0].value)} is not a whole number") from None
+
+
+Whole = Annotated[int, Parameter(converter=_whole)]
+Seed = Annotated[Whole, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
 Camera = Annotated[
     CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")
 ]

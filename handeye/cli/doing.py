@@ -10,7 +10,7 @@ from handeye.cli.common import Camera, Json, Seed, notes, screen, world
 from handeye.cli.panic import PanicButton
 from handeye.cli.typing import typed_lines
 from handeye.errors import InvalidInput
-from handeye.files import beside
+from handeye.files import beside, check_place
 from handeye.plan.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import read_source
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 TaughtFile = Annotated[
     Path | None, Parameter(name="--taught", help="File of taught positions; by default the water pump's.")
 ]
-Looking = Annotated[bool, Parameter(name="--look", negative="", help="Set the camera up first.")]
+Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first.")]
 From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell as this checkpoint has it.")]
 Keep = Annotated[Path | None, Parameter(help="Keep the cell as it is at the end in this checkpoint.")]
 
@@ -55,10 +55,12 @@ def do(
     from handeye.doing.answers import converse
     from handeye.doing.commands import Typist
     from handeye.doing.repl import Repl
-    from handeye.stepping.checkpoint_file import write_checkpoint
+    from handeye.stepping.checkpoint_file import CHECKPOINT, write_checkpoint
 
     if not all(map(str.strip, functions or ("",))):
         raise InvalidInput('a function is wanted, such as `handeye do "OPEN 3"`')
+    if keep is not None:
+        check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
         workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
         lines = (f"DO {function}" for function in functions)
@@ -71,6 +73,7 @@ def do(
 
 def repl(
     script: Path | None = None,
+    /,
     *,
     seed: Seed = 0,
     taught: TaughtFile = None,
@@ -108,6 +111,7 @@ def repl(
 
 def teach(
     file: Path,
+    /,
     *,
     seed: Seed = 0,
     first: From = None,

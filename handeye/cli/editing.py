@@ -71,7 +71,7 @@ def _standard_input() -> Source:
         ) from None
 
 
-def explain(word: str | None = None) -> int:
+def explain(word: str | None = None, /) -> int:
     """Explain the code of a diagnostic, the number of an error, or an instruction; without a word, list the codes."""
     from handeye.editor.explain import explanation, listing
 

@@ -2,15 +2,17 @@
 
 import tempfile
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Seed, compiled, say, screen, world
+from handeye.cli.common import Camera, Seed, Whole, compiled, say, screen, world
 from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.files import Kind, check_place, write_over
 from handeye.resources import plans
 from handeye.units import DEGREE, INCH
+
+RESULTS: Final = Kind("list of results", rb'\{"assembled":')
 
 
 def register(app: App) -> None:
@@ -28,17 +30,18 @@ def render(
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
     camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
-    width: int = 1280,
-    height: int = 960,
+    width: Whole = 1280,
+    height: Whole = 960,
     seed: Seed = 0,
 ) -> int:
     """Render a picture of the work cell."""
     from handeye.cell.imperfection import World
-    from handeye.cell.photograph import photograph_png
+    from handeye.cell.photograph import PNG, photograph_png
     from handeye.cell.simulated import SimulatedCell
 
+    check_place(output, PNG)
     cell = SimulatedCell(World.sample(world(seed)), camera="ray")
-    write_whole(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height))
+    write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0
 
@@ -46,7 +49,7 @@ def render(
 def assembly_trials(
     *,
     seeds: Annotated[str, Parameter(help="Worlds to try: a range such as 0-19, or one number.")] = "0-19",
-    jobs: Annotated[int, Parameter(help="Processes at a time.")] = 2,
+    jobs: Annotated[Whole, Parameter(help="Processes at a time.")] = 2,
     camera: Camera = "auto",
     out: Annotated[Path | None, Parameter(help="File for the results, one JSON object a line.")] = None,
 ) -> int:
@@ -60,6 +63,8 @@ def assembly_trials(
 
     chosen = _range(seeds)
     _some(jobs, "process")
+    if out is not None:
+        check_place(out, RESULTS)
     results = []
     for result in assemble_many(compiled(plans() / "water_pump.al"), chosen, camera=camera, jobs=jobs):
         results.append(result)
@@ -73,16 +78,16 @@ def assembly_trials(
     silent = sum(result.exit_code == 3 for result in results)
     screen.print(f"{done} of {len(results)} assembled, {silent} silent failures")
     if out is not None:
-        write_whole(
-            out, b"".join(msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
-        )
+        lines = (msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
+        write_over(out, b"".join(lines), RESULTS)
     return 3 if silent else 0
 
 
 def base_vision_trials(
-    count: int = 100,
+    count: Whole = 100,
+    /,
     *,
-    seed: Annotated[int, Parameter(help="Of the first world.")] = 0,
+    seed: Annotated[Whole, Parameter(help="Of the first world.")] = 0,
     eye: Annotated[
         Literal["calibrated", "drawn", "true"], Parameter(help="What the program knows of its camera.")
     ] = "calibrated",
@@ -108,9 +113,10 @@ def base_vision_trials(
 
 
 def gasket_vision_trials(
-    count: int = 50,
+    count: Whole = 50,
+    /,
     *,
-    seed: Annotated[int, Parameter(help="Of the first world.")] = 0,
+    seed: Annotated[Whole, Parameter(help="Of the first world.")] = 0,
     camera: Camera = "auto",
 ) -> int:
     """Check the gasket in many worlds: on properly, shifted, absent."""
@@ -144,10 +150,11 @@ def breaking_trials(
             "ten ways back."
         ),
     ],
+    /,
     *,
     seed: Seed = 0,
-    count: Annotated[int, Parameter(help="How often Ctrl-C is pressed.")] = 20,
-    jobs: Annotated[int, Parameter(help="Processes at a time.")] = 2,
+    count: Annotated[Whole, Parameter(help="How often Ctrl-C is pressed.")] = 20,
+    jobs: Annotated[Whole, Parameter(help="Processes at a time.")] = 2,
 ) -> int:
     """Break runs off, go on with them, and see whether they come out as if nothing had happened.
 

@@ -2,20 +2,18 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, say
 from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.files import Kind, write_over
 from handeye.plan.store import read_plan
 
 StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or the start of it.")]
-Output = Annotated[
-    Path | None, Parameter(name=["--output", "-o"], help="Where it goes; else standard output.")
-]
+DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
 
 
 def register(app: App) -> None:
@@ -26,10 +24,14 @@ def register(app: App) -> None:
 
 def inspect(
     file: Path,
+    /,
     *,
     stage: StageName = None,
     graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow instead.")] = None,
-    output: Output = None,
+    output: Annotated[
+        Path | None,
+        Parameter(name=["--output", "-o"], help="Where the drawing goes; else standard output."),
+    ] = None,
     json: Json = False,
 ) -> int:
     """Lay a plan open: stages, steps, times, guards, forces, and what each step depends on."""
@@ -44,7 +46,7 @@ def inspect(
     number = None if stage is None else stage_number(stage, plan) + 1
     if graph is not None:
         shown = flow(plan, number)
-        _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output)
+        _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output, DRAWINGS[graph])
     elif output is not None:
         raise InvalidInput("--output is for a drawing; say --graph svg or --graph dot")
     elif json:
@@ -57,7 +59,7 @@ def inspect(
     return 0
 
 
-def diff(before: Path, after: Path, *, json: Json = False) -> int:
+def diff(old: Path, new: Path, /, *, json: Json = False) -> int:
     """Tell what a change in a script did: two plans are compared.
 
     Exit code 0: both do the same; 1: they do not; 2: bad input.
@@ -65,7 +67,7 @@ def diff(before: Path, after: Path, *, json: Json = False) -> int:
     from handeye.plan.difference import difference
     from handeye.plan.difference_text import difference_text
 
-    found = difference(read_plan(before), read_plan(after))
+    found = difference(read_plan(old), read_plan(new))
     if json:
         _json(found)
     else:
@@ -74,11 +76,16 @@ def diff(before: Path, after: Path, *, json: Json = False) -> int:
     return 0 if found.same else 1
 
 
-def schema(*, output: Output = None) -> int:
+def schema(
+    *,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Where it goes; else standard output.")
+    ] = None,
+) -> int:
     """Print the JSON schema of the plan format."""
-    from handeye.plan.schema import plan_schema
+    from handeye.plan.schema import SCHEMA, plan_schema
 
-    _write(plan_schema(), output)
+    _write(plan_schema(), output, SCHEMA)
     return 0
 
 
@@ -87,9 +94,9 @@ def _json(record: msgspec.Struct) -> None:
     sys.stdout.flush()
 
 
-def _write(text: str, output: Path | None) -> None:
+def _write(text: str, output: Path | None, kind: Kind) -> None:
     if output is not None:
-        write_whole(output, text.encode())
+        write_over(output, text.encode(), kind)
         return
     sys.stdout.buffer.write(text.encode())
     sys.stdout.flush()

@@ -21,7 +21,7 @@ Until = Annotated[str | None, Parameter(help="Stop before this step, by its numb
 Break = Annotated[
     list[str] | None,
     Parameter(
-        name="--break", negative="", consume_multiple=False,
+        name="--break", consume_multiple=False,
         help="Stop at a label, a stage, a line (58, or pins.al:3), an instruction word, or behind `error:N`; "
         "may be repeated.",
     ),
@@ -73,6 +73,7 @@ def assemble(
 
 def run(
     file: Path,
+    /,
     *,
     seed: Seed = 0,
     judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = False,
@@ -129,8 +130,11 @@ def run(
 
 def resume(
     path: Path,
+    /,
     *,
-    judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = True,
+    judge: Annotated[
+        bool, Parameter(negative="--no-judge", help="Have the referee look at the pump afterwards.")
+    ] = True,
     json: Json = False,
     out: Annotated[Path | None, Parameter(help="Folder to keep the run in, for a checkpoint file.")] = None,
     to: To = None,

@@ -27,10 +27,11 @@ def register(app: App) -> None:
 
 def check(
     file: Path,
+    /,
     *,
     json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
     strict: Annotated[
-        bool, Parameter(name="--strict-1973", negative="", help="Refuse words and operands that are ours.")
+        bool, Parameter(name="--strict-1973", help="Refuse words and operands that are ours.")
     ] = False,
     watch: Annotated[
         bool, Parameter(help="Check again whenever the script, what it requires or what is taught changes.")
@@ -112,7 +113,7 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
     return 0
 
 
-def plan(file: Path, *, output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None) -> int:
+def plan(file: Path, /, *, output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None) -> int:
     """Compile a script into a plan.
 
     Parameters
@@ -130,7 +131,7 @@ def plan(file: Path, *, output: Annotated[Path | None, Parameter(name=["--output
 
 
 def stages(
-    file: Path, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
+    file: Path, /, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
 ) -> int:
     """List the stages of a plan and their steps, with lines of the source."""
     from handeye.stepping.listing import listing, listing_text

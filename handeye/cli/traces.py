@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, note, notes, say, screen
+from handeye.cli.common import Json, Whole, note, notes, say, screen
 from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.files import check_place, write_over
 
 if TYPE_CHECKING:
     from handeye.trace.reading import Trace
@@ -27,7 +27,7 @@ def register(app: App) -> None:
     app.command(trace)
 
 
-def show(file: File, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
+def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
     """Tell what happened in a run, and why."""
     from handeye.trace.account import account
     from handeye.work.events import to_line
@@ -42,7 +42,7 @@ def show(file: File, *, json: Annotated[bool, Parameter(help="Events as JSON lin
     return 0
 
 
-def stats(file: File, *, json: Json = False) -> int:
+def stats(file: File, /, *, json: Json = False) -> int:
     """Count and time what happened in a run, stage by stage."""
     from handeye.trace.stats import statistics, statistics_table
 
@@ -58,19 +58,21 @@ def stats(file: File, *, json: Json = False) -> int:
 
 def photograph(
     file: File,
+    /,
     *,
     at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` tells them.")],
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
     camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
-    width: int = 1280,
-    height: int = 960,
+    width: Whole = 1280,
+    height: Whole = 960,
 ) -> int:
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
     from handeye.cell.imperfection import World
-    from handeye.cell.photograph import photograph_png
+    from handeye.cell.photograph import PNG, photograph_png
     from handeye.cell.posed import posed
     from handeye.trace.replay import Replay
 
+    check_place(output, PNG)
     trace, _ = _read(file)
     if trace is None:
         raise InvalidInput(
@@ -78,13 +80,13 @@ def photograph(
         )
     state = Replay(trace).seek(at)
     model, data = posed(World.sample(trace.head.seed), state.poses)
-    write_whole(output, photograph_png(model, data, camera, width, height))
+    write_over(output, photograph_png(model, data, camera, width, height), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {state.time:.2f} s{doing}")
     return 0
 
 
-def verify(file: File) -> int:
+def verify(file: File, /) -> int:
     """Carry out a recorded run again and compare.
 
     What operators and experimenters did is done again; a run that was interrupted is compared up to its last whole

@@ -5,9 +5,11 @@ from typing import Final
 
 import msgspec
 
+from handeye.files import Kind
 from handeye.plan.plan import VERSION, Plan
 
 DIALECT: Final = "https://json-schema.org/draft/2020-12/schema"
+SCHEMA: Final = Kind("JSON schema", rb'\{\s*"\$schema":')
 
 
 def plan_schema() -> str:

@@ -10,11 +10,12 @@ from typing import Any, Final
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.files import read_whole, write_whole
+from handeye.files import Kind, read_whole, write_over
 from handeye.plan.migrations import migrated, oldest
 from handeye.plan.plan import VERSION, Plan
 from handeye.plan.soundness import faults
 
+PLAN: Final = Kind("plan", rb'\{\s*"format": "handeye plan"')
 _LATER: Final = frozenset({"via", "spin", "moment", "touch"})
 """Fields that came after plans had been kept: written only where they say something, so that those plans, and their
 digests, stay as they are."""
@@ -104,8 +105,12 @@ def read_plan(path: Path) -> Plan:
 
 
 def write_plan(path: Path, plan: Plan) -> None:
-    """Write a plan, whole or not at all."""
-    write_whole(path, encode(plan).encode())
+    """Write a plan, whole or not at all, over nothing but a plan.
+
+    Raises:
+        InvalidInput: it cannot be written there.
+    """
+    write_over(path, encode(plan).encode(), PLAN)
 
 
 def plan_digest(plan: Plan) -> str:

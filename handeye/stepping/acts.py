@@ -7,9 +7,10 @@ from typing import Final
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
+from handeye.files import check_place
 from handeye.stepping.advance import Pause
 from handeye.stepping.breakpoints import ToStage, breakpoint
-from handeye.stepping.checkpoint_file import read_head, write_checkpoint
+from handeye.stepping.checkpoint_file import CHECKPOINT, write_checkpoint
 from handeye.stepping.experiments import set_position, set_saved
 from handeye.stepping.hands import Hands
 from handeye.stepping.places import named_place, text_of
@@ -170,7 +171,7 @@ def checkpoint(hands: Hands, rest: str) -> Told:
     if rest:
         try:
             path = Path(rest).expanduser()
-            _check_replaceable(path)
+            check_place(path, CHECKPOINT)
             write_checkpoint(path, hands.runner.checkpoint())
         except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
             raise InvalidInput(f"{quoted(rest)} cannot be a file's name") from None
@@ -179,15 +180,6 @@ def checkpoint(hands: Hands, rest: str) -> Told:
     if kept is None:
         raise InvalidInput("the checkpoints of this run are kept nowhere; name a file")
     return Told(file=str(kept), said=f"kept in {kept}")
-
-
-def _check_replaceable(path: Path) -> None:
-    """Raises InvalidInput for a file that is something else than a checkpoint."""
-    if path.exists():
-        try:
-            read_head(path)
-        except InvalidInput:
-            raise InvalidInput(f"{path} is there already and is no checkpoint; it is left alone") from None
 
 
 def leave(hands: Hands, _: str) -> Told:

@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from handeye.errors import InvalidInput
-from handeye.files import read_whole, write_whole
+from handeye.files import Kind, read_whole, write_whole
 from handeye.plan.program import Record
 from handeye.plan.store import decode as decode_plan
 from handeye.plan.store import encode as encode_plan
@@ -27,6 +27,7 @@ from handeye.work.events import AnyEvent, RunStarted, StageFinished, StageStarte
 MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 1
 ENDING: Final = ".checkpoint"
+CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
 LARGEST: Final = 1 << 28
 """Bytes of a state, decompressed: a hundred times what a run of the water pump needs."""
 _KINDS: Final = ("<f8", "|u1")

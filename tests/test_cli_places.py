@@ -1,0 +1,90 @@
+"""Where a command writes: it replaces nothing but what it would have written itself."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Command
+
+from handeye.files import Kind, check_place, write_over
+
+Planned = Callable[[str], str]
+
+OURS = "; somebody's own\nOPEN 1\n"
+WRITERS = {
+    "plan": ("plan", "job.al", "-o", "kept.al"),
+    "JSON schema": ("schema", "-o", "kept.al"),
+    "graph": ("inspect", "job.plan.json", "--graph", "dot", "-o", "kept.al"),
+    "checkpoint": ("do", "OPEN 1", "--keep", "kept.al"),
+    "list of results": ("trials", "assembly", "--out", "kept.al"),
+    "SVG drawing": ("inspect", "job.plan.json", "--graph", "svg", "-o", "kept.svg"),
+    "PNG picture": ("render", "-o", "kept.png"),
+    "PNG picture of a run": ("trace", "photograph", "run", "--at", "1", "-o", "kept.png"),
+}
+"""What is written, and the command that is to write it over a file of somebody's."""
+
+
+@pytest.mark.parametrize("what", WRITERS)
+def test_a_file_of_another_kind_is_left_alone(command: Command, planned: Planned, what: str) -> None:
+    planned("OPEN 1")
+    kept = Path(WRITERS[what][-1])
+    kept.write_text(OURS, encoding="utf-8")
+    code, out, err = command(*WRITERS[what])
+    kind = what.removesuffix(" of a run")
+    assert (code, out) == (2, "")
+    assert err == f"handeye: {kept} is there already and is no {kind}; it is left alone\n"
+    assert kept.read_text(encoding="utf-8") == OURS
+
+
+@pytest.mark.parametrize("what", ["checkpoint", "list of results", "PNG picture", "PNG picture of a run"])
+def test_a_place_that_cannot_be_written_is_told_before_anything_is_done(command: Command, what: str) -> None:
+    *words, name = WRITERS[what]
+    code, out, err = command(*words, f"absent/{name}")
+    assert (code, out) == (2, "")
+    assert err == f"handeye: absent/{name} cannot be written: No such file or directory\n"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("plan", "job.al", "-o", "it"),
+        ("schema", "-o", "it"),
+        ("inspect", "job.plan.json", "--graph", "dot", "-o", "it"),
+        ("inspect", "job.plan.json", "--graph", "svg", "-o", "it.svg"),
+    ],
+)
+def test_what_was_written_once_is_written_again(
+    command: Command, planned: Planned, words: tuple[str, ...]
+) -> None:
+    planned("OPEN 1")
+    assert [command(*words)[0] for _ in range(2)] == [0, 0]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("render", "-o", "it.jpg"), "it.jpg: the name of the PNG picture has to end in .png"),
+        (
+            ("inspect", "job.plan.json", "--graph", "svg", "-o", "it.png"),
+            "it.png: the name of the SVG drawing has to end in .svg",
+        ),
+    ],
+)
+def test_no_picture_gets_a_name_that_says_something_else(
+    command: Command, planned: Planned, words: tuple[str, ...], sentence: str
+) -> None:
+    planned("OPEN 1")
+    assert command(*words) == (2, "", f"handeye: {sentence}\n")
+    assert not Path(words[-1]).exists()
+
+
+def test_an_empty_file_may_become_anything(tmp_path: Path) -> None:
+    place = tmp_path / "made"
+    place.touch()
+    write_over(place, b"list 1\n", Kind("list", b"list "))
+    assert place.read_bytes() == b"list 1\n"
+
+
+def test_to_look_at_a_place_leaves_nothing_there(tmp_path: Path) -> None:
+    check_place(tmp_path / "made", Kind("list", b"list "))
+    assert list(tmp_path.iterdir()) == []
