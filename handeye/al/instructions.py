@@ -430,7 +430,17 @@ _TABLE = (
 )
 
 INSTRUCTIONS: Final[dict[str, Instruction]] = {instruction.op: instruction for instruction in _TABLE}
-"""Every instruction, by its word. `DEFINE`, which makes macros, is the parser's own."""
+"""Every instruction, by its word."""
+DEFINE: Final = Instruction(
+    op="DEFINE",
+    group=RUN,
+    help="begin a macro; a blank line ends it",
+    operands=(_name("name", Refers.NEW),),
+    role=Role.DECLARATION,
+)
+"""Makes macros: the parser's own."""
+EXPLAINED: Final = INSTRUCTIONS | {DEFINE.op: DEFINE}
+"""All that there is a page of the manual for."""
 FREE: Final = frozenset(i.op for i in _TABLE if any(operand.free for operand in i.operands))
 """Instructions that take words up to the end of the line."""
 

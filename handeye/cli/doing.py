@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Seed, notes, screen, world
+from handeye.cli.common import Camera, Json, Seed, note, notes, screen, world
 from handeye.cli.panic import PanicButton
 from handeye.cli.typing import typed_lines
 from handeye.errors import InvalidInput
@@ -64,8 +64,10 @@ def do(
     with PanicButton() as panic:
         workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
         lines = (f"DO {function}" for function in functions)
-        typist = Typist(Repl(workplace=workplace, folder=Path()))
-        failed = converse(typist, lines, _say, json=json, strict=True)
+        repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
+        failed = converse(Typist(repl), lines, _say, json=json, strict=True)
+    if failed is not None and "modifier-without-motion" in {d.code for d in failed.diagnostics}:
+        note("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE Z -1'")
     if keep is not None and (failed is None or not failed.refused):
         write_checkpoint(keep, workplace.checkpoint())
     return _code(failed)
@@ -143,7 +145,7 @@ def teach(
     if teacher.unsaved:
         notes.print(f"not saved: {', '.join(teacher.unsaved)}", markup=False, soft_wrap=True)
     refused = failed is not None and not sys.stdin.isatty()
-    return 2 if refused or (teacher.unsaved and not sys.stdin.isatty()) else 0
+    return 2 if refused or teacher.unsaved else 0
 
 
 def _workplace(
@@ -169,6 +171,13 @@ def _workplace(
 
 def _given(file: Path | None) -> Taught | None:
     return None if file is None else load_taught(file)
+
+
+def _kept(file: Path | None) -> str:
+    """How to go on when the operator was called and nobody is there to be asked."""
+    if file is None:
+        return "with --keep FILE the cell would be kept as it is now, and --from FILE goes on from there"
+    return f"`handeye do --from {file}` goes on from there"
 
 
 def _code(failed: "Answer | None") -> int:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.al.sewing import read_script
 from handeye.diagnostics import quoted, suggestion
@@ -135,9 +135,9 @@ def _quit(repl: Repl, _: str) -> Answer:
 
 def _help(repl: Repl, rest: str) -> Answer:
     if rest:
-        definition = INSTRUCTIONS.get(rest.upper())
+        definition = EXPLAINED.get(rest.upper())
         if definition is None:
-            known = suggestion(rest, INSTRUCTIONS)
+            known = suggestion(rest, EXPLAINED)
             raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
         return answer(repl.workplace, said=f"{definition.usage}: {definition.help}")
     width = max(len(command.usage) for command in _TABLE)
@@ -164,6 +164,7 @@ _TABLE: Final = (
     Command(usage="SKIP", act=_answer("skip"), help="leave out the rest of the stage"),
     Command(usage="HELP [INSTRUCTION]", act=_help, help="say this, or what an instruction does"),
     Command(usage="QUIT", act=_quit, help="leave"),
+    Command(usage="EXIT", act=_quit, help="leave, too"),
 )
 COMMANDS: Final = {command.name: command for command in _TABLE}
 """By their words."""

@@ -58,7 +58,7 @@ class Pupil:
         if not words:
             return answer(self.teacher.workplace)
         word, rest = words[0].lower(), words[1:]
-        if word == "quit":
+        if word in ("quit", "exit"):
             return self._quit()
         self.warned = False
         if re.fullmatch(r"j[1-6]", word):

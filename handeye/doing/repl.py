@@ -18,10 +18,7 @@ from handeye.work.executor import Choice
 
 MOST: Final = 500
 """Lines that are collected at most: all of them are checked again with each that is added."""
-_ADVICE: Final = {
-    "operator": "PROCEED, RETRY or SKIP goes on from there; a function leaves it",
-    "panic": "the step that was broken off is undone",
-}
+_ANSWERS: Final = "PROCEED, RETRY or SKIP goes on from there; a function leaves it"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -31,6 +28,8 @@ class Repl:
     workplace: Workplace
     folder: Path
     """Where programs are looked for by name."""
+    called: str = _ANSWERS
+    """What is said when the operator was called."""
     functions: list[str] = field(default_factory=list)
     """The lines collected."""
     over: bool = False
@@ -58,7 +57,7 @@ class Repl:
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:
         """Plan a text and carry it out; what there is to say to a stop is told."""
-        return _advised(carry_out(self.workplace, source, alone=alone))
+        return self._advised(carry_out(self.workplace, source, alone=alone))
 
     def go_on(self, choice: Choice) -> Answer:
         """Answer for the operator, who was called.
@@ -68,9 +67,11 @@ class Repl:
         """
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
-        return _advised(Answer(time=self.workplace.runner.run.time, said=said))
+        return self._advised(Answer(time=self.workplace.runner.run.time, said=said))
 
-
-def _advised(given: Answer) -> Answer:
-    advice = _ADVICE.get(given.stopped or "")
-    return given if advice is None else replace(given, said=msgspec.structs.replace(given.said, said=advice))
+    def _advised(self, given: Answer) -> Answer:
+        advices = {"operator": self.called, "panic": "the step that was broken off is undone"}
+        advice = advices.get(given.stopped or "")
+        return (
+            given if advice is None else replace(given, said=msgspec.structs.replace(given.said, said=advice))
+        )

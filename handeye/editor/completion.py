@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from handeye.al.definition import NIL, Operand, Refers
-from handeye.al.instructions import AXES, INSTRUCTIONS
+from handeye.al.instructions import AXES, EXPLAINED
 from handeye.al.scanner import Kind, scan
 from handeye.al.syntax import Name
 from handeye.editor.document import Document
@@ -72,14 +72,8 @@ def _in_string(text: str) -> bool:
 
 
 def _instructions() -> Iterator[Proposal]:
-    for each in INSTRUCTIONS.values():
+    for each in EXPLAINED.values():
         yield Proposal(text=each.op, kind="instruction", detail=each.usage, help=each.help)
-    yield Proposal(
-        text="DEFINE",
-        kind="instruction",
-        detail="DEFINE name",
-        help="begin a macro; a blank line ends it",
-    )
 
 
 def _operand(document: Document, operand: Operand, *, after: str) -> Iterator[Proposal]:

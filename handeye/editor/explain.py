@@ -5,8 +5,10 @@ from typing import Final
 
 from handeye.al import extensions
 from handeye.al.compiler import compile_text
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.definition import Instruction
+from handeye.al.instructions import EXPLAINED
 from handeye.al.sewing import sewn_of
+from handeye.al.takes import origin, part, takes
 from handeye.boxes import Box
 from handeye.codes import CODES
 from handeye.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
@@ -64,12 +66,13 @@ def explanation(word: str) -> str:
     """
     if word in CODES:
         return _code(word)
-    if word.upper() in INSTRUCTIONS:
-        definition = INSTRUCTIONS[word.upper()]
-        return f"{definition.usage}\n\n{definition.help} ({definition.origin})"
+    if word.upper() in EXPLAINED:
+        return _instruction(EXPLAINED[word.upper()])
     if word.isascii() and word.isdigit() and int(word) in ERRORS:
         return f"error {int(word)}: {ERRORS[int(word)]}"
-    near = suggestion(word, {*CODES, *INSTRUCTIONS, *map(str, ERRORS)})
+    near = suggestion(word, {*CODES, *EXPLAINED, *map(str, ERRORS)}) or suggestion(
+        word, [code for code in CODES if word.lower() in code]
+    )
     raise InvalidInput(
         f"there is no code, error number or instruction {quoted(word)}"
         + (f"; {near}" if near else "; `handeye explain` lists the codes")
@@ -87,6 +90,17 @@ def listing() -> str:
     out.append("error numbers a script can test")
     out += [f"  {number:>2}  {meaning}" for number, meaning in sorted(ERRORS.items())]
     return "\n".join(out)
+
+
+def _instruction(definition: Instruction) -> str:
+    width = max((len(operand.shown) for operand in definition.operands), default=0)
+    operands = [
+        f"  {operand.shown:{width}}  {takes(definition, operand)} ({origin(definition, operand)})"
+        for operand in definition.operands
+    ]
+    page = f"More and examples: docs/language/reference/{definition.op.lower()}.md"
+    said = [definition.usage, "", definition.help, "", *operands, *[""] * bool(operands)]
+    return "\n".join([*said, part(definition), page])
 
 
 def _code(code: str) -> str:

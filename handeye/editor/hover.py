@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from handeye.al.definition import Instruction, Unit
+from handeye.al.instructions import DEFINE
 from handeye.al.scanner import Kind, Line, Token
 from handeye.al.syntax import Number, Vector
 from handeye.arm.kinematics import solve
@@ -59,8 +60,8 @@ def _text(document: Document, line: Line, token: Token) -> str | None:
     definition, tokens = instruction(line)
     if definition is not None and token == tokens[0]:
         return about_instruction(definition)
-    if tokens and token == tokens[0] and token.text.upper() == "DEFINE":
-        return "`DEFINE name`\n\nbegin a macro; a blank line ends it"
+    if tokens and token == tokens[0] and token.text.upper() == DEFINE.op:
+        return about_instruction(DEFINE)
     name = document.name_at(token.start)
     if name is not None and name.span == token.span:
         return _about_name(document, name)

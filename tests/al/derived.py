@@ -5,10 +5,10 @@ from pathlib import Path
 
 from suites import MANUAL, Case, cases, compiled, shown
 
-from handeye.al.definition import BIGGEST, Instruction, Operand, Refers
+from handeye.al.definition import Instruction, Operand
 from handeye.al.formatter import format_text
 from handeye.al.instructions import manual
-from handeye.al.syntax import Name, Number, Text, Vector
+from handeye.al.takes import origin, part, takes
 from handeye.codes import CODES, Code
 from handeye.errors import ERRORS
 from handeye.plan.raises import raises
@@ -18,14 +18,6 @@ END = "## Meaning\n"
 """Where what is derived of a page ends."""
 LONGEST = 20
 """Lines and files of an example that is shown whole."""
-_CALLED = {
-    Refers.NEW: "a name",
-    Refers.LABEL: "a label",
-    Refers.TARGET: "the name of a position or a part",
-    Refers.SAVED: "the name of a saved difference",
-}
-
-
 INTRODUCTION = """\
 # What can be wrong with a program
 
@@ -63,9 +55,7 @@ def head(definition: Instruction) -> str:
         out += ["| operand | what may stand there | origin |", "|---|---|---|"]
         out += [_row(definition, operand) for operand in definition.operands]
         out.append("")
-    out.append(f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}.")
-    if definition.fits:
-        out[-1] += f" Modifies {', '.join(f'`{word}`' for word in definition.fits)}."
+    out.append(part(definition))
     raised = _raised(definition.op)
     if raised:
         out += ["", "| error | when |", "|---|---|"]
@@ -74,38 +64,7 @@ def head(definition: Instruction) -> str:
 
 
 def _row(definition: Instruction, operand: Operand) -> str:
-    origin = "ours" if operand.ours or definition.ours else "period"
-    counted = ", or how many axes and which, `2 X Y`" if definition.axes else ""
-    return f"| `{operand.shown}` | {_takes(operand)}{counted} | {origin} |"
-
-
-def _takes(operand: Operand) -> str:
-    kinds = {
-        Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
-        Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
-        Name: _CALLED.get(operand.refers, f"the name of a {operand.refers.value}"),
-        Text: "words, up to the end of the line" if operand.free else "words in quotes",
-    }
-    choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
-    said = ", or ".join(choices) or "the word itself"
-    return "; ".join([said, *_limits(operand)])
-
-
-def _units(operand: Operand) -> str:
-    names = dict.fromkeys(unit.name for unit in operand.units if unit.name)
-    return f" ({', '.join(names)})" if names else ""
-
-
-def _limits(operand: Operand) -> list[str]:
-    if operand.choices:
-        return [" or ".join(f"{choice:g}" for choice in operand.choices)]
-    if operand.low == operand.high:
-        return [f"only {operand.low:g}"]
-    if operand.high < BIGGEST:
-        return [f"{operand.low:g} to {operand.high:g}"]
-    if operand.low > -BIGGEST:
-        return [f"at least {operand.low:g}"]
-    return ["not 0"] if operand.nonzero else []
+    return f"| `{operand.shown}` | {takes(definition, operand)} | {origin(definition, operand)} |"
 
 
 def _raised(op: str) -> list[int]:

@@ -1,5 +1,6 @@
 """`handeye do` and `handeye repl`, as somebody at the command line meets them."""
 
+import io
 import json
 from pathlib import Path
 
@@ -33,8 +34,25 @@ def test_do_takes_a_modifier_with_its_motion(command: Command) -> None:
     assert "stopped: the hand presses with" in out
 
 
-def test_do_exits_with_1_when_the_operator_is_called(command: Command) -> None:
-    assert command("do", "CLOSE 1")[0] == 1
+def test_do_tells_a_modifier_alone_how_it_goes_with_its_motion(command: Command) -> None:
+    code, _, err = command("do", "STOP [0 0 -30]", "CHANGE Z -9")
+    assert (code, err.count("\n")) == (2, 1)
+    assert err.startswith("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE")
+
+
+@pytest.mark.parametrize(
+    ("more", "advice"),
+    [
+        ((), "with --keep FILE the cell would be kept as it is now, and --from FILE goes on from there"),
+        (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` goes on from there"),
+    ],
+)
+def test_do_says_how_to_go_on_when_the_operator_is_called(
+    command: Command, more: tuple[str, ...], advice: str
+) -> None:
+    code, out, _ = command("do", "CLOSE 1", *more)
+    assert (code, out.splitlines()[-1]) == (1, advice)
+    assert Path("a.checkpoint").exists() == bool(more)
 
 
 def test_do_goes_on_from_the_cell_that_another_has_kept(command: Command) -> None:
@@ -65,6 +83,28 @@ def test_repl_finds_programs_and_what_is_taught_beside_a_script(command: Command
     code, out, _ = command("repl", "job.al", typed="DO other\n")
     assert code == 0
     assert out == "    1 MOVE LOW                       hand at (25.00, 30.00, 6.00) in\n"
+
+
+@pytest.mark.parametrize("word", ["QUIT", "exit"])
+def test_whoever_leaves_is_heard_no_more(command: Command, word: str) -> None:
+    assert command("repl", typed=f"{word}\nFLY\n")[0] == 0
+    assert command("teach", "job.al", typed=f"{word}\nFLY\n")[0] == 0
+
+
+class Terminal(io.StringIO):
+    """Somebody sits there."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def test_what_is_left_unsaved_is_told_by_the_exit_code_on_a_terminal_too(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("handeye.cli.doing.typed_lines", lambda *_: iter(["here NEW", "quit", "quit"]))
+    monkeypatch.setattr("io.StringIO", Terminal)
+    code, _, err = command("teach", "job.al")
+    assert (code, err) == (2, "not saved: NEW\n")
 
 
 def test_a_refused_line_on_standard_input_is_told_by_the_exit_code(command: Command) -> None:

@@ -8,6 +8,7 @@ import pytest
 from conftest import Command
 
 from handeye.al import INSTRUCTIONS
+from handeye.al.instructions import EXPLAINED
 from handeye.cli.scripts import watched
 from handeye.codes import CODES
 from handeye.editor.explain import example, explanation
@@ -116,6 +117,33 @@ def test_explain_tells_what_an_instruction_does(command: Command, op: str) -> No
     exit_code, out, _ = command("explain", op.lower())
     assert exit_code == 0
     assert INSTRUCTIONS[op].help in out
+
+
+@pytest.mark.parametrize("op", EXPLAINED)
+def test_explain_tells_where_the_page_of_an_instruction_is(op: str) -> None:
+    page = explanation(op).rpartition(": ")[2]
+    assert (Path(__file__).parents[2] / page).read_text(encoding="utf-8").startswith(f"# `{op}")
+
+
+def test_explain_tells_usage_operands_and_origin_of_an_instruction() -> None:
+    assert explanation("move").split("\n") == [
+        "MOVE position (DIRECT)",
+        "",
+        "go to a position: up first, over it, and down; with DIRECT, straight there",
+        "",
+        "  position  the name of a position (period)",
+        "  (DIRECT)  the word itself (ours)",
+        "",
+        "A motion, of the period.",
+        "More and examples: docs/language/reference/move.md",
+    ]
+
+
+def test_explain_names_the_codes_that_a_word_is_part_of() -> None:
+    with pytest.raises(
+        InvalidInput, match=r"`unreachable`; known: `unreachable-code`, `unreachable-position`$"
+    ):
+        explanation("unreachable")
 
 
 def test_explain_names_the_nearest_code(command: Command) -> None:

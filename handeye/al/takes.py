@@ -1,0 +1,57 @@
+"""What may stand at an operand, in words: for the manual, and for those who ask."""
+
+from typing import Final
+
+from handeye.al.definition import BIGGEST, Instruction, Operand, Refers
+from handeye.al.syntax import Name, Number, Text, Vector
+
+_CALLED: Final = {
+    Refers.NEW: "a name",
+    Refers.LABEL: "a label",
+    Refers.TARGET: "the name of a position or a part",
+    Refers.SAVED: "the name of a saved difference",
+}
+
+
+def takes(definition: Instruction, operand: Operand) -> str:
+    """What may stand at an operand of an instruction."""
+    kinds = {
+        Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
+        Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
+        Name: _CALLED.get(operand.refers, f"the name of a {operand.refers.value}"),
+        Text: "words, up to the end of the line" if operand.free else "words in quotes",
+    }
+    choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
+    said = ", or ".join(choices) or "the word itself"
+    counted = ", or how many axes and which, `2 X Y`" if definition.axes else ""
+    return "; ".join([said, *_limits(operand)]) + counted
+
+
+def origin(definition: Instruction, operand: Operand) -> str:
+    """Where an operand comes from: `ours` or `period`."""
+    return "ours" if operand.ours or definition.ours else "period"
+
+
+def part(definition: Instruction) -> str:
+    """What an instruction is, and of whom."""
+    said = f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}."
+    return (
+        f"{said} Modifies {', '.join(f'`{word}`' for word in definition.fits)}." if definition.fits else said
+    )
+
+
+def _units(operand: Operand) -> str:
+    names = dict.fromkeys(unit.name for unit in operand.units if unit.name)
+    return f" ({', '.join(names)})" if names else ""
+
+
+def _limits(operand: Operand) -> list[str]:
+    if operand.choices:
+        return [" or ".join(f"{choice:g}" for choice in operand.choices)]
+    if operand.low == operand.high:
+        return [f"only {operand.low:g}"]
+    if operand.high < BIGGEST:
+        return [f"{operand.low:g} to {operand.high:g}"]
+    if operand.low > -BIGGEST:
+        return [f"at least {operand.low:g}"]
+    return ["not 0"] if operand.nonzero else []
