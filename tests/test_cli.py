@@ -116,6 +116,35 @@ def test_a_wrong_argument_ends_with_two(command: Command, words: tuple[str, ...]
     assert sentence in err
 
 
+@pytest.mark.parametrize("words", [("run",), ("stages",), ("inspect",), ("diff", "job.plan.json")])
+def test_a_script_in_the_place_of_a_plan_is_told_from_one(
+    command: Command, planned: Callable[[str], str], words: tuple[str, ...]
+) -> None:
+    planned("OPEN 1")
+    sentence = "handeye: job.al is not a plan; is it a script? `handeye plan job.al` makes the plan\n"
+    assert command(*words, "job.al") == (2, "", sentence)
+
+
+@pytest.mark.parametrize(("lines", "count"), [(1, "1 error"), (3, "3 errors"), (30, "20 or more errors")])
+def test_no_more_errors_are_counted_than_are_told(command: Command, lines: int, count: str) -> None:
+    Path("wrong.al").write_text("FLY\n" * lines, encoding="utf-8")
+    assert (
+        command("plan", "wrong.al")[2].splitlines()[-1] == f"handeye: wrong.al has {count}; there is no plan"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "size"), [(("--width", "3000"), "3000 x 960"), (("--height", "7"), "1280 x 7")]
+)
+def test_a_picture_that_cannot_be_is_told_by_the_size_that_was_typed(
+    command: Command, words: tuple[str, str], size: str
+) -> None:
+    code, _, err = command("render", "-o", "it.png", *words)
+    assert (code, err) == (
+        2, f"handeye: a picture of {size} cannot be made; a side has 8 to 2048 points\n"
+    )  # fmt: skip
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("script", "more", "code"),

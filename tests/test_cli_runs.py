@@ -321,6 +321,21 @@ def test_statistics_count_each_stage(command: Command, folder: Path) -> None:
     assert (stages["to and fro"]["motions"], stages["feel"]["errors"]) == (2, {"23": 1})
 
 
+@pytest.mark.parametrize("at", ["300", "-3", "nan", "inf"])
+def test_there_is_no_photograph_of_a_time_outside_the_run(command: Command, folder: Path, at: str) -> None:
+    end = read_events(folder / "events.jsonl")[-1].time
+    code, out, err = command("trace", "photograph", str(folder), f"--at={at}", "-o", "it.png")
+    assert (code, out) == (2, "")
+    assert err == f"handeye: {folder} tells of 0.00 to {end:.2f} s; {at} s is not among them\n"
+
+
+def test_a_folder_of_which_nothing_was_carried_out_says_so(command: Command, folder: Path) -> None:
+    Path("it").mkdir()
+    Path("it/plan.json").write_bytes((folder / "plan.json").read_bytes())
+    sentence = "handeye: nothing of the run in it was carried out yet\n"
+    assert command("trace", "show", "it") == (2, "", sentence)
+
+
 def test_a_run_comes_out_the_same_again(command: Command, folder: Path) -> None:
     code, out, _ = command("trace", "verify", str(folder))
     assert (code, "to the byte" in out) == (0, True)

@@ -12,8 +12,9 @@ from handeye.errors import InvalidInput
 from handeye.files import Kind
 
 PNG: Final = Kind("PNG picture", rb"\x89PNG\r\n\x1a\n", ending=".png")
-LARGEST: Final = 4096
-"""Most points along a side."""
+SMALLEST: Final = 8
+LARGEST: Final = 2048
+"""Points along a side."""
 FINE_SHADOW: Final = 4096
 FINE_SAMPLES: Final = 4
 SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
@@ -25,15 +26,11 @@ def photograph(
     """What a camera of the scene sees, shape (height, width, 3), RGB.
 
     Raises:
-        InvalidInput: no such camera, an unusable size, or no OpenGL on this machine.
+        InvalidInput: no such camera, or no OpenGL on this machine.
     """
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
         raise InvalidInput(f"no camera {camera}; there are {', '.join(names)}")
-    if not (16 <= width <= LARGEST and 16 <= height <= LARGEST):
-        raise InvalidInput(
-            f"a picture of {width} x {height} cannot be made; a side has 16 to {LARGEST} points"
-        )
     _, gl = context()
     gl.make_current()
     drawing = _drawing(model)
@@ -54,7 +51,15 @@ def photograph(
 
 
 def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
-    """A photograph as PNG, drawn at twice the size and averaged. Raises as `photograph`."""
+    """A photograph as PNG, drawn at twice the size and averaged.
+
+    Raises:
+        InvalidInput: as `photograph`, or the size cannot be.
+    """
+    if not (SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
+        raise InvalidInput(
+            f"a picture of {width} x {height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
+        )
     fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
     smooth = cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA)
     done, png = cv2.imencode(".png", smooth[:, :, ::-1])

@@ -98,7 +98,8 @@ def compiled(file: Path) -> Plan:
             return made
     show(diagnostics, source, json=False)
     errors = sum(d.severity == "error" for d in diagnostics)
-    raise InvalidInput(f"{file} has {errors} error{'s' if errors != 1 else ''}; there is no plan")
+    count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
+    raise InvalidInput(f"{file} has {count}; there is no plan")
 
 
 def taught(file: Path) -> Taught:

@@ -10,7 +10,7 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.al import compile_text, extensions, read_script
-from handeye.cli.common import compiled, complain, say, screen, show, show_unreadable, taught
+from handeye.cli.common import compiled, complain, note, say, screen, show, show_unreadable, taught
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
@@ -37,7 +37,10 @@ def check(
         bool, Parameter(help="Check again whenever the script, what it requires or what is taught changes.")
     ] = False,
 ) -> int:
-    """Check a script and its taught positions, the arm's reach included; nothing moves."""
+    """Check a script and its taught positions, the arm's reach included; nothing moves.
+
+    Exit code 0: no errors; 2: errors, or bad input. Ctrl-C ends watching, with the code of the last check.
+    """
 
     def once() -> int:
         try:
@@ -63,9 +66,13 @@ def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _w
     """
     code = 2
     seen: dict[Path, Version] = {}
+    note(f"watching {file}; Ctrl-C ends it")
     try:
         while True:
-            if not seen or seen != {path: _version(path) for path in seen}:
+            changed = [str(path) for path in seen if seen[path] != _version(path)]
+            if changed or not seen:
+                if changed:
+                    note(f"\n── {', '.join(changed)} changed")
                 seen = {path: _version(path) for path in _files(file)}
                 try:
                     code = check()

@@ -3,7 +3,7 @@
 import sys
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import msgspec
 from cyclopts import App, Parameter
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from handeye.trace.reading import Trace
     from handeye.work.events import AnyEvent
 
+SHOWN: Final = 0.01
+"""s to which times are shown; what is typed is as exact as that."""
 File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
 
 
@@ -78,7 +80,11 @@ def photograph(
         raise InvalidInput(
             f"{file} is an event list, which does not say where things were; take the trace.mcap"
         )
-    state = Replay(trace).seek(at)
+    replay = Replay(trace)
+    begin, end = trace.head.time, max(replay.times[-1], trace.events[-1].time)
+    if not begin - SHOWN <= at <= end + SHOWN:
+        raise InvalidInput(f"{file} tells of {begin:.2f} to {end:.2f} s; {at:g} s is not among them")
+    state = replay.seek(at)
     model, data = posed(World.sample(trace.head.seed), state.poses)
     write_over(output, photograph_png(model, data, camera, width, height), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
@@ -121,7 +127,7 @@ def verify(file: File, /) -> int:
 
 def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
     """The trace in a file or folder, and the events that count."""
-    from handeye.stepping.folder import EVENTS, TRACE
+    from handeye.stepping.folder import EVENTS, PLAN, TRACE
     from handeye.trace.eventlist import effective, read_events
     from handeye.trace.reading import read_trace
     from handeye.trace.recorder import part
@@ -133,6 +139,8 @@ def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
             file = growing
         elif (file / TRACE).exists():
             file = file / TRACE
+        elif (file / PLAN).exists() and not (file / EVENTS).exists():
+            raise InvalidInput(f"nothing of the run in {file} was carried out yet")
         else:
             file = file / EVENTS
     if file.suffix == ".jsonl":

@@ -101,7 +101,10 @@ def read_plan(path: Path) -> Plan:
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.
     """
-    return decode(read_whole(path), str(path))
+    data = read_whole(path)
+    if not data.lstrip().startswith((b"{", b"[")):
+        raise InvalidInput(f"{path} is not a plan; is it a script? `handeye plan {path}` makes the plan")
+    return decode(data, str(path))
 
 
 def write_plan(path: Path, plan: Plan) -> None:

@@ -4,7 +4,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.report.result import PERIOD, Result
+from handeye.report.result import PERIOD, PUMP, Result
 
 _MARK = {
     "done": ("✓", "green"),
@@ -41,10 +41,10 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """The timing table beside that of 1973."""
-    t = result.timing
+    """The timing table; that of the pump beside the one of 1973."""
+    t, pump = result.timing, result.program == PUMP
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for name in ("", "here", "1973"):
+    for name in ("", "here", "1973" if pump else ""):
         table.add_column(name, justify="left" if not name else "right")
     rows = (
         ("planning phase (processor)", t.planning_wall_s, "planning"),
@@ -54,12 +54,11 @@ def timing(result: Result) -> Table:
         ("  vision (processor)", t.vision_wall_s, "vision"),
     )
     for name, seconds, period in rows:
-        table.add_row(name, clock(seconds), clock(PERIOD[period]))
-    table.add_row(
-        Text("simulated in", "dim"),
-        Text(f"{t.wall_s:.1f} s", "dim"),
-        Text(f"{t.real_time_factor:.1f}x real time", "dim"),
-    )
+        if seconds or period != "planning":
+            table.add_row(name, clock(seconds), clock(PERIOD[period]) if pump else "")
+    if t.real_time_factor >= 0.05:
+        simulated = ("simulated in", f"{t.wall_s:.1f} s", f"{t.real_time_factor:.1f}x real time")
+        table.add_row(*(Text(text, "dim") for text in simulated))
     return table
 
 

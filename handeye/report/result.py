@@ -8,6 +8,8 @@ from handeye.plan.program import Record
 
 PERIOD: Final = {"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0}
 """The timing table of 1973, s: Bolles and Paul, STAN-CS-73-396. Total is that of the working phase."""
+PUMP: Final = "water_pump"
+"""The program that the table is of."""
 
 
 class Stage(Record, frozen=True, kw_only=True):
@@ -21,8 +23,9 @@ class Stage(Record, frozen=True, kw_only=True):
 class Timing(Record, frozen=True, kw_only=True):
     """Where the time went: simulated seconds, but for these.
 
-    `planning_wall_s` and `vision_wall_s` are processor time of this computer. `wall_s` is its clock from building
-    the cell to the referee's word; the real-time factor is all simulated time, camera calibration included, over it.
+    `planning_wall_s` (0: the plan was there already) and `vision_wall_s` are processor time of this computer.
+    `wall_s` is its clock from building the cell to the referee's word; the real-time factor is all simulated time,
+    camera calibration included, over it.
     """
 
     planning_wall_s: float
@@ -71,6 +74,7 @@ class Result(Record, frozen=True, kw_only=True):
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
+    program: str
     seed: int
     camera: CameraReport
     versions: dict[str, str]

@@ -48,6 +48,7 @@ def summary(
         stages=stage_times(names, runner.events),
         timing=_timing(runner, wall, planning),
         referee=checks,
+        program=runner.setup.plan.program.name,
         seed=runner.setup.seed,
         camera=_camera(runner),
         versions=versions(),

@@ -20,10 +20,12 @@ _BENEATH: Final = " " * 20
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
     """The account, line by line: a heading for each stage; the clock, the line and the text of each step in the
-    source; and beneath it what came of it."""
+    source; beneath it what came of it; and at the end that it is the end, or none."""
     teller = _Teller()
     for event in events:
         teller.tell(event)
+    if events and not isinstance(events[-1], happened.RunFinished):
+        teller.lines += ["", f"{events[-1].time:9.2f}  here the run stands still; it has not come to its end"]
     return teller.lines
 
 

@@ -114,7 +114,7 @@ def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
 def statistics_table(figures: Statistics) -> RenderableType:
     """The figures for a terminal; times in simulated seconds."""
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
-    table.add_column("stage", no_wrap=True)
+    table.add_column("stage", overflow="fold")
     for name in ("time", "camera", "steps", "stops", "tries"):
         table.add_column(name, justify="right", no_wrap=True)
     table.add_column("errors", no_wrap=True)

@@ -232,4 +232,11 @@ def test_watching_goes_on_after_a_file_that_cannot_be_used(
         return answer
 
     assert watched(script, check, Edits(("a.toml", "?"), ("a.toml", ""))) == 0
-    assert capsys.readouterr().err == "handeye: a.toml is not TOML\n"
+    assert capsys.readouterr().err.splitlines() == [
+        "watching a.al; Ctrl-C ends it",
+        "",
+        "── a.toml changed",
+        "handeye: a.toml is not TOML",
+        "",
+        "── a.toml changed",
+    ]

@@ -1,23 +1,59 @@
 """What a person reads at the end of a run."""
 
-import pytest
+import io
 
-from handeye.report.page import clock, verdict
+import pytest
+from rich.console import Console
+
+from handeye.report.page import clock, timing, verdict
 from handeye.report.result import CameraReport, Check, Result, Timing
 
 
 def result(
-    *, completed: bool, assembled: bool | None, message: str = "", checks: dict[str, Check] | None = None
+    *,
+    completed: bool,
+    assembled: bool | None,
+    message: str = "",
+    checks: dict[str, Check] | None = None,
+    program: str = "water_pump",
+    planning: float = 0.0,
+    factor: float = 1.0,
 ) -> Result:
     return Result(
         assembled=assembled, completed=completed, paused=False, interventions=(),
         stopped_at=None if completed else "check the gasket",
-        error=None if completed else 32, message=message, stages=(), referee=checks or {}, seed=0, versions={},
+        error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program, seed=0,
+        versions={},
         timing=Timing(
-            planning_wall_s=0, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1, real_time_factor=1
+            planning_wall_s=planning, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1,
+            real_time_factor=factor,
         ),
         camera=CameraReport(renderer="ray casting", sightings_rms_px={}, residual_in=None),
     )  # fmt: skip
+
+
+def table(made: Result) -> str:
+    console = Console(file=io.StringIO(), width=80)
+    with console.capture() as shown:
+        console.print(timing(made))
+    return shown.get()
+
+
+@pytest.mark.parametrize(("program", "compared"), [("water_pump", True), ("first", False)])
+def test_only_the_pump_is_compared_with_1973(program: str, compared: bool) -> None:
+    shown = table(result(completed=True, assembled=None, program=program))
+    assert ("1973" in shown, "5:32 min" in shown) == (compared, compared)
+    assert "working phase" in shown
+
+
+@pytest.mark.parametrize(("planning", "told"), [(0.0, False), (0.4, True)])
+def test_planning_is_timed_where_it_was_done(planning: float, told: bool) -> None:
+    assert ("planning phase" in table(result(completed=True, assembled=None, planning=planning))) == told
+
+
+@pytest.mark.parametrize(("factor", "told"), [(0.0, False), (5.5, True)])
+def test_nothing_is_said_of_speed_where_nothing_was_simulated(factor: float, told: bool) -> None:
+    assert ("real time" in table(result(completed=True, assembled=None, factor=factor))) == told
 
 
 def test_a_stop_names_the_step_the_error_and_what_went_wrong() -> None:

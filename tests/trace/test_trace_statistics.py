@@ -8,7 +8,7 @@ from recordings import EVENTS, record
 from rich.console import Console
 
 from handeye.trace.reading import read_trace
-from handeye.trace.stats import Figures, Statistics, statistics, statistics_table
+from handeye.trace.stats import Figures, StageFigures, Statistics, statistics, statistics_table
 
 
 def test_each_stage_is_counted_by_itself_and_all_together() -> None:
@@ -54,3 +54,14 @@ def test_the_table_has_a_row_for_each_stage_and_one_for_all() -> None:
     assert [line.split()[0] for line in lines[:5]] == ["stage", "open", "close", "again", "all"]
     assert lines[4].split() == ["all", "1.2", "0.0", "9", "9", "0"]
     assert lines[-1].strip() == "messages: /events 40"
+
+
+def test_a_narrow_terminal_shows_every_figure() -> None:
+    stage = StageFigures(
+        stage="put the base in its standard position", seconds=123.4, camera_s=56.7, steps=987
+    )
+    figures = Statistics(stages=[stage], total=Figures(seconds=234.5), operator=0, experiments=0, messages={})
+    console = Console(file=io.StringIO(), width=40)
+    with console.capture() as shown:
+        console.print(statistics_table(figures))
+    assert [figure for figure in ("123.4", "56.7", "987", "234.5") if figure not in shown.get()] == []
