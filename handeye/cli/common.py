@@ -16,6 +16,8 @@ from handeye.plan.plan import Plan
 from handeye.plan.taught import Taught, load_taught
 from handeye.source import Source
 
+Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
+PlanFile = Annotated[Path, Parameter(help="A plan, as `handeye plan` makes one (.plan.json).")]
 CameraKind = Literal["auto", "gl", "ray"]
 
 

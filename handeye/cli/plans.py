@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, say
+from handeye.cli.common import Json, PlanFile, say
 from handeye.errors import InvalidInput
 from handeye.files import Kind, write_over
 from handeye.plan.store import read_plan
@@ -23,7 +23,7 @@ def register(app: App) -> None:
 
 
 def inspect(
-    file: Path,
+    file: PlanFile,
     /,
     *,
     stage: StageName = None,
@@ -59,7 +59,7 @@ def inspect(
     return 0
 
 
-def diff(old: Path, new: Path, /, *, json: Json = False) -> int:
+def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
     """Tell what a change in a script did: two plans are compared.
 
     Exit code 0: both do the same; 1: they do not; 2: bad input.

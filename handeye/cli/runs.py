@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, Seed, compiled, note, world
+from handeye.cli.common import Camera, Json, Out, PlanFile, Seed, compiled, note, world
 from handeye.errors import InvalidInput
 from handeye.plan.plan import Plan
 from handeye.plan.store import read_plan
@@ -72,7 +72,7 @@ def assemble(
 
 
 def run(
-    file: Path,
+    file: PlanFile,
     /,
     *,
     seed: Seed = 0,

@@ -10,7 +10,18 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.al import compile_text, extensions, read_script
-from handeye.cli.common import compiled, complain, note, say, screen, show, show_unreadable, taught
+from handeye.cli.common import (
+    PlanFile,
+    Script,
+    compiled,
+    complain,
+    note,
+    say,
+    screen,
+    show,
+    show_unreadable,
+    taught,
+)
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
@@ -26,7 +37,7 @@ def register(app: App) -> None:
 
 
 def check(
-    file: Path,
+    file: Script,
     /,
     *,
     json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
@@ -120,7 +131,9 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
     return 0
 
 
-def plan(file: Path, /, *, output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None) -> int:
+def plan(
+    file: Script, /, *, output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None
+) -> int:
     """Compile a script into a plan.
 
     Parameters
@@ -138,7 +151,7 @@ def plan(file: Path, /, *, output: Annotated[Path | None, Parameter(name=["--out
 
 
 def stages(
-    file: Path, /, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
+    file: PlanFile, /, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
 ) -> int:
     """List the stages of a plan and their steps, with lines of the source."""
     from handeye.stepping.listing import listing, listing_text
