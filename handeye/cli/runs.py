@@ -31,9 +31,7 @@ Break = Annotated[
 Step = Annotated[
     bool, Parameter(help="Ask before every step; without a terminal, commands come from standard input.")
 ]
-Overwrite = Annotated[
-    bool, Parameter(negative="", help="Let this run take the place of the one in the folder of --out.")
-]
+Overwrite = Annotated[bool, Parameter(help="Let this run take the place of the one in the folder of --out.")]
 OnStop = Annotated[
     str | None,
     Parameter(
