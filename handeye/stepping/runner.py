@@ -204,7 +204,7 @@ class Runner:
             InvalidInput: no such position, or no state at it or before it is left.
         """
         if not 0 <= position <= self.position:
-            raise InvalidInput(f"there is no step {position} to go back to")
+            raise InvalidInput(f"{position} steps done is nowhere to go back to")
         near = self._nearest(position, kept)
         again = self.events[: self._happened(position)]
         while self.history and self.history[-1].position > near.position:
@@ -223,7 +223,8 @@ class Runner:
             if snapshot is not None and (near is None or snapshot.position > near.position):
                 near = snapshot
         if near is None:
-            raise InvalidInput(f"no state before step {position} was kept")
+            first = self.history[0].position
+            raise InvalidInput(f"this run begins with {first} steps done: there is nothing before that")
         return near
 
     def _happened(self, position: int) -> int:

@@ -234,7 +234,9 @@ def test_going_back_behind_what_was_kept_is_told_and_asked_for_again(runner: Run
     talk = Talk("b 1", "a")
     pause = attend(Runner(runner.checkpoint()), talk.operator)
     assert pause.kind == "operator"
-    assert talk.said[1].splitlines()[1] == "    no state before step 0 was kept"
+    assert (
+        talk.said[1].splitlines()[1] == "    this run begins with 9 steps done: there is nothing before that"
+    )
 
 
 def test_the_panic_button_on_the_way_back_stops_the_run(runner: Runner) -> None:
