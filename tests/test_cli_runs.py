@@ -129,6 +129,60 @@ def test_a_wrong_option_costs_nobody_the_record_of_a_run(command: Command, plann
     assert {file: file.read_bytes() for file in Path("it").rglob("*.*")} == before
 
 
+def test_a_run_takes_the_place_of_another_only_if_it_is_told_to(command: Command, planned: Planned) -> None:
+    assert command("run", planned(SCRIPT), "--out", "it")[0] == 0
+    other = planned("        OPEN    2\n")
+    code, _, err = command("run", other, "--out", "it")
+    assert (code, "it holds a run: `handeye resume it` goes on with it, --overwrite replaces it" in err) == (
+        2,
+        True,
+    )
+    code, out, _ = command("run", other, "--out", "it", "--overwrite", "--json")
+    assert (code, done(out)) == (0, {"program": "done"})
+
+
+def test_a_break_that_lies_behind_the_start_is_told(command: Command, planned: Planned) -> None:
+    code, _, err = command(
+        "run", planned(SCRIPT), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
+    )
+    assert (code, "kept is new; checkpoints are kept there" in err) == (0, True)
+    code, _, err = command(
+        "run", planned(SCRIPT), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
+    )
+    assert (code, "from where the run begins it never comes to to and fro" in err) == (0, True)
+
+
+def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    assert command("run", plan, "--to", "1", "--checkpoints", "kept")[0] == 0
+    code, out, err = command("run", plan, "--from", "2", "--until", "TO", "--checkpoints", "kept")
+    assert (code, out) == (2, "")
+    assert "from where the run begins it never comes to step 1" in err
+
+
+def test_the_referee_looks_at_what_is_gone_on_with_if_it_was_to_look_at_the_run(
+    command: Command, planned: Planned
+) -> None:
+    plan = planned(SCRIPT)
+    for words, code in (((), 0), (("--judge",), 3)):  # nothing is assembled by this script
+        assert command("run", plan, "--to", "1", "--out", "it", "--overwrite", *words)[0] == 0
+        assert command("resume", "it")[0] == code
+    assert command("run", plan, "--to", "1", "--out", "it", "--overwrite", "--judge")[0] == 0
+    assert command("resume", "it", "--no-judge")[0] == 0
+
+
+def test_the_checkpoints_of_a_run_stand_for_it(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    assert command("run", plan, "--to", "1", "--out", "it")[0] == 0
+    assert command("run", plan, "--stage", "2", "--checkpoints", "kept")[0] == 0
+    assert command("resume", "it/checkpoints")[0] == 0
+    code, _, err = command("resume", "kept")
+    assert (code, "kept is a folder of checkpoints, and not that of a run; name one of them" in err) == (
+        2,
+        True,
+    )
+
+
 def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, planned: Planned) -> None:
     assert command("run", planned(SCRIPT), "--to", "2", "--out", "it")[0] == 0
     code, _, err = command("resume", "it", "--to", "1")

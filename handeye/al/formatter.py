@@ -6,6 +6,7 @@ from typing import Final
 from handeye.al.instructions import FREE
 from handeye.al.operands import free_text
 from handeye.al.scanner import Kind, Line, Token, scan
+from handeye.al.slips import with_digits
 
 OPERATION: Final = 8
 OPERANDS: Final = 16
@@ -48,9 +49,10 @@ def _operands(tokens: Sequence[Token]) -> str:
 def _is_tight(tokens: Sequence[Token]) -> bool:
     """Whether the last token stands against its neighbour: behind a bracket, or a comma with no blanks.
 
-    A blank at a comma is kept, on its right: `0, 5` are two numbers, `0,5` is a wrongly written one.
+    A blank at a comma is kept, on its right: `0, 5` are two numbers, `0,5` is a wrongly written one. So is `O.5`.
     """
-    mark, token = tokens[-2:]
-    if mark.text != ",":
-        return mark.text == "["
-    return mark.end == token.start and tokens[0].end in (mark.start, mark.end)
+    before, token = tokens[-2:]
+    close = before.end == token.start
+    if before.text == ",":
+        return close and tokens[0].end in (before.start, before.end)
+    return before.text == "[" or (close and with_digits(before.text + token.text) is not None)

@@ -217,20 +217,20 @@ class _Parser:
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> str | None:
         """What helps where a line begins with a word that is neither an instruction nor a macro."""
         label = f"a label ends with a colon: `{written}:`"
+        behind = rest[0].text.upper() if rest else ""
         if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):
             return f"{label}; a `;` begins a comment"
-        if rest and rest[0].text.upper() in self.macro_names:
-            return elsewhere(written) or label
-        if (
-            said := elsewhere(written) or suggestion(written, {*INSTRUCTIONS, *self.macro_names, _DEFINE})
-        ) is not None:
-            return said
-        if rest and rest[0].text.upper() in INSTRUCTIONS:
+        help = elsewhere(written)
+        if help is None and behind not in self.macro_names:
+            help = suggestion(written, {*INSTRUCTIONS, *self.macro_names, _DEFINE})
+        if help is not None:
+            return help
+        if behind in INSTRUCTIONS or behind in self.macro_names:
             return label
-        if rest and rest[0].text.startswith("="):
+        if behind.startswith("="):
             return "`ASSIGN` sets a counter, `TRANS` writes a position"
-        words = sum(token.kind is NAME for token in rest)
-        return "a comment begins with `;`" if words > 1 else None
+        is_prose = sum(token.kind is NAME for token in rest) > 1
+        return "a comment begins with `;`" if is_prose else None
 
     def unreadable(self, token: Token) -> None:
         message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"

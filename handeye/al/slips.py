@@ -28,7 +28,7 @@ _ELSEWHERE: Final[dict[str, str]] = {
         ("RETURN", "RET", "ENDDEF", "ENDPROC", "ENDSUB"), f"a macro ends with a blank line; {_ENDS}"
     ),
     **dict.fromkeys(("IF", "THEN", "ELSE", "ELSEIF", "ENDIF", "CASE", "SWITCH"), _TESTS),
-    **dict.fromkeys(("FOR", "WHILE", "LOOP", "REPEAT", "UNTIL", "DO", "NEXT"), _ROUNDS),
+    **dict.fromkeys(("FOR", "WHILE", "LOOP", "REPEAT", "UNTIL", "NEXT"), _ROUNDS),
     **dict.fromkeys(("GOTO", "BRANCH", "JMP"), "`JUMP` goes on at a label"),
     **dict.fromkeys(("CALL", "GOSUB", "PERFORM"), _CALL),
     **dict.fromkeys(("MACRO", "PROC", "PROCEDURE", "SUB", "SUBROUTINE", "FUNCTION", "DEF"), _MACRO),

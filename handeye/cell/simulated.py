@@ -15,7 +15,7 @@ from handeye.cell.scene import build
 from handeye.cell.sensors import Sensors
 from handeye.cell.state import MUTABLE, CellState, noise_state, set_noise
 from handeye.cell.threads import Threads
-from handeye.cell.truth import Truth
+from handeye.cell.truth import Drawn, Truth
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.units import DEGREE, INCH
 
@@ -48,6 +48,7 @@ class SimulatedCell(Workcell):
         model = build(world)
         data = mujoco.MjData(model)
         self._model, self._data = model, data
+        self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
         self._steps = round(TICK / model.opt.timestep)
         self._arm, self._hand = ArmDrive(model, data), HandDrive(model, data)
         self._lamp = Lamp(model)
@@ -65,7 +66,13 @@ class SimulatedCell(Workcell):
     @property
     def truth(self) -> Truth:
         """What is really so; for the referee and tests only."""
-        return Truth(model=self._model, data=self._data, threads=self._threads.holes, resting=self._resting)
+        return Truth(
+            model=self._model,
+            data=self._data,
+            drawn=self._drawn,
+            threads=self._threads.holes,
+            resting=self._resting,
+        )
 
     def sense(self) -> Sensed:
         """Read the interface at the present tick."""

@@ -5,9 +5,20 @@ from dataclasses import dataclass
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.cell.resting import Resting
 from handeye.cell.threads import Thread
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drawn:
+    """How a scene was drawn, before anything happened in it."""
+
+    groups: NDArray[np.int32]
+    """Of the shapes."""
+    colours: NDArray[np.float32]
+    """Of the materials: red, green, blue, alpha, shape (n, 4)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,6 +27,7 @@ class Truth:
 
     model: mujoco.MjModel
     data: mujoco.MjData
+    drawn: Drawn
     threads: tuple[Thread, ...]
     """The tapped holes of the base, in the order of the carriers."""
     resting: Resting

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from handeye.stepping.snapshot import Checkpoint
 
 To = Annotated[str | None, Parameter(help="Stop when this stage has ended.")]
-Until = Annotated[str | None, Parameter(help="Stop before this step, by its number in `handeye stages`.")]
+Until = Annotated[
+    str | None, Parameter(help="Stop before this step, by its number in `handeye stages`, or its label.")
+]
 Break = Annotated[
     list[str] | None,
     Parameter(
@@ -28,6 +30,9 @@ Break = Annotated[
 ]  # fmt: skip
 Step = Annotated[
     bool, Parameter(help="Ask before every step; without a terminal, commands come from standard input.")
+]
+Overwrite = Annotated[
+    bool, Parameter(negative="", help="Let this run take the place of the one in the folder of --out.")
 ]
 OnStop = Annotated[
     str | None,
@@ -45,7 +50,13 @@ def register(app: App) -> None:
 
 
 def assemble(
-    *, seed: Seed = 0, json: Json = False, out: Out = None, camera: Camera = "auto", on_stop: OnStop = None
+    *,
+    seed: Seed = 0,
+    json: Json = False,
+    out: Out = None,
+    overwrite: Overwrite = False,
+    camera: Camera = "auto",
+    on_stop: OnStop = None,
 ) -> int:
     """Assemble the water pump: plan, work, judge.
 
@@ -58,11 +69,12 @@ def assemble(
     started = time.process_time()
     plan = compiled(plans() / "water_pump.al")
     planning = time.process_time() - started
-    setup = Setup(plan=plan, seed=world(seed), camera=camera)
+    setup = Setup(plan=plan, seed=world(seed), camera=camera, judged=True)
     return work(
         Job(
             start=Checkpoint(setup=setup),
             out=out,
+            overwrite=overwrite,
             on_stop=on_stop,
             json=json,
             referee=True,
@@ -78,6 +90,7 @@ def run(
     judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = False,
     json: Json = False,
     out: Out = None,
+    overwrite: Overwrite = False,
     camera: Camera = "auto",
     first: Annotated[str | None, Parameter(name="--from", help="Begin with this stage.")] = None,
     to: To = None,
@@ -105,16 +118,20 @@ def run(
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
-    start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera))
+    start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera, judged=judge))
     stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
     _check_order(plan, first, to)
     kept = _checkpoint_folder(checkpoints, out)
     if stage is not None or first is not None:
         start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
+    _check_ahead(start, stops, breaks or [])
+    if checkpoints is not None and kept is not None and not kept.exists():
+        note(f"{kept} is new; checkpoints are kept there")
     return work(
         Job(
             start=start,
             out=out,
+            overwrite=overwrite,
             checkpoints=None if checkpoints is None else kept,
             stops=stops,
             breaks=breaks or (),
@@ -130,9 +147,13 @@ def run(
 def resume(
     path: Path,
     *,
-    judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = True,
+    judge: Annotated[
+        bool | None,
+        Parameter(help="Have the referee look at the pump afterwards; by default as the run was begun."),
+    ] = None,
     json: Json = False,
     out: Annotated[Path | None, Parameter(help="Folder to keep the run in, for a checkpoint file.")] = None,
+    overwrite: Overwrite = False,
     to: To = None,
     until: Until = None,
     breaks: Break = None,
@@ -150,9 +171,11 @@ def resume(
     """
     from handeye.cli.working import Job, work
     from handeye.stepping.checkpoint_file import read_checkpoint
-    from handeye.stepping.folder import open_again
+    from handeye.stepping.folder import CHECKPOINTS, PLAN, open_again
 
     folder = None
+    if path.name == CHECKPOINTS and (path.parent / PLAN).is_file():
+        path = path.parent
     if path.is_dir():
         if out is not None:
             raise InvalidInput(f"{path} is the folder of a run and is gone on with; --out goes with a file")
@@ -161,22 +184,24 @@ def resume(
             note(f"left out: {fault}")
     else:
         start = read_checkpoint(path)
-    stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
-    note(f"going on from step {max(start.position, 0)}: {stage}")
     stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
     _check_order(start.setup.plan, start.stage, to)
+    _check_ahead(start, stops, breaks or [])
+    stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
+    note(f"going on from step {max(start.position, 0)}: {stage}")
     return work(
         Job(
             start=start,
             folder=folder,
             out=out,
+            overwrite=overwrite,
             stops=stops,
             breaks=breaks or (),
             halfway=not step and bool(breaks or until),
             step=step,
             on_stop=on_stop,
             json=json,
-            referee=judge,
+            referee=start.setup.judged if judge is None else judge,
         )
     )
 
@@ -205,6 +230,23 @@ def _check_order(plan: Plan, first: str | None, last: str | None) -> None:
     begin, end = stages[stage_number(first, plan)], stages[stage_number(last, plan)]
     if stages.index(end) < stages.index(begin):
         raise InvalidInput(f"the run begins with “{begin}”, and “{end}” comes before that")
+
+
+def _check_ahead(start: "Checkpoint", stops: list["Stop"], breaks: list[str]) -> None:
+    """Say of breaks that they lie behind where a run begins.
+
+    Raises:
+        InvalidInput: the step does at which it is to stop; it would run on to its end.
+    """
+    from handeye.stepping.ahead import is_ahead
+    from handeye.stepping.breakpoints import UntilStep, breakpoint
+
+    for stop in stops:
+        if isinstance(stop, UntilStep) and not is_ahead(stop, start):
+            raise InvalidInput(f"from where the run begins it never comes to step {stop.step}")
+    for text in breaks:
+        if not is_ahead(breakpoint(text, start.setup.plan), start):
+            note(f"from where the run begins it never comes to {text}")
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:

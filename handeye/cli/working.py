@@ -48,6 +48,8 @@ class Job:
     """The folder of a run that is gone on with."""
     out: Path | None = None
     """Folder for a run that is begun."""
+    overwrite: bool = False
+    """The run in that folder, if any, may be lost."""
     checkpoints: Path | None = None
     """Where states at the beginning of stages are kept besides."""
     stops: Sequence[Stop] = ()
@@ -89,7 +91,9 @@ class _Work:
         self.panic = panic
         self.begun = time.perf_counter()
         self.policy = self._policy()  # first: a word nobody knows must not cost a folder
-        self.folder = job.folder or (open_new(job.out, job.start) if job.out is not None else None)
+        self.folder = job.folder
+        if self.folder is None and job.out is not None:
+            self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
         self.progress = Progress(job.start.setup.plan, notes)
         self.refused = False
         self.left: Path | None = None

@@ -53,6 +53,8 @@ class Head(Record, frozen=True, kw_only=True):
     """s on the cell's clock."""
     touched: bool
     """Somebody had interfered with the run: it is not what the plan alone makes of it."""
+    judged: bool = False
+    """The referee is to look at what came out."""
 
 
 class _Body(Record, frozen=True, kw_only=True):
@@ -78,6 +80,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         between_stages=checkpoint.between_stages,
         time=None if snapshot is None else round(snapshot.cell.sensed.time, 6),
         touched=checkpoint.touched,
+        judged=setup.judged,
     )
 
 
@@ -117,7 +120,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     ):
         raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
-        setup=Setup(plan=plan, seed=head.seed, camera=head.camera),
+        setup=Setup(plan=plan, seed=head.seed, camera=head.camera, judged=head.judged),
         calibration=body.calibration,
         snapshot=body.snapshot,
         events=body.events,

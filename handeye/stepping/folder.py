@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.cell.ports import Picture, Sensed
+from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.plan.plan import Plan
@@ -68,8 +69,9 @@ class RunFolder(Observer):
         """
         self._begun = True
         self.kept.drop_after(-1)
-        for name in (TRACE, f"{TRACE}.part", RESULT):
-            (self.path / name).unlink(missing_ok=True)
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT)]
+        for file in (*left, *(self.path / PICTURES).glob("*.png")):
+            file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, encode(start.setup.plan).encode())
         self.kept.save(start)
 
@@ -143,16 +145,20 @@ class RunFolder(Observer):
                 folder.rmdir()
 
 
-def open_new(path: Path, start: Checkpoint) -> RunFolder:
+def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFolder:
     """A folder for a run that begins at `start`.
 
-    The record of an earlier run with the same setup is replaced once this one moves; it would come out the same.
+    Args:
+        overwrite: the run that is in the folder, if any, is replaced once this one moves.
 
     Raises:
         InvalidInput: the folder cannot be had, or holds something that would be lost.
     """
-    Kept(path / CHECKPOINTS).claim(start.setup)
-    _check_plan(path, start.setup.plan)
+    _refuse_others(path)
+    if not overwrite:
+        _refuse_run(path)
+        Kept(path / CHECKPOINTS).claim(start.setup)
+        _check_plan(path, start.setup.plan)
     inner = [path / CHECKPOINTS, path / PICTURES]
     made = [place for place in (*inner, path, *path.parents) if not place.exists()]
     try:
@@ -163,8 +169,7 @@ def open_new(path: Path, start: Checkpoint) -> RunFolder:
     if not all(os.access(place, os.W_OK) for place in (path, *inner)):
         raise InvalidInput(f"{path} cannot be written to")
     folder = RunFolder(path, made)
-    if not any(folder.kept.heads()):
-        _refuse_records(path)
+    if not _holds_run(path):
         folder.begin(start)
     return folder
 
@@ -177,6 +182,8 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
     """
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
+        if any(Kept(path).heads()):
+            raise InvalidInput(f"{path} is a folder of checkpoints, and not that of a run; name one of them")
         raise InvalidInput(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
     checkpoint = folder.kept.newest()
     if checkpoint is None:
@@ -192,8 +199,28 @@ def _check_plan(path: Path, plan: Plan) -> None:
         raise InvalidInput(f"the runs in {path} are of another plan than this one, by {beside}")
 
 
-def _refuse_records(path: Path) -> None:
-    """Raises InvalidInput if a run has left a record in a folder and nothing tells which run."""
-    for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT):
-        if (path / name).exists():
-            raise InvalidInput(f"{path / name} is of a run without checkpoints; choose another folder")
+def _holds_run(path: Path) -> bool:
+    """Whether a run has left a record in a folder: it has moved, and not only been set up."""
+    records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
+    return records or any(Kept(path / CHECKPOINTS).moved())
+
+
+def _refuse_run(path: Path) -> None:
+    """Raises InvalidInput if a folder holds a run."""
+    if _holds_run(path):
+        raise InvalidInput(
+            f"{path} holds a run: `handeye resume {path}` goes on with it, --overwrite replaces it, "
+            "and another folder leaves it alone"
+        )
+
+
+def _refuse_others(path: Path) -> None:
+    """Raises InvalidInput if a folder holds what no run has left."""
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES}
+    others = (
+        sorted(inside.name for inside in path.iterdir() if inside.name not in ours) if path.is_dir() else []
+    )
+    if others:
+        raise InvalidInput(
+            f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
+        )

@@ -46,6 +46,10 @@ class Kept:
             except InvalidInput:
                 continue
 
+    def moved(self) -> Iterator[Path]:
+        """Those, sound or not, of a run that had begun."""
+        return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
+
     def damaged(self) -> list[str]:
         """What is wrong with those that are not sound, a sentence each."""
         faults = []

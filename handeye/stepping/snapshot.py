@@ -25,6 +25,8 @@ class Setup(Record, frozen=True, kw_only=True):
     seed: Annotated[int, msgspec.Meta(ge=0)]
     camera: str
     """How to make pictures: `auto`, `gl` or `ray`."""
+    judged: bool = False
+    """The referee is to look at what came out. It decides nothing of the run."""
 
 
 class Snapshot(Record, frozen=True, kw_only=True):

@@ -1,7 +1,5 @@
 """Where everything in the simulated cell really is, for the trace: an observer that can change nothing."""
 
-from typing import Final
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,8 +10,6 @@ from handeye.trace.messages import Poses
 from handeye.trace.scene import LATENT, looks, scene
 
 Mask = NDArray[np.bool_]
-OUT_OF_SIGHT: Final = -1.0
-"""Height (m) below which parts are put away that have become something else; the floor is higher."""
 
 
 class Frames:
@@ -32,10 +28,10 @@ class Frames:
         data = self._truth.data
         return np.concatenate([data.xpos[1:], data.xquat[1:]], axis=1, dtype=np.float32, casting="same_kind")
 
-    def in_sight(self, poses: Poses) -> Mask:
-        """Which frames belong to bodies that are there to be seen; shape (n,)."""
-        shown: Mask = self._truth.model.geom_group[self._looks] != LATENT
-        return shown & (poses[:, 2] > OUT_OF_SIGHT)
+    def there(self) -> Mask:
+        """Which frames belong to bodies that are there now, be they put away or not; shape (n,)."""
+        there: Mask = self._truth.model.geom_group[self._looks] != LATENT
+        return there
 
     def scene(self, time: int) -> bytes:
         """What the bodies look like, as a message; `time` in ns."""

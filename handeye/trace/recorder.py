@@ -100,8 +100,7 @@ class Recorder:
             return
         self._catch_up()
         if isinstance(event, StepStarted):
-            poses = self._frames.poses()
-            self._writing.frames(event.time, poses, self._frames.in_sight(poses), anew=True)
+            self._writing.frames(event.time, self._frames.poses(), self._frames.there(), anew=True)
         if isinstance(event, PictureTaken):
             self._writing.picture(event.time, self._picture(event.picture))
         self._writing.event(event)
@@ -114,8 +113,7 @@ class Recorder:
         """
         if self._writing.head is None:  # what was before the run is no part of it
             return
-        poses = self._frames.poses()
-        self._waiting.append((sensed, effort, poses, self._frames.in_sight(poses)))
+        self._waiting.append((sensed, effort, self._frames.poses(), self._frames.there()))
 
     def flush(self) -> None:
         """Everything so far is on the disk.
@@ -161,9 +159,9 @@ class Recorder:
     def _catch_up(self) -> None:
         """Write the servo periods taken down since the last event."""
         waiting, self._waiting = self._waiting, []
-        for sensed, effort, poses, in_sight in waiting:
+        for sensed, effort, poses, there in waiting:
             self._writing.joints(sensed, effort)
-            self._writing.frames(sensed.time, poses, in_sight)
+            self._writing.frames(sensed.time, poses, there)
 
     def _rewrite(self, events: int | None) -> None:
         """Replace the file by a new one with what it holds up to its event number `events`; None: with everything.

@@ -24,13 +24,12 @@ LATENT: Final = 4
 
 def looks(truth: Truth, body: int) -> list[int]:
     """The shapes by which a body is seen, or will be."""
-    model = truth.model
-    mine = np.flatnonzero(model.geom_bodyid == body)
-    return [int(shape) for shape in mine if model.geom_group[shape] in (SEEN, LATENT)]
+    mine = np.flatnonzero(truth.model.geom_bodyid == body)
+    return [int(shape) for shape in mine if truth.drawn.groups[shape] in (SEEN, LATENT)]
 
 
 def scene(truth: Truth, time: int) -> bytes:
-    """All bodies that can be seen, each in its own frame; `time` in ns."""
+    """All bodies that can be seen, each in its own frame, as they were drawn; `time` in ns."""
     entities = []
     for body in range(truth.model.nbody):
         name = truth.model.body(body).name if body else WORLD
@@ -45,7 +44,7 @@ def _add(entity: SceneEntity, truth: Truth, shape: int) -> None:
     """Add a shape to the entity of its body. A lamp, the only ball, is left out."""
     model = truth.model
     material = model.geom_matid[shape]
-    r, g, b, a = _short(model.mat_rgba[material] if material >= 0 else model.geom_rgba[shape])
+    r, g, b, a = _short(truth.drawn.colours[material] if material >= 0 else model.geom_rgba[shape])
     qw, qx, qy, qz = _short(model.geom_quat[shape])
     pose = Pose(position=_vector(model.geom_pos[shape]), orientation=Quaternion(x=qx, y=qy, z=qz, w=qw))
     color, size, kind = Color(r=r, g=g, b=b, a=a), model.geom_size[shape], model.geom_type[shape]

@@ -20,6 +20,8 @@ from handeye.work.events import AnyEvent, Event, RunStarted, StepStarted
 
 MOVED: Final = 1e-6
 """Change of a pose (m, or of a component of its quaternion) that is worth writing down."""
+PUT_AWAY: Final = -1.0
+"""Height (m) below which parts lie that have become something else; the floor is higher."""
 
 _decode = msgspec.json.Decoder(AnyEvent).decode
 
@@ -74,11 +76,15 @@ class Writing:
         time = nanoseconds(sensed.time)
         self.file.write(JOINTS, time, self._joint_message.filled(time, sensed, effort))
 
-    def frames(self, time: float, poses: Poses, in_sight: Mask, *, anew: bool = False) -> None:
-        """Write the frames that moved since they were last written, and those that appeared; `anew`: all in sight."""
+    def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
+        """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.
+
+        What lies put away is written anew only: where it lies matters to nobody, but that it does.
+        """
         sent = self._sent
         moved = (np.abs(poses - sent) > MOVED).any(axis=1)  # false for what was never written
-        which = np.flatnonzero(moved | (in_sight & (anew | np.isnan(sent[:, 0]))))
+        away = (poses[:, 2] < PUT_AWAY) & (sent[:, 2] < PUT_AWAY)
+        which = np.flatnonzero((moved & ~away) | (there & (anew | np.isnan(sent[:, 0]))))
         if which.size:
             sent[which] = poses[which]
             message = self._frames_message.filled(nanoseconds(time), which.tolist(), poses[which])

@@ -65,6 +65,8 @@ def test_any_bytes_in_a_file_are_a_text_or_refused_in_a_sentence(tmp_path: Path,
 @example("DEFINE M\x1f\n")  # no blank, though Python takes it for one
 @example("CHANGE [0, 0] 1")  # without its blank `0,0` would be a wrongly written number
 @example("CHANGE [0 ,0] 1")
+@example("OPEN O.5")
+@example("OPEN O .5")
 def test_formatting_keeps_the_meaning(text: str) -> None:
     tree, mistakes = parse(text)
     again, still = parse(al.format_text(text))

@@ -25,9 +25,9 @@ from handeye.work.events import AnyEvent, WentBack
 pytestmark = pytest.mark.slow
 
 
-def recorded(path: Path, start: Checkpoint) -> tuple[Runner, RunFolder]:
+def recorded(path: Path, start: Checkpoint, *, overwrite: bool = False) -> tuple[Runner, RunFolder]:
     """A run that begins, kept in a folder."""
-    folder = open_new(path, start)
+    folder = open_new(path, start, overwrite=overwrite)
     return Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)]), folder
 
 
@@ -172,29 +172,36 @@ def test_a_folder_without_checkpoints_cannot_be_gone_on_with(tmp_path: Path) -> 
         open_again(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("start", "sentence"),
-    [(begin("OPEN 2\n"), "is of another plan"), (begin(GRASP, seed=5), r"is of another run \(seed 0")],
-)
-def test_the_folder_of_another_run_is_not_overwritten(copy: Path, start: Checkpoint, sentence: str) -> None:
-    before = (copy / "events.jsonl").read_bytes()
-    with pytest.raises(InvalidInput, match=sentence):
+@pytest.mark.parametrize("start", [begin(), begin("OPEN 2\n"), begin(GRASP, seed=5)])
+def test_a_run_is_not_overwritten_by_another_or_by_its_like(copy: Path, start: Checkpoint) -> None:
+    before = {file: file.read_bytes() for file in copy.rglob("*.*")}
+    with pytest.raises(InvalidInput, match=r"holds a run: `handeye resume .*` goes on with it, --overwrite"):
         open_new(copy, start)
-    assert (copy / "events.jsonl").read_bytes() == before
+    assert {file: file.read_bytes() for file in copy.rglob("*.*")} == before
 
 
-def test_a_run_that_somebody_took_a_hand_in_is_not_overwritten(tmp_path: Path) -> None:
-    runner, folder = recorded(tmp_path / "run", begin())
-    advance(runner, steps=1)
-    runner.set_saved("D", (0.0, 0.0, 0.001))
-    advance(runner, steps=2)
+def test_a_folder_set_up_for_another_run_is_left_to_it(tmp_path: Path) -> None:
+    open_new(tmp_path / "run", begin()).close()
+    with pytest.raises(InvalidInput, match=r"is of another run \(seed 0"):
+        open_new(tmp_path / "run", begin(GRASP, seed=5))
+
+
+def test_a_folder_of_other_things_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "holiday.png").touch()
+    for overwrite in (False, True):
+        with pytest.raises(InvalidInput, match=r"holds other things \(`holiday\.png`\); choose a new folder"):
+            open_new(tmp_path, begin(), overwrite=overwrite)
+    assert names(tmp_path) == ["holiday.png"]
+
+
+def test_a_run_takes_the_place_of_another_if_it_is_told_to(copy: Path, whole: Path) -> None:
+    (copy / "pictures" / "old.png").touch()
+    runner, folder = recorded(copy, begin("OPEN 2\n"), overwrite=True)
+    advance(runner)
+    runner.finish()
     folder.close()
-    with pytest.raises(InvalidInput, match="somebody took a hand in"):
-        open_new(tmp_path / "run", begin())
-
-
-def test_the_record_of_the_same_run_is_replaced_by_one_that_is_equal(copy: Path, whole: Path) -> None:
-    runner, folder = recorded(copy, begin())
+    assert not (copy / "pictures" / "old.png").exists()
+    runner, folder = recorded(copy, begin(), overwrite=True)
     advance(runner)
     runner.finish()
     folder.close()
@@ -261,32 +268,22 @@ def test_one_folder_takes_one_run_at_a_time(copy: Path) -> None:
 def test_a_run_that_cannot_begin_leaves_the_record_of_the_one_before(whole: Path, tmp_path: Path) -> None:
     path = Path(shutil.copytree(whole, tmp_path / "copy"))
     before = {file: file.read_bytes() for file in path.rglob("*.*")}
-    open_new(path, begin()).discard()
+    open_new(path, begin(), overwrite=True).discard()
     assert {file: file.read_bytes() for file in path.rglob("*.*")} == before
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "sentence"),
-    [
-        (
-            "checkpoints/0002-take-the-pin.checkpoint",
-            b"of a later version, perhaps",
-            "holds what cannot be read",
-        ),
-        ("plan.json", b"{}", "is not a plan"),
-    ],
-)
-def test_what_cannot_be_read_is_not_replaced(copy: Path, name: str, content: bytes, sentence: str) -> None:
-    (copy / name).write_bytes(content)
+@pytest.mark.parametrize("name", ["checkpoints/0002-take-the-pin.checkpoint", "plan.json", "trace.mcap"])
+def test_what_cannot_be_read_is_not_replaced(copy: Path, name: str) -> None:
+    (copy / name).write_bytes(b"of a later version, perhaps")
     before = {file: file.read_bytes() for file in copy.rglob("*.*")}
-    with pytest.raises(InvalidInput, match=sentence):
+    with pytest.raises(InvalidInput, match="holds a run"):
         open_new(copy, begin())
     assert {file: file.read_bytes() for file in copy.rglob("*.*")} == before
 
 
 def test_a_record_that_nothing_tells_the_run_of_is_not_replaced(copy: Path) -> None:
     shutil.rmtree(copy / "checkpoints")
-    with pytest.raises(InvalidInput, match=r"events\.jsonl is of a run without checkpoints"):
+    with pytest.raises(InvalidInput, match="holds a run"):
         open_new(copy, begin())
     assert (copy / "events.jsonl").exists()
 

@@ -18,7 +18,7 @@ from handeye.plan.store import encode, plan_digest
 from handeye.plan.taught import Taught
 from handeye.pose import Array
 from handeye.source import Source
-from handeye.trace.frames import OUT_OF_SIGHT, Frames
+from handeye.trace.frames import Frames
 from handeye.trace.messages import Poses
 from handeye.trace.recorder import Recorder
 from handeye.work import events as happened
@@ -53,9 +53,8 @@ class FakeFrames(Frames):
     def poses(self) -> Poses:
         return self.now.copy()
 
-    def in_sight(self, poses: Poses) -> NDArray[np.bool_]:
-        shown = np.array([True, True, True, self.carrier_shown])
-        return shown & (poses[:, 2] > OUT_OF_SIGHT)
+    def there(self) -> NDArray[np.bool_]:
+        return np.array([True, True, True, self.carrier_shown])
 
     def scene(self, time: int) -> bytes:
         return b""
@@ -92,6 +91,8 @@ class _Clock:
         for _ in range(count):
             self.time += TICK
             self.poses[1, :3] += np.float32(self.rng.normal(0, 1e-3, 3))
+            if self.shown:
+                self.poses[2, 2] -= np.float32(1e-4)  # what is put away does not lie quite still
             q, qd, effort = self.rng.normal(size=(3, 6))
             sensed = Sensed(
                 time=self.time, q=q, qd=qd, gap=0.02, touch=(False, False), tool_torque=0.0, braked=False

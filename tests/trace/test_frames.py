@@ -45,15 +45,13 @@ def test_joints_have_the_names_of_the_arm_model(frames: Frames) -> None:
 
 
 def test_screws_that_are_not_in_their_threads_yet_are_not_to_be_seen(frames: Frames) -> None:
-    hidden = [
-        name for name, seen in zip(frames.names, frames.in_sight(frames.poses()), strict=True) if not seen
-    ]
+    hidden = [name for name, there in zip(frames.names, frames.there(), strict=True) if not there]
     assert hidden == [f"carrier{hole}" for hole in range(6)]
 
 
 def test_looking_changes_nothing_in_the_cell(cell: SimulatedCell, frames: Frames) -> None:
     before = cell.capture()
-    frames.in_sight(frames.poses())
+    frames.there()
     frames.scene(0)
     after = cell.capture()
     assert np.array_equal(after.physics, before.physics)
@@ -79,3 +77,11 @@ def test_the_meshes_of_the_scene_are_those_of_the_simulator(cell: SimulatedCell,
     (found,) = entities["gasket"].triangles
     assert (len(found.points), len(found.indices)) == (int(mesh.vertnum[0]), 3 * int(mesh.facenum[0]))
     assert max(found.indices) == len(found.points) - 1
+
+
+def test_the_scene_is_told_as_it_was_drawn_whatever_has_happened_since() -> None:
+    cell = SimulatedCell(World.nominal(), camera="ray")
+    before = Frames(cell.truth).scene(0)
+    cell.truth.model.geom_group[:] = 2  # as if every hidden shape had become a screw in its thread
+    cell.truth.model.mat_rgba[:] = 0.5  # as if the lamp had been switched
+    assert Frames(cell.truth).scene(0) == before

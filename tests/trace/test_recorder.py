@@ -8,13 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from recordings import BOUNDARIES, EVENTS, HISTORY, PLAN, Recording, record, started
+from recordings import BOUNDARIES, EVENTS, HISTORY, PLAN, Recording, between, record, started
 
 from handeye.cell.ports import Sensed
 from handeye.errors import InvalidInput
 from handeye.trace import growing
+from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
-from handeye.work.events import WentBack
+from handeye.work.events import StepStarted, WentBack
 
 FULL = r"^.*short\.mcap.* cannot be written: No space left on device$"
 
@@ -65,15 +66,17 @@ def test_between_the_starts_of_steps_only_frames_that_moved_are_written(path: Pa
     assert set(second.moved) == {"finger"}
 
 
-def test_a_part_that_goes_out_of_sight_is_written_once_and_what_takes_its_place_from_then_on(
+def test_a_part_that_is_put_away_is_written_when_it_goes_and_then_only_where_a_step_begins(
     path: Path,
 ) -> None:
     record(path)
-    moved = [tick.moved for tick in read_trace(path).ticks()]
-    screw = [frames["screw"][2] for frames in moved if "screw" in frames]
-    carrier = ["carrier" in frames for frames in moved]
-    assert screw.count(-2.0) == 1
-    assert carrier.index(True) == 46  # in the middle of a step
+    trace = read_trace(path)
+    begun = [event.time for event in trace.events if isinstance(event, StepStarted)]
+    away = [tick.time for tick in trace.ticks() if tick.moved.get("screw", (0, 0, 0))[2] < -1]
+    goes, *later = away
+    assert len(later) == len([time for time in begun if time > goes])
+    carrier = ["carrier" in tick.moved for tick in trace.ticks()]
+    assert carrier.index(True) == 46  # what takes its place, in the middle of a step
 
 
 def test_equal_runs_give_equal_bytes(path: Path, uninterrupted: bytes) -> None:
@@ -307,3 +310,15 @@ def test_resuming_on_a_full_disk_is_refused_and_what_was_there_stays(
 def test_a_place_that_cannot_be_written_to_is_refused(path: Path) -> None:
     with pytest.raises(InvalidInput, match=r"^.*cannot be written: No such file or directory$"):
         Recording(path.parent / "nowhere" / "short.mcap").begin()
+
+
+@pytest.mark.parametrize("events", BOUNDARIES[1:-1])
+def test_a_trace_begun_at_a_checkpoint_goes_on_as_that_of_the_whole_run(
+    path: Path, uninterrupted: bytes, events: int
+) -> None:
+    late = Recording(path).resume(events)
+    late.frames.now, late.frames.carrier_shown = between(events, events + 1)[0].poses, False
+    late.play(events).close()
+    whole = read_trace(path.with_name("whole.mcap"))
+    assert whole.events == tuple(EVENTS)
+    assert first_difference(whole, read_trace(path), unseen=events) is None
