@@ -16,6 +16,7 @@ from handeye.stepping.experiments import set_position, set_saved
 from handeye.stepping.hands import Hands
 from handeye.stepping.places import named_place, text_of
 from handeye.stepping.reply import Break, Told
+from handeye.stepping.runner import reach
 from handeye.stepping.showing import show, write_picture
 from handeye.work.executor import Choice
 
@@ -79,8 +80,9 @@ def back(hands: Hands, rest: str) -> Told:
         raise InvalidInput("this is the beginning; nothing lies before it")
     first = hands.first()
     if position < first:
-        reach = f"this run begins with {first} steps done: there is nothing before that"
-        raise InvalidInput(reach if first else f"only {done} step{'' if done == 1 else 's'} can be gone back")
+        raise InvalidInput(
+            reach(first) if first else f"only {done} step{'' if done == 1 else 's'} can be gone back"
+        )
     hands.back_to(position)
     undone = done - position
     return Told(source=hands.source(), said=f"{undone} step{'' if undone == 1 else 's'} undone")

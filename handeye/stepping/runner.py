@@ -44,6 +44,11 @@ RECENT: Final = 400
 """Steps whose states are kept in memory; of older ones those at the beginning of stages."""
 
 
+def reach(first: int) -> str:
+    """How far one can go back where the earliest state has `first` steps done, as a sentence."""
+    return f"this run begins with {first} step{'' if first == 1 else 's'} done: there is nothing before that"
+
+
 class Runner:
     """A run of a plan in a drawn world, from its beginning or from a checkpoint."""
 
@@ -223,8 +228,7 @@ class Runner:
             if snapshot is not None and (near is None or snapshot.position > near.position):
                 near = snapshot
         if near is None:
-            first = self.history[0].position
-            raise InvalidInput(f"this run begins with {first} steps done: there is nothing before that")
+            raise InvalidInput(reach(self.history[0].position))
         return near
 
     def _happened(self, position: int) -> int:
