@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
+from handeye.stepping.checkpoint_file import read_head
 from handeye.stepping.folder import open_again
 from handeye.trace.eventlist import effective, read_events
 from handeye.work.events import PanicStopped, StepStarted
@@ -223,10 +224,75 @@ def test_a_run_stops_where_it_is_told_to(
 
 def test_stepping_from_standard_input_answers_every_command(command: Command, planned: Planned) -> None:
     code, out, _ = command("run", planned(SCRIPT), "--step", typed="step\nback\nwobble\ncontinue\nquit\n")
-    assert code == 0
+    assert code == 2
     assert "MOVE    HERE_" in out
     assert "wobble" in out
     assert "The program came to its end." in out
+
+
+@pytest.mark.parametrize(
+    ("typed", "code"), [("step\nquit\n", 0), ("stpe\nquit\n", 2), ("wobble\ncontinue\nabort\n", 1)]
+)
+def test_a_refused_command_that_came_from_no_terminal_ends_with_two_if_nothing_is_worse(
+    command: Command, planned: Planned, typed: str, code: int
+) -> None:
+    assert command("run", planned('OPEN 1\nWAIT "HELP"\n'), "--step", typed=typed)[0] == code
+
+
+def test_states_that_the_stepper_keeps_do_not_lose_each_other(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    tried = "step 3\nset position THERE 25 35 9\nquit\n"
+    kept = []
+    for typed in (tried, "step 3\nquit\n", tried):
+        err = command("run", plan, "--step", typed=typed)[2]
+        kept.append(err.splitlines()[-1])
+    go_on = "go on with: handeye resume job-0-0003-once-more"
+    assert kept == [f"{go_on}.checkpoint", f"{go_on}-2.checkpoint", f"{go_on}.checkpoint"]
+    touched, plain = (read_head(Path(f"job-0-0003-once-more{end}.checkpoint")) for end in ("", "-2"))
+    assert (touched.touched, plain.touched) == (True, False)
+
+
+def test_states_go_to_the_folder_of_checkpoints_which_can_still_be_used(
+    command: Command, planned: Planned
+) -> None:
+    plan = planned(SCRIPT)
+    files = {path.name for path in Path().iterdir()}
+    words = ("run", plan, "--checkpoints", "kept")
+    assert command(*words, "--break", "THERE")[0] == 2  # no such label: nothing moves
+    for more, typed in ((("--break", "8"), ""), (("--step",), "step\nset position THERE 25 35 9\nquit\n")):
+        code, _, err = command(*words, *more, typed=typed)
+        assert (code, "go on with: handeye resume kept/" in err) == (0, True)
+    assert {path.name for path in Path().iterdir()} - files == {"kept"}
+    assert command(*words, "--stage", "2")[0] == 0
+
+
+def test_nobody_who_does_nothing_leaves_a_file(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    before = sorted(Path().iterdir())
+    assert command("run", plan, "--step")[0] == 0
+    assert sorted(Path().iterdir()) == before
+
+
+def test_a_run_kept_in_a_folder_says_where_and_how_to_go_on(command: Command, planned: Planned) -> None:
+    plan = planned(SCRIPT)
+    assert command("run", plan, "--out", "my run", "--until", "2")[2].splitlines()[-1] == (
+        "go on with: handeye resume 'my run'"
+    )
+    assert command("resume", "my run", "--no-judge")[2].splitlines()[-1] == "kept in my run"
+
+
+def test_back_in_a_run_that_begins_at_a_stage_uses_the_checkpoints_of_the_folder(
+    command: Command, planned: Planned
+) -> None:
+    plan = planned(SCRIPT)
+    assert command("run", plan, "--out", "all")[0] == 0
+    code, out, _ = command(
+        "run", plan, "--checkpoints", "all", "--from", "feel", "--step", typed="bs\nback\nback 1000\n"
+    )
+    standing = [line for line in out.splitlines() if line.startswith("──")]
+    assert "stage 2, once more, step 3; 3 steps done" in standing[1]
+    assert "stage 1, to and fro, step 2; 2 steps done" in standing[2]
+    assert (code, "only 2 steps can be gone back" in out) == (2, True)
 
 
 def test_stepping_as_json_gives_one_object_a_line(command: Command, planned: Planned) -> None:

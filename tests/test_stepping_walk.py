@@ -1,30 +1,88 @@
-"""The walk in docs/stepping.md shows the script as it is, and commands that there are."""
+"""The walk in docs/stepping.md shows what there is to see, line by line, with the same commands."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from handeye.plan.plan import Plan
+from handeye.plan.store import read_plan
 from handeye.resources import plans
-from handeye.stepping.commands import find
+from handeye.stepping.advance import advance
+from handeye.stepping.breakpoints import ToStage, stage_number
+from handeye.stepping.faces import MOST, as_text
+from handeye.stepping.listing import listing_text
+from handeye.stepping.runner import Runner
+from handeye.stepping.snapshot import Checkpoint, Setup
+from handeye.stepping.stepper import Stepper
+from handeye.trace.account import account
 
 DOC = (Path(__file__).parent.parent / "docs" / "stepping.md").read_text(encoding="utf-8")
-SCRIPT = (plans() / "water_pump.al").read_text(encoding="utf-8").splitlines()
-
-SAID = re.findall(r"^handeye> (.+)$", DOC, re.MULTILINE)
-SHOWN = re.findall(r"^  [ →] (\d+)  ([L ].*\S)$", DOC, re.MULTILINE)
-
-
-def test_the_walk_has_commands_and_excerpts_to_look_at() -> None:
-    assert len(SAID) >= 10
-    assert len(SHOWN) >= 25
+BLOCKS = re.findall(r"^```\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
+SEED = 20
+SAID = "handeye> "
 
 
-@pytest.mark.parametrize("command", sorted(set(SAID)))
-def test_a_command_of_the_walk_is_one_of_the_stepper(command: str) -> None:
-    assert find(command)[0].name == command.split()[0]
+def of_command(words: str) -> list[str]:
+    """What the walk shows behind a command of the shell, up to the next."""
+    (shown,) = [block.split("\n$ ")[0] for block in BLOCKS if block.startswith(f"$ handeye {words}")]
+    return shown.splitlines()[1:]
 
 
-@pytest.mark.parametrize(("line", "text"), sorted(set(SHOWN)))
-def test_a_line_of_the_walk_stands_in_the_script(line: str, text: str) -> None:
-    assert SCRIPT[int(line) - 1].strip() == text.strip()
+def pieces(lines: list[str]) -> list[list[str]]:
+    """What stands between the dots for lines left out."""
+    found: list[list[str]] = [[]]
+    for line in lines:
+        if line.strip() == "...":
+            found.append([])
+        else:
+            found[-1].append(line)
+    return [piece for piece in found if piece]
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return read_plan(plans() / "water_pump.plan.json")
+
+
+@pytest.fixture(scope="module")
+def stepper(plan: Plan) -> Stepper:
+    """The run of the walk, where its commands begin."""
+    runner = Runner(Checkpoint(setup=Setup(plan=plan, seed=SEED, camera="auto")))
+    if not runner.cell.camera.renderer.startswith("OpenGL"):
+        pytest.skip("the walk was made with pictures by OpenGL")
+    advance(runner, [ToStage(stage_number("insert", plan) - 1)])
+    return Stepper(runner)
+
+
+def transcript(stepper: Stepper, commands: list[str]) -> Iterator[str]:
+    """What stands on the terminal of somebody who says these commands."""
+    yield as_text(stepper.standing())
+    for command in commands:
+        yield f"{SAID}{command}"
+        yield as_text(stepper.do(command), MOST)
+
+
+def test_the_stages_of_the_walk_are_those_of_the_plan(plan: Plan) -> None:
+    listed = "\n".join(listing_text(plan))
+    shown = pieces(of_command("stages plans/water_pump.plan.json"))
+    assert shown
+    assert all("\n".join(piece) in listed for piece in shown)
+
+
+@pytest.mark.slow
+@pytest.mark.render
+def test_the_commands_of_the_walk_are_answered_as_it_shows_and_their_trace_tells_what_it_shows(
+    stepper: Stepper,
+) -> None:
+    shown = of_command(
+        f"run plans/water_pump.plan.json --seed {SEED} --checkpoints pump --from insert --step"
+    )
+    for block in BLOCKS:
+        shown += block.splitlines() if block.startswith(SAID) else []
+    commands = [line.removeprefix(SAID) for line in shown if line.startswith(SAID)]
+    assert len(commands) >= 10
+    assert "\n".join(transcript(stepper, commands)).splitlines() == shown
+    told = "\n".join(account(stepper.hands.runner.events))
+    assert all("\n".join(piece) in told for piece in pieces(of_command("trace show pump")))

@@ -109,7 +109,8 @@ def run(
     checkpoint; if there is none, the stages before it are carried out first.
 
     Exit code 0: the program came to its end, or stopped where it was told to; 1: it stopped and called the
-    operator; 3: the referee, if asked, disagrees; 2: bad input; 130: interrupted.
+    operator; 3: the referee, if asked, disagrees; 2: bad input, or a command of --step was refused that came from
+    no terminal; 130: interrupted.
     """
     from handeye.cli.working import Job, work
     from handeye.stepping.snapshot import Checkpoint, Setup
@@ -190,8 +191,9 @@ def resume(
     stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
     _check_order(start.setup.plan, start.stage, to)
     _check_ahead(start, stops, breaks or [])
+    done = "no steps" if start.position < 1 else f"{start.position} step{'' if start.position == 1 else 's'}"
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
-    note(f"going on from step {max(start.position, 0)}: {stage}")
+    note(f"going on where {done} were done: {stage}")
     return work(
         Job(
             start=start,

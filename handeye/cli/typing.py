@@ -13,14 +13,19 @@ except ImportError:  # not everywhere
 
 
 def typed_lines(
-    prompt: str, aside: Callable[[], AbstractContextManager[None]], words: Callable[[], Iterable[str]]
+    prompt: str,
+    aside: Callable[[], AbstractContextManager[None]],
+    words: Callable[[], Iterable[str]],
+    *,
+    droppable: bool = True,
 ) -> Iterator[str]:
-    """The lines of standard input, without their ends. At a terminal, Ctrl-C drops the line, and Ctrl-D ends them.
+    """The lines of standard input, without their ends. At a terminal, Ctrl-D ends them.
 
     Args:
         prompt: put out before each line, on a terminal.
         aside: entered while a line is waited for.
         words: what a word may be completed to.
+        droppable: at a terminal, Ctrl-C drops the line instead of breaking in.
     """
     terminal = sys.stdin.isatty()
     if terminal:
@@ -32,7 +37,7 @@ def typed_lines(
             except EOFError:
                 return
             except KeyboardInterrupt:
-                if not terminal:
+                if not (terminal and droppable):
                     raise
                 sys.stdout.write("\n")
                 continue

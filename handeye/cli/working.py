@@ -1,15 +1,16 @@
 """What the commands that move the arm have in common: build, carry out, keep, judge, print."""
 
-import re
+import shlex
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from handeye.cli.common import note, notes, say, screen
 from handeye.cli.panic import PanicButton
+from handeye.cli.typing import typed_lines
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.judge.referee import judge
@@ -20,12 +21,15 @@ from handeye.report.result import Result, to_json
 from handeye.report.summary import summary
 from handeye.stepping.advance import Pause, Stop
 from handeye.stepping.breakpoints import breakpoint
-from handeye.stepping.checkpoint_file import write_checkpoint
-from handeye.stepping.folder import RESULT, RunFolder, open_new
-from handeye.stepping.kept import Kept, file_name
+from handeye.stepping.commands import COMMANDS
+from handeye.stepping.faces import MOST
+from handeye.stepping.folder import PICTURES, RESULT, RunFolder, open_new
+from handeye.stepping.kept import Kept, leave
+from handeye.stepping.listing import labels
 from handeye.stepping.observer import Observer
 from handeye.stepping.operator import Ask, Operator, attend, parse_policy
 from handeye.stepping.runner import Runner
+from handeye.stepping.showing import TOPICS
 from handeye.stepping.snapshot import Checkpoint, Setup
 from handeye.stepping.stepper import Stepper, interact
 from handeye.versions import versions
@@ -91,6 +95,9 @@ class _Work:
         if self.folder is None and job.out is not None:
             self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
         self.progress = Progress(job.start.setup.plan, notes)
+        self.refused = False
+        self.left: Path | None = None
+        """The file that a state was last kept in, outside the folder of the run."""
 
     def do(self) -> int:
         """All of it; the exit code."""
@@ -106,7 +113,8 @@ class _Work:
         if pause.kind == "panic":
             return self._interrupted(runner)
         with self.panic.aside():
-            return self._finished(runner, pause)
+            code = self._finished(runner, pause)
+        return code or 2 * (self.refused and not sys.stdin.isatty())
 
     def _built(self) -> Runner | None:
         """The cell, ready for its first step; None if the panic button was hit meanwhile."""
@@ -124,6 +132,8 @@ class _Work:
 
     def _observers(self, runner: Runner) -> list[Observer]:
         looking: list[Observer] = [] if self.job.step else [self.progress]
+        if self.job.start.stage is not None:
+            self.progress.goes_on(self.job.start.stage)
         if self.folder is not None:
             looking.append(self.folder.watch(runner, self.job.start, again=self.job.folder is not None))
         if self.job.checkpoints is not None:
@@ -135,9 +145,8 @@ class _Work:
     def _attended(self, runner: Runner) -> Pause:
         with self.progress:
             breaks = [breakpoint(text, runner.setup.plan) for text in self.job.breaks]
-            return attend(
-                runner, self.policy or Ask(self._lines("> "), note), [*breaks, *self.job.stops], self._kept
-            )
+            lines = typed_lines("> ", self._waiting, lambda: (), droppable=False)
+            return attend(runner, self.policy or Ask(lines, note), [*breaks, *self.job.stops], self._kept)
 
     def _policy(self) -> Operator | None:
         """The rule for when the operator is called; None: somebody is asked."""
@@ -147,68 +156,71 @@ class _Work:
         return parse_policy(policy)
 
     def _stepped(self, runner: Runner) -> Pause:
-        pictures = self.folder.path / "pictures" if self.folder is not None else Path()
         stepper = Stepper(
             runner,
             breaks=self.job.breaks,
             stops=self.job.stops,
             kept=self._kept,
             keep=self._keep,
-            pictures=pictures,
+            pictures=None if self.folder is None else self.folder.path / PICTURES,
         )
-        terminal = sys.stdin.isatty()
-        return interact(stepper, self._lines("handeye> "), say, json=self.job.json, prompt=terminal)
+        program = runner.setup.plan.program
+        words = [*(command.name for command in COMMANDS), *TOPICS, *labels(program), *program.positions]
+        lines = typed_lines("handeye> ", self._waiting, lambda: words)
+        most = MOST if screen.is_terminal else None
+        try:
+            return interact(stepper, lines, say, json=self.job.json, prompt=sys.stdin.isatty(), most=most)
+        finally:
+            self.refused = stepper.refused
 
-    def _lines(self, prompt: str) -> Iterator[str]:
-        """What a person types, or what is piped in, line by line."""
+    @contextmanager
+    def _waiting(self) -> Iterator[None]:
+        """While a line is waited for."""
+        with self.panic.aside(), self.progress.aside():
+            yield
         if sys.stdin.isatty():
-            with suppress(ImportError):  # history and editing where the platform has them
-                import readline  # noqa: F401
-        while True:
-            with self.panic.aside(), self.progress.aside():
-                try:
-                    line = input(prompt) if sys.stdin.isatty() else sys.stdin.readline()
-                except EOFError:
-                    return
-            if not line and not sys.stdin.isatty():
-                return
-            if sys.stdin.isatty():
-                self.panic()  # what was pressed while nothing moved must not stop what comes
-            yield line.rstrip("\n")
+            self.panic()  # what was pressed while nothing moved must not stop what comes
 
     def _kept(self, position: int) -> Checkpoint | None:
-        return None if self.folder is None else self.folder.kept.at_or_before(position)
+        """The newest state of this run on disk at a position or before it."""
+        if self.folder is not None:
+            return self.folder.kept.at_or_before(position)
+        if self.job.checkpoints is None:
+            return None
+        begun = self.job.start.position  # what is there from later on may be of a run that went another way
+        return Kept(self.job.checkpoints).at_or_before(min(position, begun))
 
     def _keep(self, checkpoint: Checkpoint) -> Path:
         if self.folder is not None:
             self.folder.check_traced()
             return self.folder.kept.save(checkpoint)
-        name = re.sub(r"[^A-Za-z0-9_.-]+", "-", checkpoint.setup.plan.program.name).lstrip(".")
-        path = Path(f"{name}-{checkpoint.setup.seed}-{file_name(checkpoint)}")
-        write_checkpoint(path, checkpoint)
-        return path
+        self.left = leave(self.job.checkpoints or Path(), checkpoint)
+        return self.left
 
     # -- ending ---------------------------------------------------------------------------------------
 
     def _interrupted(self, runner: Runner | None) -> int:
         where = "while the cell was set up" if runner is None else f"at {runner.run.time:.1f} s"
         note(f"interrupted {where}; the brakes are set")
-        kept = self.folder.path if self.folder is not None else None
-        if kept is None and runner is not None:
+        if self.folder is None and runner is not None:
             try:
-                kept = self._keep(runner.checkpoint())
+                self._keep(runner.checkpoint())
             except InvalidInput as fault:
                 note(str(fault))
-        if kept is not None:
-            note(f"go on with: handeye resume {kept}")
+        self._tell_how_to_go_on()
         return 130
+
+    def _tell_how_to_go_on(self) -> None:
+        kept = self.left if self.folder is None else self.folder.path
+        if kept is not None:
+            note(f"go on with: handeye resume {shlex.quote(str(kept))}")
 
     def _finished(self, runner: Runner, pause: Pause) -> int:
         job = self.job
         if pause.kind != "break":
             runner.finish()
         elif job.halfway and self.folder is None:
-            note(f"go on with: handeye resume {self._keep(runner.checkpoint())}")
+            self._keep(runner.checkpoint())
         findings = None
         if job.referee and pause.kind != "break":
             findings = judge(runner.cell.truth) if pause.kind == "end" else {}
@@ -216,9 +228,13 @@ class _Work:
         result = summary(runner, pause, findings=findings, wall=wall, planning=job.planning)
         if self.folder is not None:
             self.folder.close()
-            keep_pictures(self.folder.path / "pictures", runner)
+            keep_pictures(self.folder.path / PICTURES, runner)
             write_whole(self.folder.path / RESULT, to_json(result))
         self._print(result)
+        if pause.kind in ("break", "operator"):
+            self._tell_how_to_go_on()
+        elif self.folder is not None:
+            note(f"kept in {self.folder.path}")
         return result.exit_code
 
     def _print(self, result: Result) -> None:

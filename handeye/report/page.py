@@ -30,7 +30,7 @@ def stages(result: Result) -> Table:
     """The stages with status and arm time."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
-    table.add_column("step")
+    table.add_column("stage")
     table.add_column("status")
     table.add_column("arm time", justify="right")
     for stage in result.stages:
@@ -102,7 +102,7 @@ def verdict(result: Result) -> Text:
     if result.paused:
         return Text(f"The run stands still: {result.message}.", "bold")
     if not result.completed:
-        where = f" in step “{result.stopped_at}”" if result.stopped_at else ""
+        where = f" in stage “{result.stopped_at}”" if result.stopped_at else ""
         number = f" (error {result.error})" if result.error is not None else ""
         return Text(f"Stopped{where}{number}: {result.message}", "bold red")
     if result.assembled is None:

@@ -49,19 +49,25 @@ class Progress(Observer):
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """While somebody is asked: the bar is out of the way."""
+        """While somebody is asked: a bar that is there is out of the way."""
+        shown = self._bar.live.is_started
         self._bar.stop()
         try:
             yield
         finally:
-            if self._console.is_terminal:
+            if shown:
                 self._bar.start()
+
+    def goes_on(self, stage: str) -> None:
+        """Begin in the midst of a stage."""
+        number = self._plan.program.stages.index(stage)
+        self._bar.update(self._task, description=escape(stage), completed=number)
 
     def event(self, event: AnyEvent) -> None:
         clock = f"{event.time:.1f} s"
         if isinstance(event, StageStarted):
-            number = self._plan.program.stages.index(event.stage)
-            self._bar.update(self._task, description=escape(event.stage), completed=number, clock=clock)
+            self.goes_on(event.stage)
+            self._bar.update(self._task, clock=clock)
             if not self._console.is_terminal:
                 self._console.print(f"{clock:>8}  {event.stage}", markup=False)
         elif isinstance(event, StepStarted):

@@ -5,6 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
+from msgspec import UNSET
+
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.files import check_place
@@ -15,7 +17,8 @@ from handeye.stepping.experiments import set_position, set_saved
 from handeye.stepping.hands import Hands
 from handeye.stepping.places import named_place, text_of
 from handeye.stepping.reply import Break, Told
-from handeye.stepping.showing import show
+from handeye.stepping.runner import reach
+from handeye.stepping.showing import show, write_picture
 from handeye.work.executor import Choice
 
 WIDE: Final = 8
@@ -76,8 +79,11 @@ def back(hands: Hands, rest: str) -> Told:
         position = done - _count(rest, "back takes a number from 1 up, or `stage`")
     if position is None or not done:
         raise InvalidInput("this is the beginning; nothing lies before it")
-    if position < 0:
-        raise InvalidInput(f"only {done} step{'' if done == 1 else 's'} can be gone back")
+    first = hands.first()
+    if position < first:
+        raise InvalidInput(
+            reach(first) if first else f"only {done} step{'' if done == 1 else 's'} can be gone back"
+        )
     hands.back_to(position)
     undone = done - position
     return Told(source=hands.source(), said=f"{undone} step{'' if undone == 1 else 's'} undone")
@@ -88,7 +94,9 @@ def back(hands: Hands, rest: str) -> Told:
 
 def set_break(hands: Hands, rest: str) -> Told:
     """Set a break."""
-    return Told(breaks=(hands.add_break(rest),))
+    before = len(hands.breaks)
+    made = hands.add_break(rest)
+    return Told(breaks=(made,), said="it is set already" if len(hands.breaks) == before else UNSET)
 
 
 def breaks(hands: Hands, _: str) -> Told:
@@ -98,11 +106,13 @@ def breaks(hands: Hands, _: str) -> Told:
 
 def delete(hands: Hands, rest: str) -> Told:
     """Take a break away."""
-    number = int(rest) if re.fullmatch(r"[0-9]{1,7}", rest) else 0
-    if number not in hands.breaks:
-        there = ", ".join(map(str, hands.breaks)) or "none"
-        raise InvalidInput(f"no break has the number {quoted(rest)}; those that are set: {there}")
-    del hands.breaks[number]
+    there = f"those that are set: {', '.join(map(str, hands.breaks)) or 'none'}"
+    if not re.fullmatch(r"[0-9]{1,7}", rest):
+        wrong = f"; {quoted(rest)} is none" if rest else ""
+        raise InvalidInput(f"delete takes the number of a break{wrong}; {there}")
+    if int(rest) not in hands.breaks:
+        raise InvalidInput(f"no break has the number {int(rest)}; {there}")
+    del hands.breaks[int(rest)]
     return breaks(hands, "")
 
 
@@ -123,6 +133,17 @@ def script(hands: Hands, rest: str) -> Told:
 def look(hands: Hands, rest: str) -> Told:
     """Show what there is to see."""
     return Told(show=show(hands.runner, rest, hands.pictures))
+
+
+def picture(hands: Hands, rest: str) -> Told:
+    """Write the last picture to a file that is not there yet."""
+    if not rest:
+        raise InvalidInput("picture takes the name of a file to write")
+    path = _file(rest)
+    if path.exists():
+        raise InvalidInput(f"{path} is there already; it is left alone")
+    name = write_picture(hands.runner, path)
+    return Told(file=str(path), said=f"{name}, in {path}")
 
 
 # -- interfering ----------------------------------------------------------------------------------------
@@ -169,12 +190,9 @@ def _check_called(hands: Hands, word: str) -> None:
 def checkpoint(hands: Hands, rest: str) -> Told:
     """Keep the present state."""
     if rest:
-        try:
-            path = Path(rest).expanduser()
-            check_place(path, CHECKPOINT)
-            write_checkpoint(path, hands.runner.checkpoint())
-        except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
-            raise InvalidInput(f"{quoted(rest)} cannot be a file's name") from None
+        path = _file(rest)
+        check_place(path, CHECKPOINT)
+        write_checkpoint(path, hands.runner.checkpoint())
         return Told(file=str(path), said=f"kept in {path}")
     kept = hands.keep(hands.runner.checkpoint())
     if kept is None:
@@ -182,12 +200,24 @@ def checkpoint(hands: Hands, rest: str) -> Told:
     return Told(file=str(kept), said=f"kept in {kept}")
 
 
+def _file(name: str) -> Path:
+    """Raises InvalidInput for a name that no file can have."""
+    try:
+        path = Path(name).expanduser()
+        path.exists()
+    except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
+        raise InvalidInput(f"{quoted(name)} cannot be a file's name") from None
+    return path
+
+
 def leave(hands: Hands, _: str) -> Told:
     """Keep the present state, and end."""
     hands.over = True
     if hands.runner.ended and not hands.runner.called:
         return Told(said="nothing is left to go on with")
+    if hands.idle:
+        return Told(said="nothing was done, so that nothing is kept")
     path = hands.keep(hands.runner.checkpoint())
     if path is None:
         return Told(said="nothing is kept")
-    return Told(file=str(path), said=f"kept: `handeye resume {path}` goes on from here")
+    return Told(file=str(path), said=f"kept in {path}")

@@ -206,8 +206,8 @@ def _at_line(place: Place, plan: Plan) -> Stop:
 
 def _at_label(text: str, plan: Plan) -> Stop | None:
     known = labels(plan.program)
-    steps = known.get(text) or known.get(text.upper())
-    return None if steps is None else AtSteps(frozenset(steps), f"label {text}")
+    label = text if text in known else text.upper()
+    return AtSteps(frozenset(known[label]), f"label {label}") if label in known else None
 
 
 def _words(plan: Plan) -> list[str]:

@@ -54,6 +54,8 @@ def find(line: str) -> tuple[Command, str]:
     named = [command for command in COMMANDS if command.name == name]
     if not named:
         near = nearest(word, [command.name for command in COMMANDS])
+        if word.casefold() in _ELSEWHERE:
+            near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
         raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` tells which there are'}")
     if rest and all(command.bare for command in named):
         raise InvalidInput(f"`{name}` takes nothing behind it; {quoted(rest)} is too much")
@@ -134,6 +136,10 @@ COMMANDS: Final = (
         help="what there is to see: all of it, or one thing",
     ),
     Command(
+        usage="picture FILE", group=_LOOKING, act=acts.picture,
+        help="write the last picture, with what was found in it, to a new PNG file",
+    ),
+    Command(
         usage="set saved NAME x y z", group=_TRYING, act=acts.experiment,
         help="give a saved difference a value of your own",
     ),
@@ -160,6 +166,9 @@ COMMANDS: Final = (
 
 _SHORT: Final = {
     "?": "help",
+    "exit": "quit",
     **{c.short: " ".join(filter(str.islower, c.usage.split())) for c in COMMANDS if c.short},
 }
 """What short words stand for."""
+_ELSEWHERE: Final = {"run": "continue", "go": "continue", "next": "step", "print": "show", "info": "show"}
+"""What other debuggers call the commands."""

@@ -13,7 +13,7 @@ from handeye.stepping.shown import Hand, Joint, PartPose, PartShown, PictureShow
 from handeye.stepping.telling import Deed
 
 MOST: Final = 24
-"""Lines of deeds that are told of a long way; all of them are in the trace."""
+"""Lines of deeds that a terminal is told of a long way; all of them are in the trace."""
 STATEMENT: Final = 30
 """Columns for a statement."""
 
@@ -28,11 +28,11 @@ def as_json(reply: Reply) -> str:
     return _encoder.encode({n: value for n, value in fields.items() if value is not UNSET}).decode()
 
 
-def as_text(reply: Reply) -> str:
-    """The answer for people, without the end of its last line."""
+def as_text(reply: Reply, most: int | None = None) -> str:
+    """The answer for people, without the end of its last line; of a long way the last `most` deeds."""
     if reply.error is not None:
         return reply.error
-    lines = [*deed_lines(reply.did), _standing(reply)]
+    lines = [*deed_lines(reply.did, most), _standing(reply)]
     if reply.source is not UNSET:
         lines += excerpt_lines(reply.source, "■" if reply.step is None else "→")
     if reply.show is not UNSET:
@@ -47,13 +47,14 @@ def as_text(reply: Reply) -> str:
 def _standing(reply: Reply) -> str:
     """Where the run stands."""
     stage = "behind the last stage" if reply.stage is None else f"stage {reply.stage_number}, {reply.stage}"
-    steps = f"{reply.position} step{'' if reply.position == 1 else 's'} done"
-    return f"── {stage}; {steps}, {reply.time:.2f} s"
+    step = "" if reply.step is None else f", step {reply.step}"
+    done = f"{reply.position} step{'' if reply.position == 1 else 's'} done"
+    return f"── {stage}{step}; {done}, {reply.time:.2f} s"
 
 
-def deed_lines(did: Sequence[Deed]) -> list[str]:
-    """What was done, as lines of text; of a long way its end."""
-    left_out = max(0, len(did) - MOST)
+def deed_lines(did: Sequence[Deed], most: int | None = None) -> list[str]:
+    """What was done, as lines of text; of a long way the last `most`."""
+    left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
     return head + [_deed(deed) for deed in did[left_out:]]
 

@@ -31,7 +31,7 @@ class Hands:
         stops: Sequence[Stop] = (),
         kept: Callable[[int], Checkpoint | None],
         keep: Callable[[Checkpoint], Path | None],
-        pictures: Path,
+        pictures: Path | None,
     ) -> None:
         """Take a run in hand.
 
@@ -39,7 +39,7 @@ class Hands:
             stops: reasons to stop besides breaks.
             kept: the newest checkpoint on disk at a position or before it.
             keep: writes a checkpoint to where the run's are kept; None: they are kept nowhere.
-            pictures: folder for pictures somebody wants to see.
+            pictures: folder that the last picture is kept in when it is shown; None: nowhere.
         """
         self.runner = runner
         self.stops = stops
@@ -50,24 +50,32 @@ class Hands:
         """By their numbers, which are never used twice."""
         self.over = False
         self._set = 0
+        self._begun = tuple(runner.events)
 
     @property
     def program(self) -> Program:
         """What is carried out."""
         return self.runner.setup.plan.program
 
+    @property
+    def idle(self) -> bool:
+        """Nothing has been done, or all of it was undone."""
+        return tuple(self.runner.events) == self._begun
+
     # -- breaks ---------------------------------------------------------------------------------------
 
     def add_break(self, text: str) -> Break:
-        """Stop there from now on.
+        """Stop there from now on; a break that is set already stays as it is.
 
         Raises:
             InvalidInput: there is no such place.
         """
         stop = breakpoint(text, self.runner.setup.plan)
-        self._set += 1
-        self.breaks[self._set] = stop
-        return Break(number=self._set, at=str(stop))
+        number = next((number for number, there in self.breaks.items() if there == stop), None)
+        if number is None:
+            number = self._set = self._set + 1
+            self.breaks[number] = stop
+        return Break(number=number, at=str(stop))
 
     # -- going ----------------------------------------------------------------------------------------
 
@@ -122,8 +130,15 @@ class Hands:
             self.runner.undo()
             done = self.runner.position
             raise InvalidInput(
-                f"stopped by hand on the way to step {position}; step {done} is reached"
+                f"stopped by hand on the way back to where {position} steps were done; {done} are done"
             ) from None
+
+    def first(self) -> int:
+        """Steps that were done at the earliest state there is to go back to."""
+        first = self.runner.history[0].position
+        while first > 0 and (before := self.kept(first - 1)) is not None:
+            first = before.position
+        return first
 
     def stage_began(self) -> int | None:
         """Where the stage began that is under way or, between two stages, the one before; None before the first."""

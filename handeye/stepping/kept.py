@@ -2,11 +2,20 @@
 
 import re
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 from handeye.errors import InvalidInput
+from handeye.files import write_whole
 from handeye.plan.store import plan_digest
-from handeye.stepping.checkpoint_file import ENDING, Head, read_checkpoint, read_head, write_checkpoint
+from handeye.stepping.checkpoint_file import (
+    ENDING,
+    Head,
+    encode,
+    read_checkpoint,
+    read_head,
+    write_checkpoint,
+)
 from handeye.stepping.snapshot import Checkpoint, Setup
 
 
@@ -74,7 +83,7 @@ class Kept:
         self.check(setup)
         for fault in self.damaged():
             raise InvalidInput(f"{self.folder} holds what cannot be read ({fault}); choose another folder")
-        if any(head.touched for _, head in self.heads()):
+        if any(head.touched for path, head in self.heads() if _position(path) >= 0):
             raise InvalidInput(
                 f"{self.folder} is of a run that somebody took a hand in, which would be lost; choose another folder"
             )
@@ -89,9 +98,12 @@ class Kept:
         return None
 
     def at_or_before(self, position: int) -> Checkpoint | None:
-        """The newest that is not farther on than `position` steps, of a run that had begun."""
+        """The newest of those that `save` has written that is not farther on than `position` steps.
+
+        The one from before the run does not count.
+        """
         for path, head in self.heads():
-            if 0 <= head.position <= position:
+            if head.position >= 0 and 0 <= _position(path) <= position:
                 return read_checkpoint(path)
         return None
 
@@ -131,3 +143,31 @@ def file_name(checkpoint: Checkpoint) -> str:
         return f"start{ENDING}"
     words = re.sub(r"[^a-z0-9]+", "-", (checkpoint.stage or "end").lower()).strip("-")
     return f"{checkpoint.position:04}-{words}{ENDING}"
+
+
+def leave(folder: Path, checkpoint: Checkpoint) -> Path:
+    """Write a checkpoint under a name of its own, never over another state; where it now is.
+
+    Raises:
+        InvalidInput: the folder cannot be written to.
+    """
+    state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
+    if _holds(folder / name, state):
+        return folder / name
+    program = re.sub(r"[^A-Za-z0-9_.-]+", "-", setup.plan.program.name).lstrip(".")
+    stem = f"{program}-{setup.seed}-{name.removesuffix(ENDING)}"
+    names = (stem if number == 1 else f"{stem}-{number}" for number in count(1))
+    path = next(path for path in (folder / f"{name}{ENDING}" for name in names) if _free(path, state))
+    write_whole(path, state)
+    return path
+
+
+def _free(path: Path, state: bytes) -> bool:
+    return not (path.exists() or path.is_symlink()) or _holds(path, state)
+
+
+def _holds(path: Path, state: bytes) -> bool:
+    try:
+        return path.read_bytes() == state
+    except OSError:
+        return False

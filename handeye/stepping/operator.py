@@ -102,6 +102,9 @@ class Ask:
         """
         if word in ("b", "back"):
             return Back(stage=_begun(runner, rest))
+        if word in ("h", "help", "?"):
+            self._say(_choices(runner))
+            return None
         if word == "show":
             self._say(shown_lines(show(runner, rest)))
             return None
@@ -210,16 +213,24 @@ def _begun(runner: Runner, text: str) -> int:
 
 def _question(runner: Runner, sentence: str) -> list[str]:
     """What happened, where, and what can be said to it."""
-    program, executor = runner.setup.plan.program, runner.executor
-    assert executor.stage is not None
+    program, stage = runner.setup.plan.program, runner.executor.stage
+    assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
+    return [
+        f"The operator is called in {numbered_stage(program, stage)}:",
+        f"    {sentence}",
+        *excerpt_lines(excerpt(program, step.line, step.line, 2, step.file), "■"),
+        *_choices(runner),
+    ]
+
+
+def _choices(runner: Runner) -> list[str]:
+    """What can be said, and what it does here."""
+    program, executor = runner.setup.plan.program, runner.executor
     first = next(step.place for step in program.steps if step.stage == executor.stage)
     onward = executor.onward
     where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"
     return [
-        f"The operator is called in {numbered_stage(program, executor.stage)}:",
-        f"    {sentence}",
-        *excerpt_lines(excerpt(program, step.line, step.line, 2, step.file), "■"),
         f"p          proceed behind it: {where}",
         f"r          retry: the stage again from line {first}, with the world as it is now",
         "s          skip: leave out the rest of the stage",

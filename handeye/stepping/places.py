@@ -1,6 +1,7 @@
 """Places in a script that may be sewn of several files, as users name them."""
 
 import re
+from pathlib import Path
 from typing import Final
 
 from handeye.diagnostics import quoted
@@ -30,6 +31,8 @@ def named_place(text: str, program: Program) -> Place | None:
     if not file or (file not in program.required and file in (program.name, f"{program.name}.al")):
         return "", line
     found = [key for key in program.required if key == file or key.endswith(f"/{file}")]
+    if not found and Path(file).name == f"{program.name}.al":
+        return "", line
     if not found:
         known = ", ".join(map(quoted, program.required)) or "none"
         raise InvalidInput(f"the script requires no file {quoted(file)}; those it requires: {known}")

@@ -44,6 +44,11 @@ RECENT: Final = 400
 """Steps whose states are kept in memory; of older ones those at the beginning of stages."""
 
 
+def reach(first: int) -> str:
+    """How far one can go back where the earliest state has `first` steps done, as a sentence."""
+    return f"this run begins with {first} step{'' if first == 1 else 's'} done: there is nothing before that"
+
+
 class Runner:
     """A run of a plan in a drawn world, from its beginning or from a checkpoint."""
 
@@ -204,7 +209,7 @@ class Runner:
             InvalidInput: no such position, or no state at it or before it is left.
         """
         if not 0 <= position <= self.position:
-            raise InvalidInput(f"there is no step {position} to go back to")
+            raise InvalidInput(f"{position} steps done is nowhere to go back to")
         near = self._nearest(position, kept)
         again = self.events[: self._happened(position)]
         while self.history and self.history[-1].position > near.position:
@@ -223,7 +228,7 @@ class Runner:
             if snapshot is not None and (near is None or snapshot.position > near.position):
                 near = snapshot
         if near is None:
-            raise InvalidInput(f"no state before step {position} was kept")
+            raise InvalidInput(reach(self.history[0].position))
         return near
 
     def _happened(self, position: int) -> int:

@@ -46,9 +46,23 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     for name in names:
         field, look = TOPICS[name]
         fields[field] = look(runner)
-    if fields.get("picture") is not None and pictures is not None:
-        fields["picture"] = _written(runner, fields["picture"].name, pictures)
+    last = fields.get("picture")
+    if last is not None and pictures is not None:
+        fields["picture"] = _kept(runner, last.name, pictures)
     return Shown(**fields)
+
+
+def write_picture(runner: Runner, file: Path) -> str:
+    """Write the last picture, with what was found in it, as a PNG file; its name in the program.
+
+    Raises:
+        InvalidInput: none was taken yet, or the file cannot be written.
+    """
+    last = _picture(runner)
+    if last is None:
+        raise InvalidInput("the program has taken no picture yet")
+    write_whole(file, annotated_png(runner.run, last.name))
+    return last.name
 
 
 def _topic(what: str) -> str:
@@ -137,14 +151,14 @@ def _picture(runner: Runner) -> PictureShown | None:
     return None if name is None else PictureShown(name=name, file=None)
 
 
-def _written(runner: Runner, name: str, folder: Path) -> PictureShown:
-    """The picture as a file, with what was found in it."""
+def _kept(runner: Runner, name: str, folder: Path) -> PictureShown:
+    """The last picture among those of the run."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
     file = folder / f"{name.lower()}.png"
-    write_whole(file, annotated_png(runner.run, name))
+    write_picture(runner, file)
     return PictureShown(name=name, file=str(file))
 
 

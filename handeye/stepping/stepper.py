@@ -1,6 +1,7 @@
 """The interactive stepper: a line is a command, its answer a record; a loop gives the answers a face."""
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 from handeye.errors import HandeyeError
@@ -25,7 +26,7 @@ class Stepper:
         stops: Sequence[Stop] = (),
         kept: Callable[[int], Checkpoint | None] = lambda _: None,
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
-        pictures: Path,
+        pictures: Path | None = None,
     ) -> None:
         """Take a run in hand.
 
@@ -34,7 +35,7 @@ class Stepper:
             stops: other reasons to stop.
             kept: the newest checkpoint on disk at a position or before it, for going far back.
             keep: writes a checkpoint to where those of the run are kept; None: they are kept nowhere.
-            pictures: folder for pictures somebody wants to see.
+            pictures: folder that the last picture is kept in when it is shown; None: nowhere.
 
         Raises:
             InvalidInput: there is no such place to stop.
@@ -44,6 +45,8 @@ class Stepper:
             self.hands.add_break(text)
         self.repeated: str | None = None
         """What an empty line on a terminal says again."""
+        self.refused = False
+        """A command was not carried out."""
 
     @property
     def over(self) -> bool:
@@ -64,6 +67,7 @@ class Stepper:
             self.repeated = line if command.repeats else None
             told = command.act(self.hands, rest)
         except HandeyeError as error:
+            self.refused = True
             return self._reply(line, Told(), happened, error=str(error))
         return self._reply(line, told, happened)
 
@@ -106,6 +110,7 @@ def interact(
     *,
     json: bool = False,
     prompt: bool = False,
+    most: int | None = None,
 ) -> Pause:
     """Carry out a command a line until somebody leaves; the end of the lines is taken for `quit`.
 
@@ -113,11 +118,12 @@ def interact(
         write: puts out lines of text; the end of the last one is not in them.
         json: answer each command with one JSON object on one line, and say nothing else.
         prompt: somebody is asked for each line: an empty one says again what last made the run go.
+        most: deeds that are told of a long way; None: all.
 
     Returns:
         Why the run stands still.
     """
-    face = as_json if json else as_text
+    face = as_json if json else partial(as_text, most=most)
     if not json:
         write(face(stepper.standing()))
     while not stepper.over:

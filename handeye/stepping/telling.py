@@ -68,7 +68,7 @@ def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Pr
     """Where the program goes on after a test."""
     tested = program.steps[step.step]
     onward = getattr(tested.operation, "raised", None) if event.occurred else tested.next
-    return "to the end" if onward is None else f"on to line {program.steps[onward].place}"
+    return "to the end" if onward is None else f"on at line {program.steps[onward].place}"
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted) -> str:

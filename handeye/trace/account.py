@@ -98,7 +98,7 @@ class _Teller:
     def _took(self, time: float) -> str:
         """How long the stage took."""
         camera = f", {self._camera:.1f} s of it for the camera" if self._camera else ""
-        return f"in {time - self._begun:.1f} s{camera}"
+        return f"in {round(time - self._begun, 3):.1f} s{camera}"
 
     def _ended(self, event: happened.StepFinished) -> None:
         """Tell where a motion ended, if not where its goal was, nor as far off as the last one."""

@@ -55,7 +55,8 @@ def sentence(event: Event) -> str:
     match event:
         case happened.RunStarted():
             world = f"the world of seed {event.seed}, pictures by {event.camera}"
-            return f"{event.program}: {event.steps} steps on the {event.arm} arm, {world}"
+            steps = f"{event.steps} step{'' if event.steps == 1 else 's'}"
+            return f"{event.program}: {steps} on the {event.arm} arm, {world}"
         case happened.StageStarted():
             return f"stage “{event.stage}”"
         case happened.StageFinished():

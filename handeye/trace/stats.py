@@ -133,4 +133,9 @@ def statistics_table(figures: Statistics) -> RenderableType:
 def _cells(figures: Figures) -> list[str]:
     counts = (figures.steps, figures.guards, figures.places)
     errors = ", ".join(f"{count} x {number}" for number, count in sorted(figures.errors.items()))
-    return [f"{figures.seconds:.1f}", f"{figures.camera_s:.1f}", *map(str, counts), errors]
+    return [
+        f"{round(figures.seconds, 3):.1f}",
+        f"{round(figures.camera_s, 3):.1f}",
+        *map(str, counts),
+        errors,
+    ]

@@ -58,7 +58,7 @@ def test_nothing_is_said_of_speed_where_nothing_was_simulated(factor: float, tol
 
 def test_a_stop_names_the_step_the_error_and_what_went_wrong() -> None:
     said = verdict(result(completed=False, assembled=False, message="no gasket")).plain
-    assert said == "Stopped in step “check the gasket” (error 32): no gasket"
+    assert said == "Stopped in stage “check the gasket” (error 32): no gasket"
 
 
 def test_a_silent_failure_says_what_the_referee_found() -> None:

@@ -60,7 +60,7 @@ def stopped(runner: Runner, *stops: Stop) -> tuple[str, int | None]:
         ("10", "break at line 10", 10),
         ("9", "break at line 10", 10),
         ("L1", "break at label L1", 8),
-        ("l3", "break at label l3", 15),
+        ("l3", "break at label L3", 15),
         ("AOJ", "break at AOJ", 14),
         ("skipe", "break at SKIPE", 11),
         ("search in the air", "break at stage 2, search in the air", 7),

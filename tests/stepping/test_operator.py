@@ -229,12 +229,23 @@ def test_going_back_reaches_what_is_only_on_disk(runner: Runner) -> None:
     assert history(late.events) == history(runner.events)
 
 
+@pytest.mark.parametrize("word", ["help", "?", "h"])
+def test_help_says_again_what_can_be_said(runner: Runner, word: str) -> None:
+    talk = Talk(word, "a")
+    attend(runner, talk.operator)
+    question, choices = talk.said
+    assert choices.splitlines()[0] == "p          proceed behind it: on at line 20"
+    assert question.endswith(choices)
+
+
 def test_going_back_behind_what_was_kept_is_told_and_asked_for_again(runner: Runner) -> None:
     attend(runner, Abort(), [ToStage(1)])
     talk = Talk("b 1", "a")
     pause = attend(Runner(runner.checkpoint()), talk.operator)
     assert pause.kind == "operator"
-    assert talk.said[1].splitlines()[1] == "    no state before step 0 was kept"
+    assert (
+        talk.said[1].splitlines()[1] == "    this run begins with 9 steps done: there is nothing before that"
+    )
 
 
 def test_the_panic_button_on_the_way_back_stops_the_run(runner: Runner) -> None:

@@ -19,6 +19,7 @@ from handeye.stepping.advance import Pause
 from handeye.stepping.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.stepping.commands import COMMANDS
 from handeye.stepping.faces import as_text
+from handeye.stepping.kept import Kept
 from handeye.stepping.observer import Observer
 from handeye.stepping.reply import Reply
 from handeye.stepping.runner import Runner
@@ -134,8 +135,8 @@ def test_an_answer_says_what_was_done_and_where_the_run_now_stands(say: Say) -> 
     say("until 9")
     assert as_text(say("s 2")[0]).splitlines() == [
         "   10 CHANGE [0 0 -1] .1             error 23: the motion ended without meeting the force it was to stop on",
-        "   11 SKIPE 23                       error 23 occurred: on to line 13",
-        "── stage 2, search in the air; 6 steps done, 3.08 s",
+        "   11 SKIPE 23                       error 23 occurred: on at line 13",
+        "── stage 2, search in the air, step 7; 6 steps done, 3.08 s",
         "    11          SKIPE   23",
         "    12          JUMP    L1",
         "  → 13          SAVE    H",
@@ -147,10 +148,11 @@ def test_an_answer_says_what_was_done_and_where_the_run_now_stands(say: Say) -> 
 def test_of_a_long_way_the_last_lines_are_told(say: Say) -> None:
     reply = say("s 2")[0]
     many = msgspec.structs.replace(reply, did=reply.did[1:2] * 30 + reply.did[2:])
-    assert as_text(many).splitlines()[:2] == [
+    assert as_text(many, most=24).splitlines()[:2] == [
         "      … 7 lines before these",
         "    4 OPEN .5                        gap 0.51 in",
     ]
+    assert len(as_text(many).splitlines()) == 7 + len(as_text(many, most=24).splitlines()) - 1
 
 
 # -- breaks ---------------------------------------------------------------------------------------------
@@ -165,6 +167,13 @@ def test_breaks_stop_the_run_and_can_be_listed_and_deleted(say: Say) -> None:
 def test_a_number_of_a_break_is_not_used_again(say: Say) -> None:
     listed = say("break AOJ", "delete 1", "break 8")[-1]
     assert [each.number for each in listed.breaks] == [2]
+
+
+@pytest.mark.parametrize(("place", "again"), [("AOJ", "aoj"), ("L1", "l1"), ("8", "here/short.al:8")])
+def test_a_break_that_is_set_already_is_not_set_again(say: Say, place: str, again: str) -> None:
+    first, second, listed = say(f"break {place}", f"break {again}", "breaks")
+    assert (second.breaks, second.said) == (first.breaks, "it is set already")
+    assert listed.breaks == first.breaks
 
 
 def test_breaks_given_at_the_beginning_are_set(runner: Runner, tmp_path: Path) -> None:
@@ -233,6 +242,23 @@ def test_the_last_picture_is_written_to_a_file_that_is_told(say: Say, runner: Ru
     shown = say("show picture")[0].show.picture
     assert (shown.name, shown.file) == ("CLOSE_UP", str(tmp_path / "pictures" / "close_up.png"))
     assert Path(shown.file).read_bytes().startswith(b"\x89PNG")
+
+
+def test_without_a_folder_a_picture_is_named_and_written_only_where_somebody_says(
+    runner: Runner, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    picture = np.full((256, 333), 7, np.uint8)
+    runner.run.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
+    runner.events.append(PictureTaken(time=0.0, picture="CLOSE_UP", lens=0.05))
+    stepper = Stepper(runner)
+    assert as_text(stepper.do("show picture")).splitlines()[1:] == ["picture   CLOSE_UP"]
+    assert list(tmp_path.iterdir()) == []
+    assert stepper.do("picture seen.png").said == "CLOSE_UP, in seen.png"
+    written = Path("seen.png").read_bytes()
+    assert written.startswith(b"\x89PNG")
+    assert stepper.do("picture seen.png").error == "seen.png is there already; it is left alone"
+    assert Path("seen.png").read_bytes() == written
 
 
 @given(
@@ -333,6 +359,42 @@ def test_the_end_of_the_input_is_taken_for_quit(stepper: Stepper) -> None:
     assert out[-1].splitlines()[-1] == "nothing is kept"
 
 
+@pytest.mark.parametrize("commands", [("q",), ("exit",), ("s 2", "b 2", "q"), ("s", "b", "set x", "q")])
+def test_where_nothing_was_done_nothing_is_kept(runner: Runner, commands: tuple[str, ...]) -> None:
+    def keep(checkpoint: Checkpoint) -> Path:
+        raise AssertionError
+
+    out = lines_of(Stepper(runner, keep=keep), *commands)
+    assert out[-1].splitlines()[-1] == "nothing was done, so that nothing is kept"
+
+
+def test_an_experiment_is_something_that_was_done(stepper: Stepper) -> None:
+    assert lines_of(stepper, "set saved H 0 0 0", "q")[-1].splitlines()[-1] == "nothing is kept"
+
+
+def test_a_run_that_begins_at_a_checkpoint_says_so_to_those_who_go_back_behind_it(runner: Runner) -> None:
+    Stepper(runner).do("until 14")
+    again = Stepper(Runner(runner.checkpoint()))
+    reach = "this run begins with 7 steps done: there is nothing before that"
+    assert [again.do(text).error for text in ("b", "bs", "b 1000")] == [reach] * 3
+    again.do("s 2")
+    assert [again.do(text).error for text in ("b 3", "b 2")] == [reach, None]
+
+
+def test_going_back_behind_the_beginning_of_a_run_uses_earlier_checkpoints(
+    runner: Runner, tmp_path: Path, whole: bytes
+) -> None:
+    folder, stepper = Kept(tmp_path), Stepper(runner)
+    stepper.do("stage")
+    folder.save(runner.checkpoint())
+    stepper.do("until 14")
+    again = Stepper(Runner(runner.checkpoint()), kept=folder.at_or_before)
+    assert [again.do(text).position for text in ("bs", "s 3", "b 2")] == [2, 5, 3]
+    assert again.do("b 3").error == "this run begins with 2 steps done: there is nothing before that"
+    again.do("c")
+    assert history(again.hands.runner.events) == whole
+
+
 def test_quit_keeps_a_checkpoint_that_goes_on_from_there(
     runner: Runner, tmp_path: Path, whole: bytes
 ) -> None:
@@ -344,7 +406,7 @@ def test_quit_keeps_a_checkpoint_that_goes_on_from_there(
 
     stepper = Stepper(runner, keep=keep, pictures=tmp_path)
     out = lines_of(stepper, "s 4", "q", "s")
-    assert out[-1].splitlines()[-1] == f"kept: `handeye resume {file}` goes on from here"
+    assert out[-1].splitlines()[-1] == f"kept in {file}"
     assert history(through(Runner(read_checkpoint(file))).events) == whole
 
 
@@ -356,7 +418,7 @@ def test_a_checkpoint_that_cannot_be_kept_does_not_keep_anybody_from_leaving(
         raise AssertionError
 
     stepper = Stepper(runner, keep=keep, pictures=tmp_path)
-    assert "cannot be written: No such file or directory" in lines_of(stepper, "q")[-1]
+    assert "cannot be written: No such file or directory" in lines_of(stepper, "s", "q")[-1]
     assert stepper.over
 
 
@@ -421,6 +483,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
     ("command", "sentence"),
     [
         ("stpe", "there is no command `stpe`; did you mean `step`?"),
+        ("run", "there is no command `run`; did you mean `continue`?"),
         ("frobnicate", "there is no command `frobnicate`; `help` tells which there are"),
         ("contineu", "there is no command `contineu`; did you mean `continue`?"),
         ("step x", "step takes a number from 1 up; `x` is none"),
@@ -434,8 +497,11 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("back x", "back takes a number from 1 up, or `stage`; `x` is none"),
         ("break", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
         ("break 99", "line 99 lies behind the last step, which is on line 22"),
-        ("delete", "no break has the number ``; those that are set: none"),
-        ("delete 4", "no break has the number `4`; those that are set: none"),
+        ("delete", "delete takes the number of a break; those that are set: none"),
+        ("delete foo", "delete takes the number of a break; `foo` is none; those that are set: none"),
+        ("delete 4", "no break has the number 4; those that are set: none"),
+        ("picture", "picture takes the name of a file to write"),
+        ("picture x.png", "the program has taken no picture yet"),
         ("list 23", "list takes a line from 1 to 22; `23` is none"),
         ("list x", "list takes a line from 1 to 22; `x` is none"),
         ("show jiont", "there is no `jiont` to show; did you mean `joints`?"),
@@ -503,7 +569,7 @@ def test_the_json_of_an_answer_says_where_the_run_stands_and_what_happened(stepp
 
 def test_text_begins_with_where_the_run_stands(stepper: Stepper) -> None:
     assert lines_of(stepper, "q")[0].splitlines() == [
-        "── stage 1, open the hand; 0 steps done, 0.00 s",
+        "── stage 1, open the hand, step 0; 0 steps done, 0.00 s",
         "    2          TRANS   T [20 28 7.9 90 90 0]",
         '    3          STAGE   "open the hand"',
         "  → 4          OPEN    .5",

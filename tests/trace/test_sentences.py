@@ -27,6 +27,20 @@ def test_only_events_that_there_are_are_logged() -> None:
     ("event", "said"),
     [
         (
+            happened.RunStarted(
+                time=0.0,
+                program="first",
+                steps=1,
+                plan="",
+                arm="stanford",
+                arm_digest="",
+                seed=2,
+                camera="ray casting",
+                versions={},
+            ),
+            "first: 1 step on the stanford arm, the world of seed 2, pictures by ray casting",
+        ),
+        (
             happened.GuardTripped(time=0.0, guard="force", value=17.8, limit=16.680831),
             "stopped: the hand presses with 64.0 ounces, over 60.0",
         ),

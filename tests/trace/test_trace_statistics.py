@@ -47,6 +47,16 @@ def test_a_run_of_which_nothing_is_known_has_no_figures() -> None:
     )
 
 
+def test_seconds_are_rounded_as_in_the_result_of_a_run() -> None:
+    console = Console(file=io.StringIO(), width=100)
+    added_up = 0.1 + 0.2 + 48.65
+    stages = [StageFigures(stage="insert", status="done", seconds=added_up)]
+    figures = Statistics(stages=stages, total=stages[0], operator=0, experiments=0, messages={})
+    console.print(statistics_table(figures))
+    assert f"{added_up:.1f}" == "48.9"
+    assert console.file.getvalue().count("49.0") == 2
+
+
 def test_the_table_has_a_row_for_each_stage_and_one_for_all() -> None:
     console = Console(width=120, file=io.StringIO())
     console.print(statistics_table(statistics(EVENTS, {"/events": 40})))
