@@ -239,6 +239,12 @@ def test_a_refused_command_that_came_from_no_terminal_ends_with_two_if_nothing_i
     assert command("run", planned('OPEN 1\nWAIT "HELP"\n'), "--step", typed=typed)[0] == code
 
 
+def test_going_on_more_often_than_there_is_a_way_is_no_failure(command: Command, planned: Planned) -> None:
+    code, out, _ = command("run", planned("OPEN 1\nOPEN 2\n"), "--step", typed="step\n" * 5)
+    assert (code, "the program has come to its end: `back` goes back" in out) == (0, True)
+    assert command("run", planned("OPEN 1\n"), "--step", typed="step\nstpe\n")[0] == 2
+
+
 def test_states_that_the_stepper_keeps_do_not_lose_each_other(command: Command, planned: Planned) -> None:
     plan = planned(SCRIPT)
     tried = "step 3\nset position THERE 25 35 9\nquit\n"

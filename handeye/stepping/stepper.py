@@ -46,7 +46,7 @@ class Stepper:
         self.repeated: str | None = None
         """What an empty line on a terminal says again."""
         self.refused = False
-        """A command was not carried out."""
+        """A command was not carried out; those said behind the end, of which nobody knows when it comes, do not count."""
 
     @property
     def over(self) -> bool:
@@ -67,7 +67,7 @@ class Stepper:
             self.repeated = line if command.repeats else None
             told = command.act(self.hands, rest)
         except HandeyeError as error:
-            self.refused = True
+            self.refused |= str(error) != self.hands.at_its_end()
             return self._reply(line, Told(), happened, error=str(error))
         return self._reply(line, told, happened)
 
