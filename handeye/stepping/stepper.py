@@ -46,7 +46,7 @@ class Stepper:
         self.repeated: str | None = None
         """What an empty line on a terminal says again."""
         self.refused = False
-        """A command was not carried out; those said behind the end, of which nobody knows when it comes, do not count."""
+        """A command was not carried out; those said at the end, of which nobody knows when it comes, do not count."""
 
     @property
     def over(self) -> bool:
