@@ -1,6 +1,6 @@
-"""Sixty scripts with one mistake each, written by people who had not seen the checker: each is told, and nothing else.
+"""Sixty scripts with one mistake each, written without looking at the checker: each is told, and nothing else.
 
-Of the first twenty (`a`) sixteen were told as their writers wished at once, of the second (`b`) seventeen. Of a third
+Of the first twenty (`a`) sixteen were told as wished for before they were checked, of the second (`b`) seventeen. Of a third
 set 41 of 59 were; most of the others are here (`c`). They have led to new diagnostics and better words.
 """
 
