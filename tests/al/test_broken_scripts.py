@@ -1,7 +1,7 @@
 """Sixty scripts with one mistake each, written without looking at the checker: each is told, and nothing else.
 
-Of the first twenty (`a`) sixteen were told as wished for before they were checked, of the second (`b`) seventeen. Of a third
-set 41 of 59 were; most of the others are here (`c`). They have led to new diagnostics and better words.
+Of the first twenty (`a`) sixteen were told as wished for at once, of the second (`b`) seventeen. Of a third set 41 of
+59 were; most of the others are here (`c`). They have led to new diagnostics and better words.
 """
 
 from pathlib import Path
