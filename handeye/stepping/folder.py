@@ -217,6 +217,8 @@ def _refuse_run(path: Path) -> None:
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
     ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES}
+    if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
+        ours.remove(PICTURES)
     others = (
         sorted(inside.name for inside in path.iterdir() if inside.name not in ours) if path.is_dir() else []
     )

@@ -194,6 +194,15 @@ def test_a_folder_of_other_things_is_left_alone(tmp_path: Path) -> None:
     assert names(tmp_path) == ["holiday.png"]
 
 
+def test_pictures_that_no_run_has_left_are_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "pictures").mkdir()
+    (tmp_path / "pictures" / "holiday.png").touch()
+    for overwrite in (False, True):
+        with pytest.raises(InvalidInput, match=r"holds other things \(`pictures`\)"):
+            open_new(tmp_path, begin(), overwrite=overwrite)
+    assert names(tmp_path / "pictures") == ["holiday.png"]
+
+
 def test_a_run_takes_the_place_of_another_if_it_is_told_to(copy: Path, whole: Path) -> None:
     (copy / "pictures" / "old.png").touch()
     runner, folder = recorded(copy, begin("OPEN 2\n"), overwrite=True)
