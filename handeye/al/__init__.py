@@ -3,7 +3,7 @@
 from handeye.al.compiler import compile_text
 from handeye.al.extensions import extensions
 from handeye.al.formatter import format_text
-from handeye.al.instructions import INSTRUCTIONS, manual
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.sewing import read_script, sewn, sewn_of
 
 __all__ = [
@@ -11,7 +11,6 @@ __all__ = [
     "compile_text",
     "extensions",
     "format_text",
-    "manual",
     "read_script",
     "sewn",
     "sewn_of",

@@ -7,8 +7,6 @@ manual. What the period does not document and we added in its spirit has `ours` 
 from typing import Final
 
 from handeye.al.definition import (
-    ANY,
-    BIGGEST,
     DEG,
     IN,
     IN_PER_S,
@@ -23,14 +21,13 @@ from handeye.al.definition import (
     Operand,
     Refers,
     Role,
-    Unit,
 )
+from handeye.al.operand_kinds import ERROR, MOMENT, also, gap, name_of, named_vector, number, vector, word
 from handeye.al.syntax import Name, Number, Text, Vector
 from handeye.plan.program import VIAS
 
 AXES: Final = ("X", "Y", "Z")
 """Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
-HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
 MOST: Final = 1000
 """What a counter can be set to."""
 LARGEST_STEP: Final = 1.0
@@ -38,57 +35,11 @@ LARGEST_STEP: Final = 1.0
 LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
 
 
-def _number(
-    name: str, unit: Unit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
-) -> Operand:
-    why = f"it has to be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
-    return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
-
-
-def _gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
-    why = f"the hand opens from 0 to {HAND:g} in"
-    return Operand(
-        name=name, takes=(Number,), units=(IN,), low=0.0, high=HAND, why=why, optional=optional, ours=ours
-    )
-
-
-def _vector(name: str, *components: Unit) -> Operand:
-    return Operand(name=name, takes=(Vector,), units=components)
-
-
-def _named_vector(name: str, unit: Unit) -> Operand:
-    return Operand(name=name, takes=(Vector, Name), units=(unit,) * 3, refers=Refers.VECTOR)
-
-
-def _name(name: str, refers: Refers) -> Operand:
-    return Operand(name=name, takes=(Name,), refers=refers)
-
-
-def _also(name: str, refers: Refers) -> Operand:
-    return Operand(name=name, takes=(Name,), refers=refers, optional=True)
-
-
-def _word(word: str, *, ours: bool = True) -> Operand:
-    return Operand(name="", takes=(), word=word, optional=True, ours=ours)
-
-
-_NIL = _word(NIL, ours=False)
-_MOMENT = Operand(
-    name="moment", takes=(Vector, Name), units=(OZ_IN,) * 3, optional=True, nil=True, refers=Refers.VECTOR
-)
+_NIL = word(NIL, ours=False)
 _COUNTER = Operand(name="counter", takes=(Name,), refers=Refers.COUNTER)
-ERROR: Final = Operand(
-    name="error",
-    takes=(Number,),
-    units=(ONE,),
-    low=1,
-    high=63,
-    why="errors have numbers from 1 to 63",
-    whole=True,
-)
-_LABEL = _name("label", Refers.LABEL)
-_PICTURE = _name("picture", Refers.PICTURE)
-_PART = _name("part", Refers.PART)
+_LABEL = name_of("label", Refers.LABEL)
+_PICTURE = name_of("picture", Refers.PICTURE)
+_PART = name_of("part", Refers.PART)
 _ALL = ("MOVE", "CHANGE", "TURN", "PARK")
 
 MOTIONS, MODIFIERS, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flow"
@@ -99,7 +50,7 @@ _TABLE = (
         op="MOVE",
         group=MOTIONS,
         help="go to a position: up first, over it, and down; with DIRECT, straight there",
-        operands=(_name("position", Refers.POSITION), _word("DIRECT")),
+        operands=(name_of("position", Refers.POSITION), word("DIRECT")),
         role=Role.MOTION,
     ),
     Instruction(
@@ -108,10 +59,10 @@ _TABLE = (
         help="move straight from the present place: direction in table coordinates, inches, inches a second "
         "(0: the usual speed)",
         operands=(
-            _named_vector("[x y z]", ONE),
+            named_vector("[x y z]", ONE),
             Operand(name="distance", takes=(Number,), units=(IN,), nonzero=True),
             _NIL,
-            _number("speed", IN_PER_S, 0.0, optional=True, ours=True),
+            number("speed", IN_PER_S, 0.0, optional=True, ours=True),
             Operand(
                 name="0",
                 takes=(Number,),
@@ -135,7 +86,7 @@ _TABLE = (
         op="TURN",
         group=MOTIONS,
         help="move on a circle about the vertical through a position, degrees counter-clockwise",
-        operands=(_name("position", Refers.POSITION), _number("angle", DEG)),
+        operands=(name_of("position", Refers.POSITION), number("angle", DEG)),
         role=Role.MOTION,
         ours=True,
     ),
@@ -155,7 +106,7 @@ _TABLE = (
                 nil=True,
                 refers=Refers.VECTOR,
             ),
-            _MOMENT,
+            MOMENT,
         ),
         role=Role.MODIFIER,
         fits=_ALL,
@@ -166,7 +117,7 @@ _TABLE = (
         help="press with this force (oz) and turn with this moment (oz-in) during the next CHANGE",
         operands=(
             Operand(name="force", takes=(Vector, Name), units=(OZ,) * 3, nil=True, refers=Refers.VECTOR),
-            _MOMENT,
+            MOMENT,
         ),
         role=Role.MODIFIER,
         fits=("CHANGE",),
@@ -175,7 +126,7 @@ _TABLE = (
         op="FREE",
         group=MODIFIERS,
         help="give way to force along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-        operands=(_vector("[x y z]", ONE, ONE, ONE),),
+        operands=(vector("[x y z]", ONE, ONE, ONE),),
         axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
@@ -184,7 +135,7 @@ _TABLE = (
         op="SPIN",
         group=MODIFIERS,
         help="give way to a moment about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-        operands=(_vector("[x y z]", ONE, ONE, ONE),),
+        operands=(vector("[x y z]", ONE, ONE, ONE),),
         axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
@@ -193,7 +144,7 @@ _TABLE = (
         op="VIA",
         group=MODIFIERS,
         help="on the way to the goal of the next MOVE, pass these positions, in this order, without stopping",
-        operands=(_name("position", Refers.POSITION), *[_also("position", Refers.POSITION)] * (VIAS - 1)),
+        operands=(name_of("position", Refers.POSITION), *[also("position", Refers.POSITION)] * (VIAS - 1)),
         role=Role.MODIFIER,
         fits=("MOVE", "PARK"),
         ours=True,
@@ -221,7 +172,7 @@ _TABLE = (
         op="TORQUE",
         group=MODIFIERS,
         help="end the next motion when the screwdriver turns with this torque (oz-in); else error 24",
-        operands=(_number("torque", OZ_IN, SMALLEST),),
+        operands=(number("torque", OZ_IN, SMALLEST),),
         role=Role.MODIFIER,
         fits=_ALL,
         ours=True,
@@ -230,23 +181,23 @@ _TABLE = (
         op="RESTORE",
         group=MODIFIERS,
         help="shift the goal of the MOVE just before by a saved difference; with LEVEL, only horizontally",
-        operands=(_name("name", Refers.SAVED), _word("LEVEL")),
+        operands=(name_of("name", Refers.SAVED), word("LEVEL")),
         role=Role.SHIFT,
     ),
     Instruction(
-        op="OPEN", group=HAND_WORDS, help="drive the fingers to this gap (in)", operands=(_gap("gap"),)
+        op="OPEN", group=HAND_WORDS, help="drive the fingers to this gap (in)", operands=(gap("gap"),)
     ),
     Instruction(
         op="CLOSE",
         group=HAND_WORDS,
         help="close on something; error 2 if thinner than the minimum (in), 7 if thicker than the maximum",
-        operands=(_gap("minimum", optional=True), _gap("maximum", optional=True, ours=True)),
+        operands=(gap("minimum", optional=True), gap("maximum", optional=True, ours=True)),
     ),
     Instruction(
         op="CENTER",
         group=HAND_WORDS,
         help="close, the hand giving way, so that the thing is not pushed; error 2 below the minimum (in)",
-        operands=(_gap("minimum", optional=True),),
+        operands=(gap("minimum", optional=True),),
     ),
     Instruction(
         op="SKIPE",
@@ -288,7 +239,7 @@ _TABLE = (
         group=FLOW,
         help="set a counter",
         operands=(
-            _name("counter", Refers.NEW),
+            name_of("counter", Refers.NEW),
             Operand(
                 name="value",
                 takes=(Number,),
@@ -318,8 +269,8 @@ _TABLE = (
         group=PLACES,
         help="a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
         operands=(
-            _name("name", Refers.NEW),
-            _vector("[x y z o a t]", IN, IN, IN, DEG, DEG, DEG),
+            name_of("name", Refers.NEW),
+            vector("[x y z o a t]", IN, IN, IN, DEG, DEG, DEG),
             Operand(name="part", takes=(Name,), refers=Refers.PART, word="OF", optional=True, ours=True),
         ),
         role=Role.DECLARATION,
@@ -329,7 +280,7 @@ _TABLE = (
         group=PLACES,
         help="a vector that STOP, FORCE and CHANGE can name; in ounces, ounce-inches or no unit, as its place has it; "
         "X, Y and Z are there already",
-        operands=(_name("name", Refers.NEW), _vector("[x y z]", ONE, ONE, ONE)),
+        operands=(name_of("name", Refers.NEW), vector("[x y z]", ONE, ONE, ONE)),
         role=Role.DECLARATION,
     ),
     Instruction(
@@ -337,14 +288,14 @@ _TABLE = (
         group=PLACES,
         help="keep where the hand is, less where the last MOVE was to bring it; after CENTER only along the "
         "finger line",
-        operands=(_name("name", Refers.NEW),),
+        operands=(name_of("name", Refers.NEW),),
     ),
     Instruction(
         op="HERE",
         group=PLACES,
         help="define a position, or define it anew, as where the hand is; of a taught one that belongs to a part "
         "the place on that part",
-        operands=(_name("name", Refers.NEW),),
+        operands=(name_of("name", Refers.NEW),),
     ),
     Instruction(
         op="WHERE", group=PLACES, help="tell where the hand is, as `TRANS` would write it: inches and degrees"
@@ -353,21 +304,21 @@ _TABLE = (
         op="TRAVEL",
         group=PLACES,
         help="check how far (in) the last motion went; error 8 outside the range",
-        operands=(_number("minimum", IN, 0.0), _number("maximum", IN, 0.0)),
+        operands=(number("minimum", IN, 0.0), number("maximum", IN, 0.0)),
         ours=True,
     ),
     Instruction(
         op="TOOL",
         group=TOOL,
         help="run the screwdriver (rpm, positive drives in); 0 is off",
-        operands=(_number("speed", REV_PER_MIN),),
+        operands=(number("speed", REV_PER_MIN),),
         ours=True,
     ),
     Instruction(
         op="LOAD",
         group=TOOL,
         help="say what the thing in the hand weighs (oz), so that the arm carries it",
-        operands=(_number("weight", OZ, 0.0),),
+        operands=(number("weight", OZ, 0.0),),
         ours=True,
     ),
     Instruction(
@@ -381,14 +332,14 @@ _TABLE = (
         op="AIM",
         group=VISION,
         help="point the camera at a position or a part, and focus",
-        operands=(_name("name", Refers.TARGET),),
+        operands=(name_of("name", Refers.TARGET),),
         ours=True,
     ),
     Instruction(
         op="LOOK",
         group=VISION,
         help="take a picture; with HOLD, at the target voltage of the one before",
-        operands=(_name("picture", Refers.NEW), _word("HOLD")),
+        operands=(name_of("picture", Refers.NEW), word("HOLD")),
         ours=True,
     ),
     Instruction(
@@ -409,7 +360,7 @@ _TABLE = (
         op="INSPECT",
         group=VISION,
         help="compare two pictures and check that the part lies where it should; error 32 when it does not",
-        operands=(_PART, _name("before", Refers.PICTURE), _name("after", Refers.PICTURE)),
+        operands=(_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE)),
         ours=True,
     ),
     Instruction(
@@ -435,7 +386,7 @@ DEFINE: Final = Instruction(
     op="DEFINE",
     group=RUN,
     help="begin a macro; a blank line ends it",
-    operands=(_name("name", Refers.NEW),),
+    operands=(name_of("name", Refers.NEW),),
     role=Role.DECLARATION,
 )
 """Makes macros: the parser's own."""
@@ -443,13 +394,3 @@ EXPLAINED: Final = INSTRUCTIONS | {DEFINE.op: DEFINE}
 """All that there is a page of the manual for."""
 FREE: Final = frozenset(i.op for i in _TABLE if any(operand.free for operand in i.operands))
 """Instructions that take words up to the end of the line."""
-
-
-def manual() -> str:
-    """The instructions as Markdown tables, one for each group."""
-    out = []
-    for group in dict.fromkeys(instruction.group for instruction in _TABLE):
-        out += [f"### {group}", "", "| instruction | origin | what it does |", "|---|---|---|"]
-        out += [f"| `{i.usage}` | {i.origin} | {i.help} |" for i in _TABLE if i.group == group]
-        out.append("")
-    return "\n".join(out)

@@ -7,7 +7,7 @@ from suites import MANUAL, Case, cases, compiled, shown
 
 from handeye.al.definition import Instruction, Operand
 from handeye.al.formatter import format_text
-from handeye.al.instructions import manual
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.takes import origin, part, takes
 from handeye.codes import CODES, Code
 from handeye.errors import ERRORS
@@ -29,6 +29,16 @@ cure where there is one. An *error* leaves no plan; a *warning* does.
 def page(op: str) -> Path:
     """The page of an instruction."""
     return REFERENCE / f"{op.lower()}.md"
+
+
+def manual() -> str:
+    """The instructions as Markdown tables, one for each group."""
+    out = []
+    for group in dict.fromkeys(instruction.group for instruction in INSTRUCTIONS.values()):
+        out += [f"### {group}", "", "| instruction | origin | what it does |", "|---|---|---|"]
+        out += [f"| `{i.usage}` | {i.origin} | {i.help} |" for i in INSTRUCTIONS.values() if i.group == group]
+        out.append("")
+    return "\n".join(out)
 
 
 def index() -> str:

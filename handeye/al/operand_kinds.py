@@ -1,0 +1,63 @@
+"""The kinds of places for operands that instructions have."""
+
+from typing import Final
+
+from handeye.al.definition import ANY, BIGGEST, IN, ONE, OZ_IN, Operand, Refers, Unit
+from handeye.al.syntax import Name, Number, Vector
+
+HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
+
+
+def number(
+    name: str, unit: Unit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
+) -> Operand:
+    """A number in a unit, perhaps with a least one."""
+    why = f"it has to be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
+    return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
+
+
+def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
+    """An opening of the hand."""
+    why = f"the hand opens from 0 to {HAND:g} in"
+    return Operand(
+        name=name, takes=(Number,), units=(IN,), low=0.0, high=HAND, why=why, optional=optional, ours=ours
+    )
+
+
+def vector(name: str, *components: Unit) -> Operand:
+    """A vector, with a unit for each component."""
+    return Operand(name=name, takes=(Vector,), units=components)
+
+
+def named_vector(name: str, unit: Unit) -> Operand:
+    """A vector of three components in one unit, or the name of one."""
+    return Operand(name=name, takes=(Vector, Name), units=(unit,) * 3, refers=Refers.VECTOR)
+
+
+def name_of(name: str, refers: Refers) -> Operand:
+    """A name, and what it has to be the name of."""
+    return Operand(name=name, takes=(Name,), refers=refers)
+
+
+def also(name: str, refers: Refers) -> Operand:
+    """One more such name, which may be left out."""
+    return Operand(name=name, takes=(Name,), refers=refers, optional=True)
+
+
+def word(word: str, *, ours: bool = True) -> Operand:
+    """A word of the language, which may be left out."""
+    return Operand(name="", takes=(), word=word, optional=True, ours=ours)
+
+
+MOMENT: Final = Operand(
+    name="moment", takes=(Vector, Name), units=(OZ_IN,) * 3, optional=True, nil=True, refers=Refers.VECTOR
+)
+ERROR: Final = Operand(
+    name="error",
+    takes=(Number,),
+    units=(ONE,),
+    low=1,
+    high=63,
+    why="errors have numbers from 1 to 63",
+    whole=True,
+)
