@@ -42,6 +42,6 @@ def about(
     return Answer(time=workplace.runner.run.time, said=said, source=checked.source, diagnostics=tuple(found))
 
 
-def answer(workplace: Workplace, **said: object) -> Answer:
-    """An answer that says so much: the fields of `Said`."""
-    return Answer(time=workplace.runner.run.time, said=Said(**said))  # type: ignore[arg-type]
+def answer(workplace: Workplace, said: Said = NOTHING) -> Answer:
+    """An answer that says so much."""
+    return Answer(time=workplace.runner.run.time, said=said)

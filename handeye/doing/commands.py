@@ -10,7 +10,7 @@ from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.al.sewing import read_script
 from handeye.diagnostics import quoted, suggestion
-from handeye.doing.answers import Answer
+from handeye.doing.answers import Answer, Said
 from handeye.doing.carrying import answer
 from handeye.doing.functions import lasting
 from handeye.doing.repl import Repl
@@ -50,7 +50,7 @@ class Typist:
         try:
             given = self._given(line)
         except HandeyeError as error:
-            given = answer(self.repl.workplace, error=str(error))
+            given = answer(self.repl.workplace, Said(error=str(error)))
         return replace(given, typed=line.strip())
 
     def _given(self, line: str) -> Answer:
@@ -91,18 +91,20 @@ def _programs(folder: Path) -> list[str]:
 
 def _list(repl: Repl, _: str) -> Answer:
     lines = tuple(f"{number:3}  {line}" for number, line in enumerate(repl.functions, 1))
-    return answer(repl.workplace, lines=lines, **({} if lines else {"said": "nothing is collected"}))
+    return answer(
+        repl.workplace, Said(lines=lines) if lines else Said(lines=lines, said="nothing is collected")
+    )
 
 
 def _drop(repl: Repl, _: str) -> Answer:
     if not repl.functions:
         raise InvalidInput("nothing is collected")
-    return answer(repl.workplace, said=f"dropped: {repl.functions.pop().strip()}")
+    return answer(repl.workplace, Said(said=f"dropped: {repl.functions.pop().strip()}"))
 
 
 def _clear(repl: Repl, _: str) -> Answer:
     repl.functions.clear()
-    return answer(repl.workplace, said="nothing is collected")
+    return answer(repl.workplace, Said(said="nothing is collected"))
 
 
 def _write(repl: Repl, rest: str) -> Answer:
@@ -112,16 +114,16 @@ def _write(repl: Repl, rest: str) -> Answer:
     if path.exists():
         raise InvalidInput(f"{path} is there already; it is left alone")
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())
-    return answer(repl.workplace, file=str(path), said=f"written to {path}")
+    return answer(repl.workplace, Said(file=str(path), said=f"written to {path}"))
 
 
 def _show(repl: Repl, rest: str) -> Answer:
-    return answer(repl.workplace, show=show(repl.workplace.runner, rest))
+    return answer(repl.workplace, Said(show=show(repl.workplace.runner, rest)))
 
 
 def _back(repl: Repl, _: str) -> Answer:
     repl.workplace.back()
-    return answer(repl.workplace, said="the last `DO` is undone")
+    return answer(repl.workplace, Said(said="the last `DO` is undone"))
 
 
 def _answer(choice: Choice) -> Callable[[Repl, str], Answer]:
@@ -139,14 +141,14 @@ def _help(repl: Repl, rest: str) -> Answer:
         if definition is None:
             known = suggestion(rest, EXPLAINED)
             raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
-        return answer(repl.workplace, said=f"{definition.usage}: {definition.help}")
+        return answer(repl.workplace, Said(said=f"{definition.usage}: {definition.help}"))
     width = max(len(command.usage) for command in _TABLE)
     lines = (
         "A line is a function of the arm language, and is collected, or one of",
         *(f"  {command.usage:{width}}  {command.help}" for command in _TABLE),
         "What is collected stays until CLEAR. `HELP MOVE` says what an instruction does.",
     )
-    return answer(repl.workplace, lines=lines)
+    return answer(repl.workplace, Said(lines=lines))
 
 
 _TABLE: Final = (

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from handeye.diagnostics import quoted, suggestion
-from handeye.doing.answers import Answer
+from handeye.doing.answers import Answer, Said
 from handeye.doing.carrying import answer
 from handeye.doing.teaching import Teacher
 from handeye.errors import HandeyeError, InvalidInput
@@ -51,7 +51,7 @@ class Pupil:
         try:
             given = self._given(line.split())
         except HandeyeError as error:
-            given = answer(self.teacher.workplace, error=str(error))
+            given = answer(self.teacher.workplace, Said(error=str(error)))
         return replace(given, typed=line.strip())
 
     def _given(self, words: list[str]) -> Answer:
@@ -129,7 +129,9 @@ def _push(teacher: Teacher, words: list[str]) -> Answer:
         raise InvalidInput(f"somebody pushes with up to 200 oz; {quoted(force)} cannot be")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
-    return answer(teacher.workplace, show=told, said="that was a push from outside: no program can do it")
+    return answer(
+        teacher.workplace, Said(show=told, said="that was a push from outside: no program can do it")
+    )
 
 
 # -- naming ---------------------------------------------------------------------------------------------
@@ -145,7 +147,9 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
         raise InvalidInput(f"{quoted(name)} is no name: letters, digits and _, no digit first")
     if again and part is None and name in teacher.workplace.taught.positions:
         part = teacher.workplace.taught.positions[name].of
-    return answer(teacher.workplace, said=f"{name} is {_written(teacher.name(name, part, again=again))}")
+    return answer(
+        teacher.workplace, Said(said=f"{name} is {_written(teacher.name(name, part, again=again))}")
+    )
 
 
 def _written(position: Position) -> str:
@@ -160,21 +164,21 @@ def _list(teacher: Teacher, words: list[str]) -> Answer:
     known, unsaved = teacher.workplace.taught.positions, teacher.unsaved
     width = max(map(len, known), default=0)
     lines = [f"{n:{width}}  {_written(p)}{', not saved' if n in unsaved else ''}" for n, p in known.items()]
-    return answer(teacher.workplace, lines=tuple(lines or ["nothing is taught"]))
+    return answer(teacher.workplace, Said(lines=tuple(lines or ["nothing is taught"])))
 
 
 def _save(teacher: Teacher, words: list[str]) -> Answer:
     _exactly(words, 0, "save")
     names = teacher.save()
     if not names:
-        return answer(teacher.workplace, said="there is nothing new to save")
+        return answer(teacher.workplace, Said(said="there is nothing new to save"))
     said = f"{', '.join(names)} written to {teacher.file}"
-    return answer(teacher.workplace, said=said, file=str(teacher.file))
+    return answer(teacher.workplace, Said(said=said, file=str(teacher.file)))
 
 
 def _undo(teacher: Teacher, words: list[str]) -> Answer:
     _exactly(words, 0, "undo")
-    return answer(teacher.workplace, said=teacher.undo())
+    return answer(teacher.workplace, Said(said=teacher.undo()))
 
 
 def _look(teacher: Teacher, words: list[str]) -> Answer:
@@ -183,14 +187,14 @@ def _look(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _where(teacher: Teacher, what: str = "hand") -> Answer:
-    return answer(teacher.workplace, show=show(teacher.workplace.runner, what))
+    return answer(teacher.workplace, Said(show=show(teacher.workplace.runner, what)))
 
 
 def _help(teacher: Teacher, _: list[str]) -> Answer:
     width = max(len(lesson.usage) for lesson in TABLE)
     lines = [f"  {lesson.usage:{width}}  {lesson.help}" for lesson in TABLE]
     tail = "Inches and degrees, forces in ounces. `quit` leaves."
-    return answer(teacher.workplace, lines=(*lines, tail))
+    return answer(teacher.workplace, Said(lines=(*lines, tail)))
 
 
 # -- reading --------------------------------------------------------------------------------------------
