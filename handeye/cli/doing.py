@@ -104,8 +104,7 @@ def repl(
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
         workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
-        words = lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions)  # noqa: E731
-        lines = typed_lines("* ", panic.aside, words)
+        lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
         typist = Typist(Repl(workplace=workplace, folder=folder))
         failed = converse(typist, lines, _say, json=json)
     return 0 if sys.stdin.isatty() else _code(failed)
@@ -140,8 +139,10 @@ def teach(
     with PanicButton() as panic:
         workplace = _workplace(panic, known, seed=seed, camera=camera, look=False, first=first)
         teacher = Teacher(workplace=workplace, file=path, saved=text)
-        words = lambda: (*LESSONS, *workplace.taught.positions, *workplace.taught.parts)  # noqa: E731
-        failed = converse(Pupil(teacher), typed_lines("teach> ", panic.aside, words), _say, json=json)
+        lines = typed_lines(
+            "teach> ", panic.aside, lambda: (*LESSONS, *workplace.taught.positions, *workplace.taught.parts)
+        )
+        failed = converse(Pupil(teacher), lines, _say, json=json)
     if teacher.unsaved:
         notes.print(f"not saved: {', '.join(teacher.unsaved)}", markup=False, soft_wrap=True)
     refused = failed is not None and not sys.stdin.isatty()

@@ -155,7 +155,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
 
 
 def _begun(whole: Whole, place: Path) -> "subprocess.Popen[bytes]":
-    return subprocess.Popen(  # noqa: S603
+    return subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-m", "handeye", "assemble", "--seed", str(whole.seed), "--out", str(place)],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
