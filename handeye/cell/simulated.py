@@ -65,7 +65,7 @@ class SimulatedCell(Workcell):
 
     @property
     def truth(self) -> Truth:
-        """What is really so; for the referee and tests only."""
+        """What is really so; for the referee, the trace and tests only."""
         return Truth(
             model=self._model,
             data=self._data,

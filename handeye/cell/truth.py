@@ -1,4 +1,4 @@
-"""What is really so in a simulated cell: for the referee and for tests, never for the working phase."""
+"""What is really so in a simulated cell: for the referee, the trace and tests, never for the working phase."""
 
 import copy
 from dataclasses import dataclass
