@@ -9,13 +9,14 @@ from handeye.al.graph import Graph
 from handeye.al.here import check_here
 from handeye.al.lower import lower
 from handeye.al.macros import expand
-from handeye.al.names import all_statements, check_names, written_names
+from handeye.al.names import check_names
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.restores import check_restores
+from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script
 from handeye.al.unused import check_unused
-from handeye.al.vectors import with_vectors
+from handeye.al.vectors import named_vectors, with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
 from handeye.plan.program import Program
 from handeye.plan.taught import Taught
@@ -34,31 +35,36 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         return None, arranged(d for d in found if d.code != "unknown-instruction")
     if sum(d.severity == "error" for d in found) >= LIMIT:
         return None, arranged(found)
-    found += check_names(script, taught)
-    resolved = with_vectors(script)
-    placed = expand(resolved, found.append)
+    words = by_word(script)
+    used = used_names(words)
+    found += check_names(script, words, used, taught)
+    vectors = named_vectors(words)
+    placed = expand(with_vectors(script, vectors), found.append)
     lowered = lower(placed, source, found.append, inner=_inner_labels(script))
     found = _without_lost_labels(source, found)
     if not lowered.steps and not has_errors(found):
         found.append(_empty())
-    if not has_errors(found):  # else a mistake would be told twice, as what it leads to
-        graph = Graph(lowered.steps)
-        found += check_flow(graph, lowered.origins)
-        found += faint(resolved)
-        found += check_restores(lowered, graph)
-        lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
-        found += [d for d in check_unused(script) if _line(source, d) not in lost and _is_for_us(source, d)]
-        found += check_here(placed, {*taught.positions, *written_names(script)})
+    if has_errors(found):  # what follows would tell a mistake twice, as what it leads to
+        return None, arranged(found)
+    written = dict(map(position, words.get("TRANS", ())))
+    graph = Graph(lowered.steps)
+    found += check_flow(graph, lowered.origins)
+    found += faint(words, vectors)
+    found += check_restores(lowered, graph)
+    lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
+    unused = check_unused(script, words, used)
+    found += [d for d in unused if _line(source, d) not in lost and _is_for_us(source, d)]
+    if "HERE" in words:
+        found += check_here(placed, {*taught.positions, *written})
     if has_errors(found):
         return None, arranged(found)
-    written = [s for s in all_statements(script) if s.word is not None and s.word.text == "TRANS"]
     program = Program(
         name=PurePath(source.name).stem,
         language="wave",
         source=source.text,
         stages=lowered.stages,
         steps=lowered.steps,
-        positions={**taught.positions, **dict(map(position, written))},
+        positions={**taught.positions, **written},
         parts=dict(taught.parts),
         fixtures=dict(taught.fixtures),
         held=dict(taught.held),

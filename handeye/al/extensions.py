@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.names import all_statements, pairs
 from handeye.al.parser import parse_whole
+from handeye.al.statements import all_statements, pairs
 from handeye.al.syntax import Number
 from handeye.diagnostics import Diagnostic, Label, arranged, quoted
 from handeye.source import Source, Span

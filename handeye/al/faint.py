@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.names import all_statements, pairs
-from handeye.al.syntax import Number, Script, Vector
+from handeye.al.statements import ByWord, pairs
+from handeye.al.syntax import Number, Vector
+from handeye.al.vectors import Vectors, in_place
 from handeye.diagnostics import Diagnostic, Label
 
 FORCE_FLOOR: Final = 2.0
@@ -17,23 +18,21 @@ FLOOR: Final = 20.0
 """oz-in. Measured over nine worlds: straight motions that meet nothing feel up to 17, quick free ones up to 32."""
 UPRIGHT_FLOOR: Final = 2.0
 """oz-in, about the vertical, the axis of joint 6 when the hand points down: there up to 1.0 and 1.2 are felt."""
-_FELT: Final = {
+_FELT: Final = [
     i.op for i in INSTRUCTIONS.values() if any(operand.name in ("force", "moment") for operand in i.operands)
-}
+]
 
 
-def faint(script: Script) -> Iterator[Diagnostic]:
-    """A warning for each, of a script whose vectors are in the place of their names."""
-    for statement in all_statements(script):
-        if statement.word is None or statement.word.text not in _FELT:
-            continue
-        for operand, value in pairs(statement):
-            if not isinstance(value, Vector | Number):
-                continue
-            if operand.name == "moment" and isinstance(value, Vector):
-                yield from _faint_moment(value)
-            elif operand.name == "force" and statement.word.text == "STOP":
-                yield from _faint_force(value)
+def faint(words: ByWord, vectors: Vectors) -> Iterator[Diagnostic]:
+    """A warning for each, of a script without mistakes."""
+    for op in _FELT:
+        for statement in words.get(op, ()):
+            for operand, value in pairs(statement):
+                meant = in_place(value, operand, vectors)
+                if operand.name == "moment" and isinstance(meant, Vector):
+                    yield from _faint_moment(meant)
+                elif operand.name == "force" and op == "STOP" and isinstance(meant, Vector | Number):
+                    yield from _faint_force(meant)
 
 
 def _faint_moment(moment: Vector) -> Iterator[Diagnostic]:

@@ -5,7 +5,7 @@ from typing import Final
 
 from handeye.al.definition import Refers
 from handeye.al.macros import Placed
-from handeye.al.names import pairs
+from handeye.al.statements import pairs
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
 
@@ -24,8 +24,6 @@ def check_here(placed: Sequence[Placed], known: Container[str]) -> Iterator[Diag
         word, operands = item.statement.word, item.statement.operands
         if word is not None and word.text == "HERE" and isinstance(operands[0], Name):
             defined.setdefault(operands[0].text, number)
-    if not defined:
-        return
     for number, item in enumerate(placed):
         for operand, value in pairs(item.statement):
             if isinstance(value, Name) and operand.refers in _PLACES and value.text not in known:

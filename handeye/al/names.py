@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
-from handeye.al.definition import NIL, Operand, Refers, Role
+from handeye.al.definition import NIL, Refers, Role
 from handeye.al.instructions import AXES, INSTRUCTIONS
-from handeye.al.syntax import Name, Number, Script, Statement, Value
+from handeye.al.statements import ByWord, Used, all_statements, pairs
+from handeye.al.syntax import Name, Number, Script, Statement
 from handeye.al.unitwords import no_units
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS
@@ -32,25 +33,19 @@ _MESSAGES = {
     Refers.COUNTER: "no `ASSIGN` sets a counter {}",
     Refers.SAVED: "no `SAVE` keeps a difference {}: the goal is not shifted",
 }
+_DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
+"""Instructions that make what they name."""
 _TESTS = {instruction.op for instruction in INSTRUCTIONS.values() if instruction.role is Role.SKIP}
-_NAMED = {
-    i.op: [(place, operand.refers) for place, operand in enumerate(i.operands) if Name in operand.takes]
-    for i in INSTRUCTIONS.values()
-}
-"""Operands that may be names, by their places."""
 
 
-def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
+def check_names(script: Script, words: ByWord, used: Used, taught: Taught) -> list[Diagnostic]:
     """What is named in a script, its macros included, and is not there, or is there twice."""
-    statements = list(all_statements(script))
-    declared = _declared(statements)
+    declared = {op: _declared(words.get(op, ())) for op in _DECLARE}
     known = _known(declared, taught)
     unknown = [
-        (name, refers)
-        for name, refers in uses(statements)
-        if (there := known.get(refers)) is not None and name.text not in there
+        (name, refers) for refers, there in known.items() for name in used[refers] if name.text not in there
     ]
-    swapped = list(_swapped(statements, {**known, Refers.LABEL: _labels(statements)})) if unknown else []
+    swapped = list(_swapped(script, known)) if unknown else []
     marked = [d.primary.span for d in swapped]
     unknown = [use for use in unknown if not any(mark.start <= use[0].start < mark.end for mark in marked)]
     unknown.sort(key=lambda use: use[0].span)
@@ -59,27 +54,15 @@ def check_names(script: Script, taught: Taught) -> list[Diagnostic]:
     warnings = [u for u in unknown if u[1] is Refers.SAVED][:LIMIT]
     found = [_unknown(name, refers, known) for name, refers in errors + warnings]
     found += swapped
-    found += _error_numbers(statements)
-    return found + _twice(declared.get("TRANS", []), taught) + _vectors_twice(declared.get("VECT", []))
+    found += _error_numbers(words)
+    return found + _twice(declared["TRANS"], taught) + _vectors_twice(declared["VECT"])
 
 
-def uses(statements: Iterable[Statement]) -> Iterator[tuple[Name, Refers]]:
-    """Every name that stands for something, and for what."""
-    for statement in statements:
-        word = statement.word
-        if word is None:
-            continue
-        for place, refers in _NAMED.get(word.text, ()) if not statement.broken else ():
-            value = statement.operands[place]
-            if isinstance(value, Name):
-                yield value, refers
-        if word.text == "PARK":
-            yield word, Refers.POSITION
-
-
-def _swapped(statements: list[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
+def _swapped(script: Script, known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
     """Two names of an instruction that would be right the other way round."""
-    for statement in statements:
+    labels = {label.text for statement in all_statements(script) for label in statement.labels}
+    known = {**known, Refers.LABEL: labels}
+    for statement in all_statements(script):
         named = [(o.refers, v) for o, v in pairs(statement) if isinstance(v, Name) and o.refers in known]
         for (first, a), (second, b) in pairwise(named):
             right = a.text in known[first] or b.text in known[second]
@@ -96,51 +79,23 @@ def _swapped(statements: list[Statement], known: dict[Refers, set[str]]) -> Iter
             )
 
 
-def _labels(statements: list[Statement]) -> set[str]:
-    return {label.text for statement in statements for label in statement.labels}
-
-
-def _error_numbers(statements: list[Statement]) -> list[Diagnostic]:
+def _error_numbers(words: ByWord) -> list[Diagnostic]:
     return [
         _unknown_error(number)
-        for statement in statements
-        if statement.word is not None and statement.word.text in _TESTS
+        for test in _TESTS
+        for statement in words.get(test, ())
         for number in statement.operands
         if isinstance(number, Number) and int(number.value) not in ERRORS
     ]
 
 
-def all_statements(script: Script) -> Iterator[Statement]:
-    """The statements of a script and of its macros."""
-    yield from script.statements
-    for macro in script.macros.values():
-        yield from macro.body
-
-
-def pairs(statement: Statement) -> Iterable[tuple[Operand, Value | None]]:
-    """The operands of an instruction with their definitions; none for a macro or a broken statement."""
-    if statement.word is None or statement.broken or not statement.operands:
-        return ()
-    return zip(INSTRUCTIONS[statement.word.text].operands, statement.operands, strict=True)
-
-
-def _declared(statements: list[Statement]) -> dict[str, list[Name]]:
-    """Names that stand first in a statement, by its instruction."""
-    found: dict[str, list[Name]] = {}
-    for statement in statements:
-        if statement.word is not None and statement.operands and isinstance(statement.operands[0], Name):
-            found.setdefault(statement.word.text, []).append(statement.operands[0])
-    return found
-
-
-def written_names(script: Script) -> set[str]:
-    """Positions that a script writes, its macros included."""
-    return {name.text for name in _declared(list(all_statements(script))).get("TRANS", [])}
+def _declared(statements: Iterable[Statement]) -> list[Name]:
+    """The names that stand first in statements."""
+    return [name for s in statements if s.operands and isinstance(name := s.operands[0], Name)]
 
 
 def _known(declared: dict[str, list[Name]], taught: Taught) -> dict[Refers, set[str]]:
-    ops = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
-    by = {op: {name.text for name in declared.get(op, [])} for op in ops}
+    by = {op: {name.text for name in names} for op, names in declared.items()}
     positions = by["TRANS"] | by["HERE"] | set(taught.positions)
     return {
         Refers.POSITION: positions,

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from handeye.al.definition import Refers
-from handeye.al.names import all_statements, uses
-from handeye.al.syntax import Name, Script, Statement
+from handeye.al.statements import ByWord, Used, all_statements
+from handeye.al.syntax import Name, Script
 from handeye.diagnostics import Diagnostic, Label, quoted
 
 _WRITTEN = {
@@ -14,35 +14,23 @@ _WRITTEN = {
 """What an instruction declares, and as what it is used."""
 
 
-def check_unused(script: Script) -> Iterator[Diagnostic]:
+def check_unused(script: Script, words: ByWord, used: Used) -> Iterator[Diagnostic]:
     """A warning for each; of a script without mistakes. Taught positions may be there for another script."""
-    statements = list(all_statements(script))
-    used: dict[Refers, set[str]] = {refers: set() for refers in Refers}
-    for use, refers in uses(statements):
-        used[refers].add(use.text)
-    yield from _labels(statements, used[Refers.LABEL])
-    for op, (what, as_) in _WRITTEN.items():
-        yield from _declared(statements, op, what, set().union(*(used[refers] for refers in as_)))
-    called = {statement.word.text for statement in statements if statement.word is not None}
-    for name, macro in script.macros.items():
-        if name not in called:
-            yield _unused("unused-macro", macro.name, f"macro {quoted(name)} is never used")
-
-
-def _labels(statements: list[Statement], used: set[str]) -> Iterator[Diagnostic]:
-    for statement in statements:
+    gone_to = {name.text for name in used[Refers.LABEL]}
+    for statement in all_statements(script):
         for label in statement.labels:
-            if label.text not in used:
+            if label.text not in gone_to:
                 message = f"no instruction goes to label {quoted(label.text)}"
                 yield _unused("unused-label", label, message)
-
-
-def _declared(statements: list[Statement], op: str, what: str, used: set[str]) -> Iterator[Diagnostic]:
-    for statement in statements:
-        if statement.word is not None and statement.word.text == op:
+    for op, (what, as_) in _WRITTEN.items():
+        found = {name.text for refers in as_ for name in used[refers]}
+        for statement in words.get(op, ()):
             name = statement.operands[0]
-            if isinstance(name, Name) and name.text not in used:
+            if isinstance(name, Name) and name.text not in found:
                 yield _unused(f"unused-{what}", name, f"{what} {quoted(name.text)} is written and never used")
+    for word, macro in script.macros.items():
+        if word not in words:
+            yield _unused("unused-macro", macro.name, f"macro {quoted(word)} is never used")
 
 
 def _unused(code: str, name: Name, message: str) -> Diagnostic:
