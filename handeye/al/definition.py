@@ -99,11 +99,12 @@ class Role(Enum):
     MODIFIER = "modifier"  # of the next motion
     SHIFT = "shift"  # of the MOVE before
     SKIP = "skip"
+    JUMP = "jump"  # to a label
     DECLARATION = "declaration"  # no step of its own
     STEP = "step"
 
 
-MOTION, MODIFIER, SHIFT, SKIP, DECLARATION, STEP = Role
+MOTION, MODIFIER, SHIFT, SKIP, JUMP, DECLARATION, STEP = Role
 """For those who ask often: a member of an enumeration takes its time to be found."""
 
 

@@ -233,6 +233,7 @@ _TABLE = (
         group=FLOW,
         help="go to the next place of the search (error 6: there is none) and jump back to the label",
         operands=(_LABEL,),
+        role=Role.JUMP,
     ),
     Instruction(
         op="ASSIGN",
@@ -256,8 +257,9 @@ _TABLE = (
         group=FLOW,
         help="subtract one from a counter, and jump to the label while it is still positive",
         operands=(_COUNTER, _LABEL),
+        role=Role.JUMP,
     ),
-    Instruction(op="JUMP", group=FLOW, help="go on at the label", operands=(_LABEL,)),
+    Instruction(op="JUMP", group=FLOW, help="go on at the label", operands=(_LABEL,), role=Role.JUMP),
     Instruction(
         op="WAIT",
         group=FLOW,

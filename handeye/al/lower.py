@@ -7,13 +7,13 @@ from itertools import accumulate
 import msgspec
 from msgspec.structs import replace
 
-from handeye.al.definition import DECLARATION, MODIFIER, MOTION, SHIFT, STEP, Role
+from handeye.al.definition import DECLARATION, JUMP, MODIFIER, MOTION, SHIFT, SKIP, STEP, Role
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.macros import Call, Placed
 from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.plan.program import Advance, AnyOperation, Countdown, Jump, Move, Step, Test
+from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
 from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
@@ -28,10 +28,10 @@ class Lowered:
 
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
-    origins: tuple[Statement, ...]
+    origins: Sequence[Statement]
     """The statement each step comes from."""
-    shifts: tuple[tuple[Statement, ...], ...]
-    """The RESTOREs of each step."""
+    shifts: Mapping[int, tuple[Statement, ...]]
+    """The RESTOREs of each step that has any."""
 
 
 def lower(
@@ -46,28 +46,22 @@ def lower(
     for item in placed:
         lowering.place(item)
     lowering.end()
-    drafts = lowering.drafts
-    targets = [lowering.link(index) for index in range(len(drafts))]
-    lowering.mark_searching()
-    steps = tuple(
-        _step(source, draft.statement, draft.operation, draft.stage, target)
-        for draft, target in zip(drafts, targets, strict=True)
-        if draft.operation is not None
-    )
-    kept = [draft for draft in drafts if draft.operation is not None]
+    kept = [draft for draft in lowering.drafts if draft.operation is not None]
     return Lowered(
-        stages=tuple(lowering.stages), steps=steps, origins=tuple(draft.statement for draft in kept),
-        shifts=tuple(draft.shifts for draft in kept),
-    )  # fmt: skip
+        stages=tuple(lowering.stages),
+        steps=tuple([_step(source, draft) for draft in kept]),
+        origins=[draft.statement for draft in kept],
+        shifts={number: draft.shifts for number, draft in enumerate(kept) if draft.shifts},
+    )
 
 
-def _step(
-    source: Source, statement: Statement, operation: AnyOperation, stage: int, target: int | None
-) -> Step:
-    text, start = source.find(statement.span.start)
-    said = text.text[start : start + statement.span.end - statement.span.start]
+def _step(source: Source, draft: "_Draft") -> Step:
+    assert draft.operation is not None
+    span = draft.statement.span
+    text, start = source.find(span.start)
     return Step(
-        operation=operation, stage=stage, file=text.key, line=statement.line, text=said, next=target
+        operation=draft.operation, stage=draft.stage, file=text.key, line=draft.statement.line,
+        text=text.text[start : start + span.end - span.start], next=draft.next,
     )  # fmt: skip
 
 
@@ -81,6 +75,8 @@ class _Draft(msgspec.Struct, gc=False):
     """None if the statement is broken."""
     modifier: Placed | None
     """The first of its modifiers."""
+    next: int | None
+    """The draft that follows."""
     shifts: tuple[Statement, ...] = ()
 
     @property
@@ -93,6 +89,8 @@ class _Lowering:
     report: Report
     inner: Mapping[str, Name]
     drafts: list[_Draft] = field(default_factory=list)
+    branches: list[int] = field(default_factory=list)
+    """Drafts that jump or skip."""
     stages: dict[str, Span] = field(default_factory=dict)
     """Their names, and where they stand."""
     stage: int = 0
@@ -169,6 +167,8 @@ class _Lowering:
         statement = item.statement
         if role is not MOTION and self.pending:
             self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
+        if role is SKIP or role is JUMP:
+            self.branches.append(len(self.drafts))
         self.draft(item, operation(statement, self.modifiers(statement) if self.pending else ()))
         self.pending.clear()
         self.shiftable = statement.word is not None and statement.word.text == "MOVE"
@@ -187,7 +187,8 @@ class _Lowering:
         if not self.stages:
             self.stages[FIRST_STAGE] = item.statement.span
         modifier = self.pending[0] if self.pending else None
-        self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier))
+        behind = len(self.drafts) + 1
+        self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier, behind))
 
     def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
         """Whether it modifies such a motion, and is the first of its kind."""
@@ -220,21 +221,24 @@ class _Lowering:
     def end(self) -> None:
         if self.pending:
             self.no_motion(None)
+        if self.drafts:
+            self.drafts[-1].next = None
+        for index in self.branches:
+            self.link(index)
+        if self.loops:
+            self.mark_searching()
 
-    def link(self, index: int) -> int | None:
-        """What follows a step; sets what follows after an error."""
+    def link(self, index: int) -> None:
+        """Set what follows a step that jumps or skips."""
         draft = self.drafts[index]
-        following = index + 1 if index + 1 < len(self.drafts) else None
-        if isinstance(draft.operation, (Advance, Jump)):
-            return self.jump(index)
-        if isinstance(draft.operation, Countdown):
-            draft.operation = replace(draft.operation, positive=self.jump(index))
-        elif isinstance(draft.operation, Test):
+        if isinstance(draft.operation, Test):
             skipped = self.skip(index)
-            raised, other = (skipped, following) if draft.word == "SKIPE" else (following, skipped)
+            raised, draft.next = (skipped, draft.next) if draft.word == "SKIPE" else (draft.next, skipped)
             draft.operation = replace(draft.operation, raised=raised)
-            return other
-        return following
+        elif isinstance(draft.operation, Countdown):
+            draft.operation = replace(draft.operation, positive=self.jump(index))
+        else:
+            draft.next = self.jump(index)
 
     def at(self, index: int) -> int | None:
         return index if index < len(self.drafts) else None

@@ -8,7 +8,7 @@ import msgspec
 from msgspec.structs import replace
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.syntax import Name, Number, Statement, Text, Vector
+from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
 from handeye.plan import program as p
 from handeye.units import INCH, OUNCE_FORCE
 
@@ -18,53 +18,55 @@ PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
 """What PLACE stops on. The least with which the pump script stops a motion; friction is felt as up to 0.2 N, and
 an arm that moves as some ten times that."""
 _PLACES: Final = {
-    op: {o.name or o.word: number for number, o in enumerate(i.operands)} for op, i in INSTRUCTIONS.items()
+    i.op: {
+        o.name or o.word: (place, tuple(unit.si for unit in o.units)) for place, o in enumerate(i.operands)
+    }
+    for i in INSTRUCTIONS.values()
 }
-"""Which operand of each instruction has which name."""
-_UNITS: Final = {
-    op: {o.name or o.word: tuple(unit.si for unit in o.units) for o in i.operands}
-    for op, i in INSTRUCTIONS.items()
-}
-"""Of each operand of each instruction, in SI."""
+"""Of each operand of each instruction: its place, and its units in SI."""
 
 
-class Operands:
+class Operands(msgspec.Struct, frozen=True, gc=False):
     """The operands of a checked statement by name, in SI units."""
 
-    def __init__(self, statement: Statement) -> None:
-        assert statement.word is not None
-        self._values = statement.operands
-        self._places = _PLACES[statement.word.text]
-        self._units = _UNITS[statement.word.text]
+    values: tuple[Value | None, ...]
+    places: dict[str, tuple[int, tuple[float, ...]]]
 
     def has(self, key: str) -> bool:
         """Whether an optional operand or word is there."""
-        return self._values[self._places[key]] is not None
+        return self.values[self.places[key][0]] is not None
 
     def number(self, key: str) -> float:
-        value = self._values[self._places[key]]
+        place, units = self.places[key]
+        value = self.values[place]
         assert isinstance(value, Number)
-        return value.value * self._units[key][0]
+        return value.value * units[0]
 
     def vector(self, key: str) -> tuple[float, ...]:
-        value = self._values[self._places[key]]
+        place, units = self.places[key]
+        value = self.values[place]
         assert isinstance(value, Vector)
-        return tuple(x * si for x, si in zip(value.values, self._units[key], strict=True))
+        return tuple([x * si for x, si in zip(value.values, units, strict=True)])
 
     def vector3(self, key: str) -> p.Vector:
         x, y, z = self.vector(key)
         return x, y, z
 
     def vector3_or(self, key: str) -> p.Vector | None:
-        return self.vector3(key) if isinstance(self._values[self._places[key]], Vector) else None
+        return self.vector3(key) if isinstance(self.values[self.places[key][0]], Vector) else None
 
     def number_or(self, key: str) -> float | None:
-        return self.number(key) if isinstance(self._values[self._places[key]], Number) else None
+        return self.number(key) if isinstance(self.values[self.places[key][0]], Number) else None
 
     def name(self, key: str) -> str:
-        value = self._values[self._places[key]]
+        value = self.values[self.places[key][0]]
         assert isinstance(value, (Name, Text))
         return value.text
+
+
+def _operands(statement: Statement) -> Operands:
+    assert statement.word is not None
+    return Operands(statement.operands, _PLACES[statement.word.text])
 
 
 class _How(msgspec.Struct, frozen=True, kw_only=True):
@@ -87,7 +89,7 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
     how = _FREELY
     for modifier in modifiers:
         assert modifier.word is not None
-        word, operands = modifier.word.text, Operands(modifier)
+        word, operands = modifier.word.text, _operands(modifier)
         if word == "FORCE":
             how = replace(how, press=operands.vector3_or("force"), moment=operands.vector3_or("moment"))
         elif word == "FREE":
@@ -100,13 +102,13 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
             how = replace(how, stop=_STOPS[word](operands))
     motion = _MOTIONS.get(statement.word.text)
     if motion is not None:
-        return motion(Operands(statement), how)
-    return _STEPS[statement.word.text](Operands(statement))
+        return motion(_operands(statement), how)
+    return _STEPS[statement.word.text](_operands(statement))
 
 
 def position(statement: Statement) -> tuple[str, p.Position]:
     """Name and value of a `TRANS`."""
-    operands = Operands(statement)
+    operands = _operands(statement)
     x, y, z, o, a, t = operands.vector("[x y z o a t]")
     of = operands.name("part") if operands.has("part") else None
     return operands.name("name"), p.Position(at=(x, y, z, o, a, t), of=of)
@@ -114,7 +116,7 @@ def position(statement: Statement) -> tuple[str, p.Position]:
 
 def restore(statement: Statement) -> p.Restore:
     """What a `RESTORE` adds to its `MOVE`."""
-    operands = Operands(statement)
+    operands = _operands(statement)
     return p.Restore(name=operands.name("name"), level=operands.has("LEVEL"))
 
 

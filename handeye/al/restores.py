@@ -24,7 +24,7 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
     saved = _saved(graph, {number: bits[save.text] for number, save in saves.items()})
     lost: dict[Span, Name] = {}
     right: set[Span] = set()
-    for number, shifts in enumerate(lowered.shifts):
+    for number, shifts in lowered.shifts.items():
         if number not in saved:
             continue
         for statement in shifts:
