@@ -123,6 +123,8 @@ class _Flow:
 
     def unreachable(self) -> Iterator[Diagnostic]:
         """The first statement of each stretch that nothing leads to, unless it only follows an endless loop."""
+        if len(self.reached) == len(self.graph.steps):
+            return
         reached = {self.span(number) for number in self.reached}
         trapped = self.trapped & self.reached
         before = False

@@ -23,19 +23,20 @@ class Graph:
     """Steps with each kind of operation."""
 
     def __post_init__(self) -> None:
-        onward: list[tuple[int | None, ...]] = []
-        back: list[list[int]] = [[] for _ in self.steps]
         kinds: dict[type[Operation], list[int]] = {}
         for number, step in enumerate(self.steps):
-            targets = _onward(step)
-            onward.append(targets)
             kinds.setdefault(type(step.operation), []).append(number)
+        object.__setattr__(self, "kinds", kinds)
+        onward: list[tuple[int | None, ...]] = [(step.next,) for step in self.steps]
+        for number in self.which(Test, Countdown):
+            onward[number] = self.steps[number].ways
+        back: list[list[int]] = [[] for _ in self.steps]
+        for number, targets in enumerate(onward):
             for target in targets:
                 if target is not None:
                     back[target].append(number)
         object.__setattr__(self, "onward", onward)
         object.__setattr__(self, "back", back)
-        object.__setattr__(self, "kinds", kinds)
 
     def which(self, *kinds: type[Operation]) -> list[int]:
         """The steps whose operation is of one of these kinds, in order."""
@@ -119,8 +120,12 @@ class Graph:
 
     def trapped(self, exits: Iterable[int]) -> set[int]:
         """The steps from which the program neither ends nor comes to an exit."""
-        ends = [number for number, targets in enumerate(self.onward) if None in targets]
-        return set(range(len(self.steps))) - _spread([*ends, *exits], self.back)
+        out = set(exits)
+        turns = {n for n, step in enumerate(self.steps) if step.next is not None and step.next <= n} - out
+        if all(any(t is None or t > n for t in self.onward[n]) for n in turns):
+            return set()  # the last of the trapped steps would have to turn back, whatever comes
+        out.update(number for number, targets in enumerate(self.onward) if None in targets)
+        return set(range(len(self.steps))) - _spread(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
         """The steps that can be come to from `start`; none if any of those already known is among them.
@@ -131,14 +136,6 @@ class Graph:
         met = any(target in known for number in found for target in self.onward[number])
         known |= found
         return set() if met else found
-
-
-def _onward(step: Step) -> tuple[int | None, ...]:
-    if isinstance(step.operation, Test):
-        return step.next, step.operation.raised
-    if isinstance(step.operation, Countdown):
-        return step.next, step.operation.positive
-    return (step.next,)
 
 
 def _spread(

@@ -4,7 +4,7 @@ A difference that is saved for the very goal it is restored for follows somethin
 """
 
 from collections.abc import Iterator
-from heapq import heappop, heappush
+from functools import cache
 
 from handeye.al.graph import Graph
 from handeye.al.lower import Lowered
@@ -21,18 +21,20 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
     for save in saves.values():
         first.setdefault(save.text, save)
     bits = {name: 1 << number for number, name in enumerate(first)}
-    saved = _saved(graph, {number: bits[save.text] for number, save in saves.items()})
+    everywhere = cache(lambda: _saved(graph, {number: bits[save.text] for number, save in saves.items()}))
     lost: dict[Span, Name] = {}
     right: set[Span] = set()
     for number, shifts in lowered.shifts.items():
-        if number not in saved:
-            continue
+        near = {saves[save].text for save in graph.last(number, Save)}
         for statement in shifts:
             name = _name(statement)
-            if saved[number] & bits.get(name.text, 0) or _follows(graph, number, name.text):
+            if name.text in near or _follows(graph, number, name.text):
                 right.add(statement.span)
-            elif name.text in bits:
-                lost[statement.span] = name
+            elif name.text in bits and (saved := everywhere()[number]) is not None:
+                if saved & bits[name.text]:
+                    right.add(statement.span)
+                else:
+                    lost[statement.span] = name
     for span, name in lost.items():
         if span not in right:
             yield _never_saved(name, first[name.text])
@@ -55,20 +57,27 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
     return False
 
 
-def _saved(graph: Graph, bits: dict[int, int]) -> dict[int, int]:
-    """For each step that is come to: what may have been saved before it, by the bits that steps set."""
-    before = {0: 0}
-    waiting = [0]
-    while waiting:
-        number = heappop(waiting)
-        after = before[number] | bits.get(number, 0)
+def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
+    """For each step: what may have been saved before it, by the bits that steps set; None if nothing leads to it.
+
+    They flow in sweeps from the first step to the last, until nothing changes.
+    """
+    before: list[int | None] = [None] * len(graph.steps)
+    before[0] = 0
+    changed = bytearray(len(before))
+    number = 0
+    while number >= 0:
+        changed[number] = False
+        after = (before[number] or 0) | bits.get(number, 0)
         for target in graph.onward[number]:
             if target is None:
                 continue
-            known = before.get(target)
+            known = before[target]
             if known is None or after & ~known:
                 before[target] = after | (known or 0)
-                heappush(waiting, target)
+                changed[target] = True
+        ahead = changed.find(True, number + 1)
+        number = ahead if ahead >= 0 else changed.find(True)
     return before
 
 

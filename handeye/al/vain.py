@@ -55,9 +55,13 @@ def _stops(graph: Graph) -> Iterator[Vain]:
 
 def _grasps(graph: Graph) -> Iterator[Vain]:
     """Grasps of more than the hand was opened to."""
+    gaps = [o.gap for n in graph.which(op.Open) if isinstance(o := graph.steps[n].operation, op.Open)]
+    least = min(gaps, default=math.inf)
     for number in graph.which(op.Close, op.Center):
         grasp = graph.steps[number].operation
         assert isinstance(grasp, op.Close | op.Center)
+        if grasp.minimum <= least:
+            continue
         before = graph.last(number, op.Open, op.Close, op.Center)
         opened = [o.gap for n in before if isinstance(o := graph.steps[n].operation, op.Open)]
         if before and len(opened) == len(before) and max(opened) < grasp.minimum - LEAST:

@@ -40,3 +40,13 @@ def test_a_way_avoids_steps_as_if_they_led_nowhere(
     last = len(ways) - 1
     plainly = not without & {0, last} and last in {0} | cut.after([0])
     assert graph.leads(0, last, without) == plainly
+
+
+@given(GRAPHS, st.sets(st.integers(0, 8)))
+def test_trapped_is_what_leads_neither_to_the_end_nor_to_an_exit(
+    ways: list[tuple[int | None, int | None]], exits: set[int]
+) -> None:
+    graph = graph_of(ways)
+    out = {number for number in range(len(ways)) if number in exits or None in ways[number]}
+    plainly = {n for n in range(len(ways)) if n not in out and not out & graph.after([n])}
+    assert graph.trapped({number for number in exits if number < len(ways)}) == plainly
