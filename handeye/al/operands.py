@@ -122,10 +122,10 @@ class _Reader(msgspec.Struct, gc=False):
     def read(self) -> tuple[Value | None, ...]:
         if self.definition.axes and self.tokens and self.tokens[0].kind is NUMBER:
             return (self.axes(),)
+        end = len(self.tokens)
         for operand in self.definition.operands:
-            left_out = operand.optional and self.at == len(self.tokens)
-            self.values.append(None if left_out else self.operand(operand))
-        if self.at < len(self.tokens):
+            self.values.append(None if operand.optional and self.at == end else self.operand(operand))
+        if self.at < end:
             self.too_many()
         if self.values and self.values[0] is None:
             self.check_nils()
@@ -145,12 +145,8 @@ class _Reader(msgspec.Struct, gc=False):
             self.at += 1
             return None
         value = self.free(token) if operand.free else self.value(token, operand)
-        if not isinstance(value, operand.takes):
+        if type(value) not in operand.takes:
             raise self.wrong(value, operand)
-        if isinstance(value, Number):
-            self.check_number(value, operand, token)
-        elif isinstance(value, Vector):
-            self.check_vector(value, operand)
         return value
 
     def takes(self, word: str) -> bool:
@@ -171,16 +167,20 @@ class _Reader(msgspec.Struct, gc=False):
         return Text(free_text(rest), Span(start=token.start, end=rest[-1].end))
 
     def value(self, token: Token, operand: Operand) -> Value:
-        if token.kind is STRING:
+        kind = token.kind
+        if kind is STRING:
             return self.string(token)
         if token.text == "[":
             return self.vector(token, operand)
         self.at += 1
-        if token.kind is NUMBER:
-            return Number(_number(token), token.start, token.end)
+        if kind is NUMBER:
+            number = Number(_number(token), token.start, token.end)
+            if Number in operand.takes:
+                self.check_number(number, operand, token)
+            return number
         if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
-        if token.kind is NAME:
+        if kind is NAME:
             return Name(token.text, token.start, token.end)
         raise _unexpected(token)
 
@@ -218,15 +218,10 @@ class _Reader(msgspec.Struct, gc=False):
         else:
             raise Mistake("unterminated-vector", "the vector has no `]`", opening.span, "it begins here")
         self.at += len(values) + 2
-        span = Span(start=opening.start, end=token.end)
-        if Vector in operand.takes and len(values) != len(operand.units):
-            raise Mistake(
-                "vector-size",
-                f"`{self.definition.op}` takes a vector of {len(operand.units)} numbers, not {len(values)}",
-                span,
-                help=self.usage(),
-            )
-        return Vector(tuple(values), span)
+        vector = Vector(tuple(values), Span(start=opening.start, end=token.end))
+        if Vector in operand.takes:
+            self.check_vector(vector, operand)
+        return vector
 
     def wrong(self, value: Value, operand: Operand) -> Mistake:
         takes = f"{' or '.join(kind.what for kind in operand.takes)} as {operand.name}"
@@ -252,6 +247,9 @@ class _Reader(msgspec.Struct, gc=False):
         return None
 
     def check_vector(self, value: Vector, operand: Operand) -> None:
+        if len(value.values) != len(operand.units):
+            message = f"`{self.definition.op}` takes a vector of {len(operand.units)} numbers, not {len(value.values)}"
+            raise Mistake("vector-size", message, value.span, help=self.usage())
         if max(map(abs, value.values)) > BIGGEST:
             message = "a number in the vector is too large"
             raise Mistake("number-out-of-range", message, value.span, operand.why)

@@ -81,17 +81,18 @@ class _Parser:
         if not line.tokens:
             return
         heads, tokens = line.split()
-        labels = tuple(map(_name, heads))
-        if tokens and tokens[0].text.upper() == _DEFINE:
+        labels = tuple(map(_name, heads)) if heads else ()
+        word = tokens[0].text.upper() if tokens else ""
+        if word == _DEFINE:
             self.define(tokens)
             if labels:
                 # They belong to what follows the macro.
-                self.statements.append(self.statement(line, labels, ()))
-        else:
-            statement = self.statement(line, labels, tokens)
-            (self.statements if self.opened is None else self.body).append(statement)
-            if statement.word is not None and statement.word.text == REQUIRE and not statement.broken:
-                self.require(statement.word, statement.operands[0])
+                self.statements.append(self.statement(line, labels, "", ()))
+            return
+        statement = self.statement(line, labels, word, tokens)
+        (self.statements if self.opened is None else self.body).append(statement)
+        if word == REQUIRE and not statement.broken and statement.word is not None:
+            self.require(statement.word, statement.operands[0])
 
     def require(self, word: Name, file: Value | None) -> None:
         assert isinstance(file, Text)
@@ -172,17 +173,19 @@ class _Parser:
             help="end a macro with a blank line",
         )
 
-    def statement(self, line: Line, labels: tuple[Name, ...], tokens: tuple[Token, ...]) -> Statement:
+    def statement(
+        self, line: Line, labels: tuple[Name, ...], said: str, tokens: tuple[Token, ...]
+    ) -> Statement:
         if not tokens:
             span = Span(start=line.tokens[0].start, end=line.end)
             return Statement(labels, None, line.number, span)
-        span = Span(start=tokens[0].start, end=tokens[-1].end)
         head, rest = tokens[0], tokens[1:]
-        word = Name(head.text.upper(), head.start, head.end)
+        span = Span(start=head.start, end=tokens[-1].end)
+        word = Name(said, head.start, head.end)
         if head.kind is not NAME:
             self.unreadable(head)
             return Statement(labels, None, line.number, span, broken=True)
-        definition = INSTRUCTIONS.get(word.text)
+        definition = INSTRUCTIONS.get(said)
         if definition is None:
             is_call = self.is_call(word, line, rest)
             return Statement(labels, word, line.number, span, broken=not is_call)
