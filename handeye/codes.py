@@ -42,6 +42,10 @@ CODES: Final[dict[str, Code]] = {
     "carries-through-table": _planning(
         "what the hand holds would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
     ),
+    "compared-without-hold": _warning(
+        "an INSPECT compares with a picture that was not taken with HOLD",
+        "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
+    ),
     "count-begun-anew": _warning(
         "an ASSIGN sets a counter anew in every round that counts it down",
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
@@ -80,6 +84,10 @@ CODES: Final[dict[str, Code]] = {
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
     "line-too-long": _error("a line has more characters than anybody reads", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
+    "macro-ends-early": _warning(
+        "a blank line parts the modifier at the end of a macro from its motion",
+        "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
+    ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _warning(
@@ -101,6 +109,10 @@ CODES: Final[dict[str, Code]] = {
     ),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "opened-too-little": _warning("a grasp asks for more than the hand is open", "OPEN .2\nCLOSE .25"),
+    "part-not-described": _error(
+        "a part is to be found in a picture, and too little of it is taught",
+        "LOOK V\nGENERAL GASKET V",
+    ),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
     "position-before-here": _error("a position that only a HERE defines is used before it", "MOVE A\nHERE A"),
     "position-twice": _error(
@@ -137,6 +149,10 @@ CODES: Final[dict[str, Code]] = {
     "skip-over-modifier": _error(
         "a skip would skip a modifier and not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
     ),
+    "skips-one-only": _warning(
+        "several lines stand farther in behind a skip, which skips the first of them",
+        "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
+    ),
     "specific-without-general": _warning(
         "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
     ),
@@ -149,6 +165,10 @@ CODES: Final[dict[str, Code]] = {
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
         "warning",
     ),
+    "test-of-no-effect": _warning(
+        "a test only skips the next one, so that its error changes nothing",
+        "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
+    ),
     "test-without-action": _warning(
         "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
     ),
@@ -160,6 +180,10 @@ CODES: Final[dict[str, Code]] = {
     ),
     "torque-without-tool": _warning(
         "a torque is to end a motion, and no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
+    ),
+    "touch-while-closed": _warning(
+        "a touch is to end a motion, and the fingers are closed already",
+        "CLOSE .1\nTOUCH 3\nCHANGE Z -1",
     ),
     "travel-too-long": _warning(
         "a TRAVEL asks for a longer way than the motion before it goes", "CHANGE Z .6\nTRAVEL .7 .9"

@@ -7,15 +7,17 @@ from handeye.al.flow import check_flow
 from handeye.al.form import MISSING
 from handeye.al.graph import Graph
 from handeye.al.here import check_here
+from handeye.al.layout import check_layout
 from handeye.al.lower import lower
 from handeye.al.macros import expand
 from handeye.al.names import check_names
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.restores import check_restores
+from handeye.al.sights import check_sights
 from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script
-from handeye.al.unused import check_unused
+from handeye.al.unused import check_unused, with_unused
 from handeye.al.vectors import named_vectors, with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
 from handeye.plan.program import Program
@@ -50,10 +52,14 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     graph = Graph(lowered.steps)
     found += check_flow(graph, lowered.origins)
     found += faint(words, vectors)
+    found += check_sights(words, taught)
+    found += check_layout(script, source)
     found += check_restores(lowered, graph)
     lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
-    unused = check_unused(script, words, used)
-    found += [d for d in unused if _line(source, d) not in lost and _is_for_us(source, d)]
+    unused = [
+        d for d in check_unused(script, words, used) if _line(source, d) not in lost and _is_for_us(source, d)
+    ]
+    found = with_unused(found, unused)
     if "HERE" in words:
         found += check_here(placed, {*taught.positions, *written})
     if has_errors(found):

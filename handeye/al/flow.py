@@ -3,7 +3,7 @@
 A statement of a macro is several steps. It is at fault only if it is at fault in every call.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from handeye.al.graph import Graph
@@ -169,6 +169,8 @@ class _Flow:
                 yield number, self.no_action(number)
             elif operation.number not in raised[number] and operation.number in ERRORS:
                 yield number, self.never_raised(number, operation.number, actions[number], raised[number])
+            elif operation.number in raised[number] and self.skips_test(operation, number, raised):
+                yield number, self.no_effect(number, operation.number)
 
     def rounds(self) -> Iterator[Finding]:
         """Searches and counts that try the same in every round."""
@@ -230,6 +232,19 @@ class _Flow:
         message = f"`{word}` follows no action: there is no error to test"
         help = "a test stands directly behind the action that raises the error"
         return self.problem("test-without-action", number, message, *cause, help=help)
+
+    def skips_test(self, first: op.Test, number: int, raised: Mapping[int, set[int]]) -> bool:
+        """Whether a test leaves out nothing but the test of another error, which can be there."""
+        behind = self.graph.steps[number].next
+        second = None if behind is None else self.graph.steps[behind].operation
+        if behind is None or not isinstance(second, op.Test) or second.number not in raised[behind]:
+            return False
+        return first.raised == self.graph.steps[behind].next
+
+    def no_effect(self, number: int, error: int) -> Diagnostic:
+        message = f"with error {error} the program goes on as it does without an error"
+        help = f"`{self.word(number).text}` skips one instruction, the test below: for each error, a test and a `JUMP`"
+        return self.problem("test-of-no-effect", number, message, help=help)
 
     def never_raised(self, number: int, error: int, actions: set[int], raised: set[int]) -> Diagnostic:
         words = {self.word(n).text for n in actions}

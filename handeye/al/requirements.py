@@ -33,6 +33,12 @@ class Requirements:
         """The text that is to be read now; None if it need not be said that there is too much."""
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)
+        if key.lower().endswith(".toml"):
+            help = (
+                "what is taught is read of itself, from the file with the script's name; leave this line out"
+            )
+            message = f"{quoted(file.text)} is a file of what is taught, and not of instructions"
+            return _problem("unreadable-file", message, file, help=help)
         if key in self.reading:
             return self._circle(key, file)
         if key in self.first:

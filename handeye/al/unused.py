@@ -1,6 +1,7 @@
 """What is written and never used: labels, positions, macros."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from handeye.al.definition import Refers
 from handeye.al.statements import ByWord, Used, all_statements
@@ -12,6 +13,7 @@ _WRITTEN = {
     "VECT": ("vector", (Refers.VECTOR,)),
 }
 """What an instruction declares, and as what it is used."""
+_TOO_FAR = ("search-begun-anew", "count-begun-anew")
 
 
 def check_unused(script: Script, words: ByWord, used: Used) -> Iterator[Diagnostic]:
@@ -31,6 +33,21 @@ def check_unused(script: Script, words: ByWord, used: Used) -> Iterator[Diagnost
     for word, macro in script.macros.items():
         if word not in words:
             yield _unused("unused-macro", macro.name, f"macro {quoted(word)} is never used")
+
+
+def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagnostic]:
+    """Both together. A jump back that goes too far, over an unused label, may have meant that: it is one mistake."""
+    left, told = list(unused), []
+    for diagnostic in found:
+        if diagnostic.code in _TOO_FAR:
+            begin, end = diagnostic.secondary[0].span.start, diagnostic.primary.span.start
+            meant = [d for d in left if d.code == "unused-label" and begin < d.primary.span.start < end]
+            if len(meant) == 1:
+                left.remove(meant[0])
+                label = Label(span=meant[0].primary.span, text="nothing jumps here")
+                diagnostic = replace(diagnostic, secondary=(*diagnostic.secondary, label))
+        told.append(diagnostic)
+    return told + left
 
 
 def _unused(code: str, name: Name, message: str) -> Diagnostic:

@@ -33,6 +33,7 @@ def in_vain(graph: Graph) -> Iterator[Vain]:
     yield from _grasps(graph)
     yield from _travels(graph)
     yield from _torques(graph)
+    yield from _touches(graph)
     yield from _pauses(graph)
 
 
@@ -116,6 +117,24 @@ def _torques(graph: Graph) -> Iterator[Vain]:
                 message="a torque is to end this motion, and the screwdriver does not turn",
                 help="`TOOL` runs the screwdriver; without it this always raises error 24",
                 cause=max(last, default=None),
+            )
+
+
+def _touches(graph: Graph) -> Iterator[Vain]:
+    """Stops on a touch of fingers that are closed."""
+    for number in graph.which(op.Move, op.Change, op.Turn):
+        motion = graph.steps[number].operation
+        assert isinstance(motion, op.Move | op.Change | op.Turn)
+        if motion.stop is None or motion.stop.touch is None:
+            continue
+        last = graph.last(number, op.Open, op.Close, op.Center)
+        if last and not any(isinstance(graph.steps[n].operation, op.Open) for n in last):
+            yield Vain(
+                code="touch-while-closed",
+                step=number,
+                message="a touch is to end this motion, and the fingers are closed: it ends at once",
+                help="what the held thing meets is felt by `STOP`; fingers touch when they are open",
+                cause=max(last),
             )
 
 

@@ -23,7 +23,7 @@ _ALONE: Final = frozenset(
     {
         "aoj-without-search", "search-without-aoj", "save-without-move", "travel-without-change",
         "specific-without-general", "torque-without-tool", "unused-label", "unused-macro",
-        "unused-position", "unused-vector",
+        "unused-position", "unused-vector", "compared-without-hold",
     }
 )  # fmt: skip
 """Warnings about what is not in the text; it may have been done before, or be done afterwards."""

@@ -17,7 +17,7 @@ from handeye.editor.document import Document
 from handeye.editor.fix import cured
 from handeye.editor.fixes import fixes
 from handeye.errors import ERRORS, InvalidInput
-from handeye.plan.program import Fixture, Held, Part, Position
+from handeye.plan.program import Fixture, Held, Hole, Part, Position
 from handeye.plan.taught import Taught
 from handeye.source import Source
 from handeye.units import DEGREE, INCH
@@ -49,7 +49,12 @@ SAMPLE = Taught(
         "FAR": _position(200, 38, 4),
     },
     parts={
-        "BASE": Part(at=(25 * INCH, 38 * INCH, 0.0, 0.0)),
+        "BASE": Part(
+            at=(25 * INCH, 38 * INCH, 0.0, 0.0),
+            holes=(Hole(x=0.0, y=0.0, diameter=2 * INCH), Hole(x=3 * INCH, y=0.0, diameter=INCH)),
+            region=(3 * INCH, 3 * INCH),
+            outline=(-2 * INCH, -2 * INCH, 4 * INCH, 2 * INCH),
+        ),
         "GASKET": Part(at=(26 * INCH, 48 * INCH, 0.0, 0.0)),
     },
     fixtures={"STAND": Fixture(at=(32 * INCH, 46 * INCH, 0.0, 0.0), boxes=(_box(2, 2, 0, 1.75),))},

@@ -103,6 +103,15 @@ def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
         yield from remove_line(document, diagnostic)
 
 
+def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    """The blank lines between a modifier at the end of a macro and its motion, if another one ends the macro."""
+    behind = document.line_at(diagnostic.secondary[0].span.start)
+    assert behind is not None
+    if any(line.is_blank for line in document.lines[behind.number :]):
+        end = document.whole_line(line_of(document, diagnostic).number).end
+        yield replace(Span(start=end, end=behind.start), "", "leave out the blank line")
+
+
 def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     """Before the label an AOJ goes back to; the step is that of 1973."""
     line = line_of(document, diagnostic)

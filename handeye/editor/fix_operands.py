@@ -49,6 +49,10 @@ def close_vector(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
         yield insert(last.token.end, "]", "close the vector")
 
 
+def hold(_: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    yield insert(diagnostic.secondary[0].span.end, " HOLD", "take the picture with `HOLD`")
+
+
 def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     first = document.source.position(diagnostic.primary.span.start)[0]
     for line in document.lines[first:]:

@@ -39,8 +39,10 @@ def _suggested(diagnostic: Diagnostic) -> Iterator[Fix]:
 
 _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "aoj-without-search": fix_lines.begin_search,
+    "compared-without-hold": fix_operands.hold,
     "error-never-raised": fix_lines.drop_test,
     "label-splits-modifier": fix_lines.label_first,
+    "macro-ends-early": fix_lines.close_up,
     "missing-operand": fix_operands.fill_in,
     "modifier-misplaced": fix_lines.remove_line,
     "modifier-twice": fix_lines.remove_line,

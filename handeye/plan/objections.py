@@ -1,12 +1,14 @@
 """What the planner has to say against a motion, in the words of the script: inches, degrees, ounces, joints by name."""
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from handeye.arm.kinematics import IKResult
 from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.plan.clearance import Crossing
-from handeye.plan.program import Move, Step
+from handeye.plan.program import Move, Position, Step
 from handeye.plan.spans import word_span
 from handeye.plan.strength import Weakness
 from handeye.source import Source
@@ -19,6 +21,12 @@ RIDDLE = (
 """Reference D1."""
 
 
+_ROUNDED = 0.002
+"""How far an angle in radians may be from a multiple of 45 degrees, in those, as people write it."""
+_CIRCLE = 8
+"""Times 45 degrees."""
+
+
 @dataclass(slots=True, kw_only=True)
 class Objections:
     """Collects them, each at the place in the text it is about."""
@@ -26,6 +34,8 @@ class Objections:
     arm: ArmModel
     whole: Source
     """The script, with what it requires."""
+    positions: Mapping[str, Position]
+    """What the words of the script stand for."""
     found: list[Diagnostic] = field(default_factory=list)
     _goals: set[tuple[str, str]] = field(default_factory=set)
     """Codes and positions that have been told: a wrong position is one mistake, however often it is gone to."""
@@ -43,7 +53,8 @@ class Objections:
             inches = f"{failure.excess / INCH:.2f} in"
             self._add(
                 "unreachable-position", step, word, f"{word} is {inches} {away} the {self.arm.name} arm",
-                note=failure.message(self.arm), help=f"bring it at least {inches} {help} the arm",
+                note=failure.message(self.arm),
+                help=self._slip(word) or f"bring it at least {inches} {help} the arm{self._counted(word)}",
             )  # fmt: skip
 
     def _off_the_way(self, step: Step, failure: IKResult, along: float) -> None:
@@ -68,7 +79,8 @@ class Objections:
 
     def _joint_limit(self, step: Step, motion: str, word: str, failure: IKResult) -> None:
         beyond, limit = f"{failure.excess / DEGREE:.1f} degrees", f"{failure.limit / DEGREE:.0f} degrees"
-        note, help = None, "turn the hand otherwise: other angles O, A, T can be within the limits"
+        note, help = None, self._slip(word)
+        help = help or "turn the hand otherwise: other angles O, A, T can be within the limits"
         if failure.along is not None:
             note = f"it comes to its limit {_along(step, failure.along)}"
             help = "go by a position between" if isinstance(step.operation, Move) else "shorten the motion"
@@ -77,6 +89,24 @@ class Objections:
             f"`{motion}` would take {self._joint(failure.joint)} {beyond} beyond its limit of {limit}",
             note=note, help=help,
         )  # fmt: skip
+
+    def _slip(self, word: str) -> str | None:
+        """What was mistaken in the angles of a position, if they are written in radians."""
+        position = self.positions.get(word)
+        for angle in () if position is None else position.at[3:]:
+            parts = angle / DEGREE / (math.pi / 4)
+            if 1 <= abs(round(parts)) <= _CIRCLE and abs(parts - round(parts)) < _ROUNDED:
+                return (
+                    f"O, A and T are in degrees; {angle / DEGREE:g} is {round(parts) * 45} degrees in radians"
+                )
+        return None
+
+    def _counted(self, word: str) -> str:
+        """What a position is counted from, if not from the table."""
+        position = self.positions.get(word)
+        return (
+            "" if position is None or position.of is None else f"; it is counted from {quoted(position.of)}"
+        )
 
     def below_table(self, step: Step, word: str, depth: float) -> None:
         """A goal is below the table top."""

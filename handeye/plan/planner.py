@@ -46,7 +46,7 @@ def make_plan(
         start: where the arm stands when the program begins, shape (6,), rad and m; by default at `HOME`, or at
             the first goal of a program that has none.
     """
-    objections = Objections(arm=arm, whole=program.whole)
+    objections = Objections(arm=arm, whole=program.whole, positions=program.positions)
     walk = _Walk(
         program=program, arm=arm, speed=speed, world=WorldModel.of(program), objections=objections,
         checks=Checks(arm, program, objections),

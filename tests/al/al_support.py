@@ -7,14 +7,22 @@ import msgspec
 
 from handeye import al
 from handeye.diagnostics import Diagnostic
-from handeye.plan.program import ACTIONS, Assign, Countdown, Move, Part, Position, Program, Test
+from handeye.plan.program import ACTIONS, Assign, Countdown, Hole, Move, Part, Position, Program, Test
 from handeye.plan.taught import Taught
 from handeye.source import Source
 
 ORIGIN = Position(at=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 TAUGHT = Taught(
     positions=dict.fromkeys(("P", "T", "PARK"), ORIGIN),
-    parts={"BASE": Part(at=(0.0, 0.0, 0.0, 0.0)), "GASKET": Part(at=(0.0, 0.0, 0.0, 0.0))},
+    parts={
+        "BASE": Part(
+            at=(0.0, 0.0, 0.0, 0.0),
+            holes=(Hole(x=0.0, y=0.0, diameter=0.05), Hole(x=0.07, y=0.0, diameter=0.03)),
+            region=(0.1, 0.1),
+            outline=(-0.05, -0.05, 0.1, 0.05),
+        ),
+        "GASKET": Part(at=(0.0, 0.0, 0.0, 0.0)),
+    },
 )
 
 LISTING = """\

@@ -106,7 +106,10 @@ def _example(entry: Code) -> list[str]:
     strict = entry.phase == "strict"
     required = {key: format_text(text) for key, text in entry.required.items()}
     case = Case(name="", program=format_text(entry.example), strict=strict, required=required)
-    said = shown(case)["diagnostic"]
+    said = shown(case).get("diagnostic")
+    if said is None:  # it is about the layout, and there is nothing wrong with that of the formatter
+        said = shown(Case(name="", program=f"{entry.example}\n"))["diagnostic"]
+        return ["```text", entry.example, "```", "", "```text", f"{said}```"]
     lines = case.program.split("\n")[:-1]
     if len(lines) + len(required) > LONGEST:
         cut = [*lines[:4], "...", *lines[-4:]]

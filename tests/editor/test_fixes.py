@@ -44,6 +44,10 @@ CURED = {
     "STOP 9\nMOVE T\nSKIPE 23\nSTOP 50\nMOVE T\nPARK": (
         "STOP 9\nMOVE T\nSKIPN 23\n        JUMP    PAST1\nSTOP 50\nMOVE T\nPAST1:\nPARK"
     ),
+    "LOOK A\nLOOK B ;after\nINSPECT BASE A B": "LOOK A\nLOOK B HOLD ;after\nINSPECT BASE A B",
+    "DEFINE D\nSTOP 9\n\nCHANGE Z -1\n\nMOVE T\nD\nPARK": (
+        "DEFINE D\nSTOP 9\nCHANGE Z -1\n\nMOVE T\nD\nPARK"
+    ),
     "SAVE H\nSTOP 9\nMOVE T\nSKIPN 23\nSTOP 50\nMOVE T\nRESTORE H": (
         "SAVE H\nSTOP 9\nMOVE T\nSKIPE 23\n        JUMP    PAST1\nSTOP 50\nMOVE T\nRESTORE H\nPAST1:\n"
     ),
