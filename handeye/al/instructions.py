@@ -305,7 +305,7 @@ _TABLE = (
     Instruction(
         op="TRAVEL",
         group=PLACES,
-        help="check how far (in) the last motion went; error 8 outside the range",
+        help="check how far (in) the last CHANGE or PLACE went; error 8 outside the range",
         operands=(number("minimum", IN, 0.0), number("maximum", IN, 0.0)),
         ours=True,
     ),
