@@ -2,25 +2,18 @@
 
 from pathlib import PurePath
 
-from handeye.al.faint import faint
-from handeye.al.flow import check_flow
+from handeye.al.checks.names import check_names
+from handeye.al.checks.whole import Whole, check_whole
 from handeye.al.form import MISSING
-from handeye.al.graph import Graph
-from handeye.al.here import check_here
-from handeye.al.layout import check_layout
-from handeye.al.lower import lower
+from handeye.al.lower import Lowered, lower
 from handeye.al.macros import expand
-from handeye.al.names import check_names
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
-from handeye.al.restores import check_restores
-from handeye.al.sights import check_sights
 from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script
-from handeye.al.unused import check_unused, with_unused
 from handeye.al.vectors import named_vectors, with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
-from handeye.plan.program import Program
+from handeye.plan.program import Position, Program
 from handeye.plan.taught import Taught
 from handeye.source import Source, Span
 
@@ -48,35 +41,28 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         found.append(_empty())
     if has_errors(found):  # what follows would tell a mistake twice, as what it leads to
         return None, arranged(found)
-    written = dict(map(position, words.get("TRANS", ())))
-    graph = Graph(lowered.steps)
-    found += check_flow(graph, lowered.origins)
-    found += faint(words, vectors)
-    found += check_sights(words, taught)
-    found += check_layout(script, source)
-    found += check_restores(lowered, graph)
-    lost = {_line(source, d) for d in found if d.code == "unreachable-code"}
-    unused = [
-        d for d in check_unused(script, words, used) if _line(source, d) not in lost and _is_for_us(source, d)
-    ]
-    found = with_unused(found, unused)
-    if "HERE" in words:
-        found += check_here(placed, {*taught.positions, *written})
-    if has_errors(found):
-        return None, arranged(found)
-    program = Program(
+    positions = {**taught.positions, **dict(map(position, words.get("TRANS", ())))}
+    whole = Whole(
+        source=source, script=script, words=words, used=used, vectors=vectors, placed=placed, lowered=lowered
+    )
+    found += check_whole(whole, taught, positions)
+    program = None if has_errors(found) else _program(source, lowered, positions, taught)
+    return program, arranged(found)
+
+
+def _program(source: Source, lowered: Lowered, positions: dict[str, Position], taught: Taught) -> Program:
+    return Program(
         name=PurePath(source.name).stem,
         language="wave",
         source=source.text,
         stages=lowered.stages,
         steps=lowered.steps,
-        positions={**taught.positions, **written},
+        positions=positions,
         parts=dict(taught.parts),
         fixtures=dict(taught.fixtures),
         held=dict(taught.held),
         required={text.key: text.text for text in source.required},
     )
-    return program, arranged(found)
 
 
 def _inner_labels(script: Script) -> dict[str, Name]:
@@ -106,17 +92,6 @@ def _word(source: Source, diagnostic: Diagnostic) -> str:
     span = diagnostic.primary.span
     text, start = source.find(span.start)
     return text.text[start : start + span.end - span.start]
-
-
-def _line(source: Source, diagnostic: Diagnostic) -> tuple[str, int]:
-    """The text a diagnostic is about, and the line in it."""
-    text, offset = source.find(diagnostic.primary.span.start)
-    return text.key, text.position(offset)[0]
-
-
-def _is_for_us(source: Source, unused: Diagnostic) -> bool:
-    """A required file may make things for other scripts; what it jumps to is its own."""
-    return unused.code == "unused-label" or not _line(source, unused)[0]
 
 
 def _empty() -> Diagnostic:
