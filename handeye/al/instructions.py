@@ -179,7 +179,7 @@ _TABLE = (
     ),
     Instruction(
         op="RESTORE",
-        group=MODIFIERS,
+        group=MOTIONS,
         help="shift the goal of the MOVE just before by a saved difference; with LEVEL, only horizontally",
         operands=(name_of("name", Refers.SAVED), word("LEVEL")),
         role=Role.SHIFT,

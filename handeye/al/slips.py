@@ -78,7 +78,9 @@ def with_unit(text: str) -> tuple[str, str] | None:
 def strange(text: str) -> str | None:
     """What to say of characters that are no part of the language; None if nothing helps."""
     first = text[0]
-    if first in ":#/'":
+    if first == ":":
+        return "a colon stands behind a label, where a line begins"
+    if first in "#/'":
         return _COMMENT
     if first in "({<" or text[-1] in ")}>":
         inside = text.strip("({<>})")

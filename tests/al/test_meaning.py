@@ -126,6 +126,16 @@ def test_a_jump_back_over_an_unused_label_is_one_mistake() -> None:
     assert [label.text for label in begun.secondary] == ["this begins anew", "nothing jumps here"]
 
 
+def test_a_position_that_only_a_comment_goes_to_is_seen_there() -> None:
+    (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; MOVE ROD\nPARK")
+    assert (told.code, told.help) == (
+        "unused-position",
+        "on line 2 it stands behind a `;`, which begins a comment",
+    )
+    (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; look for the ROD\nPARK")
+    assert told.help is None
+
+
 def test_what_is_taught_is_not_required() -> None:
     (told,) = diagnose("REQUIRE water_pump.toml\nPARK")
     assert told.message == "`water_pump.toml` is a file of what is taught, and not of instructions"

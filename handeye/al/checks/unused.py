@@ -1,12 +1,15 @@
 """What is written and never used: labels, positions, macros."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
 from handeye.al.definition import Refers
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.statements import ByWord, Used, all_statements
 from handeye.al.syntax import Name, Script
 from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.source import Source
 
 _WRITTEN = {
     "TRANS": ("position", (Refers.POSITION, Refers.TARGET)),
@@ -16,7 +19,7 @@ _WRITTEN = {
 _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 
 
-def check_unused(script: Script, words: ByWord, used: Used) -> Iterator[Diagnostic]:
+def check_unused(script: Script, words: ByWord, used: Used, source: Source) -> Iterator[Diagnostic]:
     """A warning for each; of a script without mistakes. Taught positions may be there for another script."""
     gone_to = {name.text for name in used[Refers.LABEL]}
     for statement in all_statements(script):
@@ -29,7 +32,10 @@ def check_unused(script: Script, words: ByWord, used: Used) -> Iterator[Diagnost
         for statement in words.get(op, ()):
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in found:
-                yield _unused(f"unused-{what}", name, f"{what} {quoted(name.text)} is written and never used")
+                help = _in_a_comment(name.text, source)
+                yield _unused(
+                    f"unused-{what}", name, f"{what} {quoted(name.text)} is written and never used", help
+                )
     for word, macro in script.macros.items():
         if word not in words:
             yield _unused("unused-macro", macro.name, f"macro {quoted(word)} is never used")
@@ -50,5 +56,14 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
     return told + left
 
 
-def _unused(code: str, name: Name, message: str) -> Diagnostic:
-    return Diagnostic(code=code, message=message, primary=Label(span=name.span))
+def _in_a_comment(name: str, source: Source) -> str | None:
+    """What helps if the one instruction that uses a name stands behind a semicolon."""
+    for comment in re.finditer(rf";[ \t]*(\w+)[ \t]+{re.escape(name)}\b", source.text, re.ASCII):
+        if comment[1].upper() in INSTRUCTIONS:
+            line = source.position(comment.start())[0]
+            return f"on line {line} it stands behind a `;`, which begins a comment"
+    return None
+
+
+def _unused(code: str, name: Name, message: str, help: str | None = None) -> Diagnostic:
+    return Diagnostic(code=code, message=message, primary=Label(span=name.span), help=help)

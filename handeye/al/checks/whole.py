@@ -50,7 +50,7 @@ def check_whole(whole: Whole, taught: Taught, positions: Container[str]) -> list
 def _unused(whole: Whole, found: Sequence[Diagnostic]) -> list[Diagnostic]:
     """What is written for nothing; not what stands in lines that are never carried out."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
-    unused = check_unused(whole.script, whole.words, whole.used)
+    unused = check_unused(whole.script, whole.words, whole.used, whole.source)
     return [d for d in unused if _line(whole.source, d) not in lost and _is_for_us(whole.source, d)]
 
 
