@@ -23,6 +23,18 @@ class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
     end: int
 
 
+class Located(msgspec.Struct, frozen=True, gc=False):
+    """Something that stands in a source text, from offset `start` to `end`."""
+
+    start: int
+    end: int
+
+    @property
+    def span(self) -> Span:
+        """Where it stands."""
+        return Span(start=self.start, end=self.end)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Source:
     """A named text, with the texts it requires. Lines and columns count from 1, in its own text."""

@@ -57,11 +57,11 @@ def lower(
 
 def _step(source: Source, draft: "_Draft") -> Step:
     assert draft.operation is not None
-    span = draft.statement.span
-    text, start = source.find(span.start)
+    statement = draft.statement
+    text, start = source.find(statement.start)
     return Step(
-        operation=draft.operation, stage=draft.stage, file=text.key, line=draft.statement.line,
-        text=text.text[start : start + span.end - span.start], next=draft.next,
+        operation=draft.operation, stage=draft.stage, file=text.key, line=statement.line,
+        text=text.text[start : start + statement.end - statement.start], next=draft.next,
     )  # fmt: skip
 
 

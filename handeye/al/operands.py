@@ -83,7 +83,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
     for before, token in pairwise(tokens):
         glued = before.text + token.text if before.end == token.start else ""
         if before.kind is NAME and token.kind is NUMBER and letters_for_digits(glued):
-            return _malformed(Token(NUMBER, glued, before.start, token.end))
+            return _malformed(Token(before.start, token.end, NUMBER, glued))
         unit = no_units(token.text) if token.kind is NAME else None
         if unit is not None and (before.kind is NUMBER or before.text == "]"):
             return Mistake(
@@ -137,7 +137,7 @@ class _Reader(msgspec.Struct, gc=False):
                 return None
             if not operand.takes:
                 read = self.tokens[self.at - 1]
-                return Name(operand.word, read.start, read.end)
+                return Name(read.start, read.end, operand.word)
         if self.at == len(self.tokens):
             raise self.missing(operand)
         token = self.tokens[self.at]
@@ -164,7 +164,7 @@ class _Reader(msgspec.Struct, gc=False):
             if is_unterminated(word):
                 raise self.unterminated_string(word)
         self.at = len(self.tokens)
-        return Text(free_text(rest), Span(start=token.start, end=rest[-1].end))
+        return Text(token.start, rest[-1].end, free_text(rest))
 
     def value(self, token: Token, operand: Operand) -> Value:
         kind = token.kind
@@ -174,14 +174,14 @@ class _Reader(msgspec.Struct, gc=False):
             return self.vector(token, operand)
         self.at += 1
         if kind is NUMBER:
-            number = Number(_number(token), token.start, token.end)
+            number = Number(token.start, token.end, _number(token))
             if Number in operand.takes:
                 self.check_number(number, operand, token)
             return number
         if Name not in operand.takes and _NOT_FINITE.fullmatch(token.text):
             raise _malformed(token)
         if kind is NAME:
-            return Name(token.text, token.start, token.end)
+            return Name(token.start, token.end, token.text)
         raise _unexpected(token)
 
     def axes(self) -> Vector:
@@ -197,14 +197,13 @@ class _Reader(msgspec.Struct, gc=False):
             message = f"`{self.definition.op}` is to have {quoted(count.text)} axes; {stand}"
             raise Mistake("axis-count", message, count.span, help=self.usage())
         self.at = len(self.tokens)
-        span = Span(start=count.start, end=letters[-1].end)
-        return Vector(tuple(float(axis in named) for axis in AXES), span)
+        return Vector(count.start, letters[-1].end, tuple(float(axis in named) for axis in AXES))
 
     def string(self, token: Token) -> Text:
         if is_unterminated(token):
             raise self.unterminated_string(token)
         self.at += 1
-        return Text(token.text[1:-1], token.span)
+        return Text(token.start, token.end, token.text[1:-1])
 
     def vector(self, opening: Token, operand: Operand) -> Vector:
         values: list[float] = []
@@ -218,7 +217,7 @@ class _Reader(msgspec.Struct, gc=False):
         else:
             raise Mistake("unterminated-vector", "the vector has no `]`", opening.span, "it begins here")
         self.at += len(values) + 2
-        vector = Vector(tuple(values), Span(start=opening.start, end=token.end))
+        vector = Vector(opening.start, token.end, tuple(values))
         if Vector in operand.takes:
             self.check_vector(vector, operand)
         return vector

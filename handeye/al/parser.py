@@ -116,7 +116,7 @@ class _Parser:
         span = Span(start=line.start + LONGEST_LINE, end=line.end)
         message = f"the line has {line.end - line.start} characters"
         self.report("line-too-long", message, span, help=f"a line has at most {LONGEST_LINE}")
-        broken = Statement((), None, line.number, span, broken=True)
+        broken = Statement(span.start, span.end, (), None, line.number, broken=True)
         (self.statements if self.opened is None else self.body).append(broken)
 
     def end(self) -> None:
@@ -139,9 +139,9 @@ class _Parser:
             self.report(
                 "missing-operand", "`DEFINE` needs the name of the macro", at, "the name is expected here"
             )
-            self.opened = Name("", tokens[0].start, tokens[0].end)
+            self.opened = Name(tokens[0].start, tokens[0].end, "")
             return
-        name = Name(tokens[1].text.upper(), tokens[1].start, tokens[1].end)
+        name = Name(tokens[1].start, tokens[1].end, tokens[1].text.upper())
         if len(tokens) > 2:
             self.beyond(name, tokens[2:])
         elif name.text in INSTRUCTIONS or name.text == "DEFINE":
@@ -177,26 +177,25 @@ class _Parser:
         self, line: Line, labels: tuple[Name, ...], said: str, tokens: tuple[Token, ...]
     ) -> Statement:
         if not tokens:
-            span = Span(start=line.tokens[0].start, end=line.end)
-            return Statement(labels, None, line.number, span)
+            return Statement(line.tokens[0].start, line.end, labels, None, line.number)
         head, rest = tokens[0], tokens[1:]
-        span = Span(start=head.start, end=tokens[-1].end)
-        word = Name(said, head.start, head.end)
+        start, end = head.start, tokens[-1].end
+        word = Name(start, head.end, said)
         if head.kind is not NAME:
             self.unreadable(head)
-            return Statement(labels, None, line.number, span, broken=True)
+            return Statement(start, end, labels, None, line.number, broken=True)
         definition = INSTRUCTIONS.get(said)
         if definition is None:
             is_call = self.is_call(word, line, rest)
-            return Statement(labels, word, line.number, span, broken=not is_call)
+            return Statement(start, end, labels, word, line.number, broken=not is_call)
         try:
             operands = read_operands(definition, head, rest)
         except Mistake as mistake:
             self.tell(mistake.diagnostic)
             # What it would have named is not missing as well.
             named = tuple(_name(token) for token in rest[:1] if token.kind is NAME)
-            return Statement(labels, word, line.number, span, operands=named, broken=True)
-        return Statement(labels, word, line.number, span, operands)
+            return Statement(start, end, labels, word, line.number, named, broken=True)
+        return Statement(start, end, labels, word, line.number, operands)
 
     def is_call(self, word: Name, line: Line, rest: tuple[Token, ...]) -> bool:
         if word.text in self.macro_names:
@@ -259,7 +258,7 @@ class _Parser:
 
 
 def _name(token: Token) -> Name:
-    return Name(token.text, token.start, token.end)
+    return Name(token.start, token.end, token.text)
 
 
 def _alone(rest: tuple[Token, ...]) -> str:

@@ -5,7 +5,7 @@ from enum import Enum
 
 import msgspec
 
-from handeye.source import Span
+from handeye.source import Located
 
 
 class Kind(Enum):
@@ -22,17 +22,11 @@ NAME, NUMBER, STRING, MARK, JUNK = Kind
 """For those who ask often: a member of an enumeration takes its time to be found."""
 
 
-class Token(msgspec.Struct, frozen=True, gc=False):
-    """A piece of the text; `start` and `end` are offsets into the whole of it."""
+class Token(Located, frozen=True, gc=False):
+    """A piece of the text; its offsets are of the whole."""
 
     kind: Kind
     text: str
-    start: int
-    end: int
-
-    @property
-    def span(self) -> Span:
-        return Span(start=self.start, end=self.end)
 
 
 class Line(msgspec.Struct, frozen=True, gc=False):
@@ -90,7 +84,7 @@ def scan(text: str, offset: int = 0) -> list[Line]:
         assert group is not None
         piece = match[group]
         if group in _KINDS:
-            tokens.append(Token(_KINDS[group], piece, behind - len(piece), behind))
+            tokens.append(Token(behind - len(piece), behind, _KINDS[group], piece))
             end = behind
         elif group == _COMMENT:
             comment = piece.rstrip(_BLANKS)

@@ -4,64 +4,48 @@ from typing import ClassVar
 
 import msgspec
 
-from handeye.source import Span
+from handeye.source import Located
 
 
-class Name(msgspec.Struct, frozen=True, gc=False):
+class Name(Located, frozen=True, gc=False):
     """A word: the name of something, or a word of the language."""
 
     what: ClassVar[str] = "a name"
     text: str
-    start: int
-    end: int
-
-    @property
-    def span(self) -> Span:
-        return Span(start=self.start, end=self.end)
 
 
-class Number(msgspec.Struct, frozen=True, gc=False):
+class Number(Located, frozen=True, gc=False):
     """A number in the unit of its place."""
 
     what: ClassVar[str] = "a number"
     value: float
-    start: int
-    end: int
-
-    @property
-    def span(self) -> Span:
-        return Span(start=self.start, end=self.end)
 
 
-class Vector(msgspec.Struct, frozen=True, gc=False):
+class Vector(Located, frozen=True, gc=False):
     """Numbers in brackets."""
 
     what: ClassVar[str] = "a vector"
     values: tuple[float, ...]
-    span: Span
 
 
-class Text(msgspec.Struct, frozen=True, gc=False):
+class Text(Located, frozen=True, gc=False):
     """Words for people; without the quotes."""
 
     what: ClassVar[str] = "a string"
     text: str
-    span: Span
 
 
 Value = Name | Number | Vector | Text
 
 
-class Statement(msgspec.Struct, frozen=True, gc=False):
-    """A line: labels and perhaps an instruction or the name of a macro."""
+class Statement(Located, frozen=True, gc=False):
+    """A line: labels and perhaps an instruction or the name of a macro; from that to the last operand."""
 
     labels: tuple[Name, ...]
     word: Name | None
     """The instruction, in capitals, or the macro; None when the line has labels only."""
     line: int
-    """In its own text; spans are of the whole."""
-    span: Span
-    """From the instruction to the last operand."""
+    """In its own text; offsets are of the whole."""
     operands: tuple[Value | None, ...] = ()
     """One for each operand in the definition of the instruction; None where an optional one is left out."""
     broken: bool = False

@@ -39,7 +39,7 @@ def with_vectors(script: Script, known: Vectors) -> Script:
 def in_place(value: Value | None, operand: Operand, known: Vectors) -> Value | None:
     """A value, or the vector it names; any vector for a name that is reported as unknown."""
     if isinstance(value, Name) and operand.refers is Refers.VECTOR:
-        return Vector(known.get(value.text, _UNITS["Z"]), value.span)
+        return Vector(value.start, value.end, known.get(value.text, _UNITS["Z"]))
     return value
 
 
