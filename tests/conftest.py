@@ -10,7 +10,10 @@ from hypothesis import settings
 
 from handeye import cli
 
-settings.register_profile("handeye", deadline=None)  # no claim here is about a clock
+# No claim here is about a clock, and what has passed once passes again.
+settings.register_profile("handeye", deadline=None, derandomize=True)
+# To look for what no one has thought of: pytest --hypothesis-profile explore
+settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("handeye")
 
 Command = Callable[..., tuple[int, str, str]]
