@@ -39,7 +39,7 @@ ERRORS: Final[dict[int, str]] = {
     WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
     SEARCH_EXHAUSTED: "the search has tried all its places",
     WRONG_THICKNESS: "what is between the fingers is not as thick as it should be",
-    WRONG_TRAVEL: "the last motion went less far, or farther, than it should",
+    WRONG_TRAVEL: "the last CHANGE or PLACE went less far, or farther, than it should",
     NO_FORCE: "the motion ended without meeting the force it was to stop on",
     NO_TORQUE: "the motion ended without meeting the torque it was to stop on",
     NO_TOUCH: "the motion ended without a finger touching anything",

@@ -12,7 +12,7 @@ from handeye import cli
 
 # No claim here is about a clock, and what has passed once passes again.
 settings.register_profile("handeye", deadline=None, derandomize=True)
-# To look for what no one has thought of: pytest --hypothesis-profile explore
+# To look for what no one has thought of, where a property sets no number itself: --hypothesis-profile explore
 settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("handeye")
 

@@ -21,6 +21,8 @@ class Graph:
     """Steps that lead to each."""
     kinds: dict[type[Operation], list[int]] = field(init=False)
     """Steps with each kind of operation."""
+    reached: set[int] = field(init=False)
+    """Steps that can be come to."""
 
     def __post_init__(self) -> None:
         kinds: dict[type[Operation], list[int]] = {}
@@ -37,14 +39,11 @@ class Graph:
                     back[target].append(number)
         object.__setattr__(self, "onward", onward)
         object.__setattr__(self, "back", back)
+        object.__setattr__(self, "reached", _spread([0] if self.steps else [], onward))
 
     def which(self, *kinds: type[Operation]) -> list[int]:
         """The steps whose operation is of one of these kinds, in order."""
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
-
-    def from_start(self) -> set[int]:
-        """The steps that can be come to."""
-        return _spread([0] if self.steps else [], self.onward)
 
     def after(self, numbers: Iterable[int]) -> set[int]:
         """The steps that can come, sooner or later, after one of these."""
@@ -57,7 +56,7 @@ class Graph:
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
         """The steps of these kinds that can be the last before a step; none if it can come without one.
 
-        Nor if they lie `FAR` back.
+        Nor if they lie `FAR` back. Steps that nothing comes to count for nothing.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -67,7 +66,7 @@ class Graph:
             if here == 0 or len(seen) > FAR:
                 return []
             for before in self.back[here]:
-                if before in seen:
+                if before in seen or before not in self.reached:
                     continue
                 seen.add(before)
                 (found if isinstance(self.steps[before].operation, kinds) else waiting).append(before)

@@ -394,5 +394,7 @@ DEFINE: Final = Instruction(
 """Makes macros: the parser's own."""
 EXPLAINED: Final = INSTRUCTIONS | {DEFINE.op: DEFINE}
 """All that there is a page of the manual for."""
+SKIPS: Final = frozenset(i.op for i in _TABLE if i.role is Role.SKIP)
+"""Tests of errors."""
 FREE: Final = frozenset(i.op for i in _TABLE if any(operand.free for operand in i.operands))
 """Instructions that take words up to the end of the line."""

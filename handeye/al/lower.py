@@ -112,8 +112,9 @@ class _Lowering:
             return
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
         role = STEP if definition is None else definition.role
-        if statement.broken:
-            # It may have been anything: say nothing about what depends on it.
+        if statement.broken or definition is None:
+            # It may have been anything, as a call of a macro in a file that is not read: say nothing of what depends
+            # on it.
             if role not in (MODIFIER, DECLARATION, SHIFT):
                 self.pending.clear()
                 self.draft(item, None)

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.imperfection import CameraErrors
-from handeye.cell.ports import Picture, TvCamera
+from handeye.cell.ports import FIRST_LENS, Picture, TvCamera
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import CameraState, noise_state, set_noise
@@ -20,8 +20,6 @@ REFOCUS: Final = 12.0
 SLEW: Final = 4.0
 DIGITISE: Final = 0.5
 """s. Fitted to the 90 s that the paper gives for all lens changes and focusing; layout study, section 6."""
-FIRST_LENS: Final = 0.050
-"""Lens in place when the cell is switched on, m: as the last look of a run leaves it."""
 
 
 class SimulatedCamera(TvCamera):

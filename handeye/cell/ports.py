@@ -15,6 +15,9 @@ from handeye.pose import Array
 TICK = 1 / 60
 """Servo period, s: the cell advances by exactly this at every tick."""
 
+FIRST_LENS = 0.050
+"""m, of the lens that is in place when the cell is switched on: as the last look of a run leaves it."""
+
 Picture = NDArray[np.uint8]
 """A digitised television picture: 256 rows by 333 columns of intensities 0..15."""
 

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from msgspec import UNSET
+
 from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.al.sewing import read_script
@@ -91,9 +93,7 @@ def _programs(folder: Path) -> list[str]:
 
 def _list(repl: Repl, _: str) -> Answer:
     lines = tuple(f"{number:3}  {line}" for number, line in enumerate(repl.functions, 1))
-    return answer(
-        repl.workplace, Said(lines=lines) if lines else Said(lines=lines, said="nothing is collected")
-    )
+    return answer(repl.workplace, Said(lines=lines, said=UNSET if lines else "nothing is collected"))
 
 
 def _drop(repl: Repl, _: str) -> Answer:

@@ -1,7 +1,7 @@
 """Cures that take lines away, move them or put them in."""
 
 from collections.abc import Iterator
-from itertools import count
+from itertools import count, takewhile
 
 from handeye.al.definition import Role
 from handeye.diagnostics import Diagnostic, quoted
@@ -104,10 +104,13 @@ def drop_test(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    """The blank lines between a modifier at the end of a macro and its motion, if another one ends the macro."""
+    """The blank lines between a modifier at the end of a macro and its motion, if one ends it before it is called."""
     behind = document.line_at(diagnostic.secondary[0].span.start)
     assert behind is not None
-    if any(line.is_blank for line in document.lines[behind.number :]):
+    body = list(takewhile(lambda line: not line.is_blank, document.lines[behind.number :]))
+    words = {word_of(line) for line in body if line.split()[1]}
+    macros = {name.name for name in document.names if name.kind == MACRO}
+    if behind.number + len(body) < len(document.lines) and words.isdisjoint({*macros, "DEFINE"}):
         end = document.whole_line(line_of(document, diagnostic).number).end
         yield replace(Span(start=end, end=behind.start), "", "leave out the blank line")
 

@@ -50,7 +50,8 @@ def close_vector(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 
 def hold(_: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    yield insert(diagnostic.secondary[0].span.end, " HOLD", "take the picture with `HOLD`")
+    for look in diagnostic.secondary:
+        yield insert(look.span.end, " HOLD", "take the picture with `HOLD`")
 
 
 def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

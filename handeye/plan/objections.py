@@ -21,8 +21,8 @@ RIDDLE = (
 """Reference D1."""
 
 
-_ROUNDED = 0.002
-"""How far an angle in radians may be from a multiple of 45 degrees, in those, as people write it."""
+_ROUNDED = 0.004
+"""Of 45 degrees: how far from a multiple of them an angle is that people write in radians, as 3.14."""
 _CIRCLE = 8
 """Times 45 degrees."""
 
@@ -54,7 +54,7 @@ class Objections:
             self._add(
                 "unreachable-position", step, word, f"{word} is {inches} {away} the {self.arm.name} arm",
                 note=failure.message(self.arm),
-                help=self._slip(word) or f"bring it at least {inches} {help} the arm{self._counted(word)}",
+                help=f"bring it at least {inches} {help} the arm{self._counted(word)}",
             )  # fmt: skip
 
     def _off_the_way(self, step: Step, failure: IKResult, along: float) -> None:

@@ -200,7 +200,7 @@ class Tool(Operation, frozen=True, kw_only=True):
 
 
 class Travel(Operation, frozen=True, kw_only=True):
-    """Check how far the last motion went (m): error 8 outside the range."""
+    """Check how far the last Change went (m): error 8 outside the range."""
 
     minimum: float
     maximum: float

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handeye.arm.model import ArmModel
-from handeye.cell.ports import TICK, Picture, Workcell
+from handeye.cell.ports import FIRST_LENS, TICK, Picture, Workcell
 from handeye.plan.plan import Plan
 from handeye.plan.world import WorldModel
 from handeye.pose import Array
@@ -90,7 +90,7 @@ class Run:
     """How far the last straight motion went (m)."""
     finger_line: Array | None = None
     """Unit vector of the finger line when the last action was a Center."""
-    lens: float = 0.025
+    lens: float = FIRST_LENS
     shots: dict[str, Shot] = field(default_factory=dict)
     general: dict[str, GeneralLocation] = field(default_factory=dict)
     found: dict[str, Found] = field(default_factory=dict)

@@ -3,7 +3,7 @@
 import pytest
 from al_support import diagnose
 
-from handeye.al import compile_text
+from handeye.al import compile_text, sewn_of
 from handeye.arm.stanford import STANFORD
 from handeye.editor.explain import SAMPLE
 from handeye.plan.planner import make_plan
@@ -28,6 +28,7 @@ def test_a_test_that_only_skips_the_next_one_is_told() -> None:
         "SKIPN 2\nJUMP L\nSKIPN 7\nJUMP L",  # one after the other
         "SKIPE 2\nSKIPN 7\nJUMP L",  # only another error leads on
         "SKIPN 2\nSKIPE 7\nJUMP L",  # told otherwise: error 7 cannot be there with error 2
+        "SKIPE 2\nSKIPE 7\nMOVE T",  # error 2 does not matter, and is cleared
     ],
 )
 def test_tests_that_each_lead_elsewhere_are_not(tests: str) -> None:
@@ -58,10 +59,23 @@ def test_a_body_behind_a_skip_is_told(between: str) -> None:
         "        CLOSE   .1\n        SKIPN   2\n            WAIT    NO PEG\n        PARK",  # one line is right
         "        CLOSE   .1\nSKIPN   2\n        WAIT    NO PEG\n        PARK",  # the skip stands farther out
         "        CLOSE   .1\n\tSKIPN   2\n\tWAIT    NO PEG\n        PARK",  # a tab is eight blanks
+        "        MOVE    P\n        SAVE    H\n        CLOSE   .1\n        SKIPN   2\n"
+        "            MOVE    T\n            RESTORE H\n        PARK",  # one step, with its RESTORE
+        # a STAGE is none
+        '        CLOSE   .1\n        SKIPN   2\n            STAGE   "A"\n            PARK\n        PARK',
+        # a way each
+        "L:      CLOSE   .1\n        SKIPE   2\n            JUMP    L\n            MOVE    T\n        PARK",
+        # a test in a test
+        "L:      CLOSE   .1 .2\n        SKIPE   2\n          SKIPN   7\n            JUMP    L\n        PARK",
     ],
 )
 def test_lines_that_only_stand_unevenly_are_not(text: str) -> None:
     assert diagnose(text) == []
+
+
+def test_a_label_before_the_skip_makes_no_difference() -> None:
+    text = BODY.format("").replace("        CLOSE", "L:      CLOSE", 1).replace("PARK", "JUMP    L")
+    assert "skips-one-only" in codes(text)
 
 
 def test_a_blank_line_within_a_macro_is_told() -> None:
@@ -69,9 +83,36 @@ def test_a_blank_line_within_a_macro_is_told() -> None:
     assert told.message == "macro `DOWN` ends with `STOP`, and the motion is not in it"
 
 
-@pytest.mark.parametrize("behind", ["; the work\nMOVE T", "OPEN 1", 'STAGE "the work"'])
+@pytest.mark.parametrize("behind", ["; the work\nTURN T 9", "MOVE T", "OPEN 1", 'STAGE "the work"'])
 def test_a_macro_of_modifiers_is_not(behind: str) -> None:
     assert diagnose(f"DEFINE GENTLY\nSTOP 50\n\n{behind}\nGENTLY\nCHANGE Z -1") == []
+
+
+def test_what_stands_behind_a_macro_stands_in_the_same_file() -> None:
+    torn, whole = "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\n", "DEFINE GENTLY\nSTOP 50\n\n"
+    files = {"lib.al": "CHANGE Z 1\n"}
+    assert "macro-ends-early" in codes_of(f"REQUIRE lib.al\n{torn}MOVE T\nDOWN\nPARK", files)
+    assert "macro-ends-early" not in codes_of(f"REQUIRE lib.al\nGENTLY\nCHANGE Z -1\n{whole}", files)
+
+
+def codes_of(text: str, files: dict[str, str]) -> list[str]:
+    """The codes of what is said of a text that requires some files."""
+    return [d.code for d in compile_text(sewn_of(Source(name="x.al", text=text), files), SAMPLE)[1]]
+
+
+def test_a_macro_of_a_file_that_is_required_in_the_wrong_place_is_one_mistake() -> None:
+    text = "DEFINE GRAB\nCLOSE .1\nREQUIRE moves.al\n\nMOVE P\nGRAB\nSETDOWN"
+    assert codes_of(text, {"moves.al": "DEFINE SETDOWN\nPARK\n\n"}) == ["require-in-macro"]
+
+
+# -- differences --------------------------------------------------------------------------------------
+
+
+def test_what_is_saved_only_where_nothing_leads_is_never_saved() -> None:
+    assert codes("MOVE P\nSAVE G\nJUMP L\nSAVE H\nL: MOVE T\nRESTORE H\nPARK") == [
+        "unreachable-code",
+        "never-saved",
+    ]
 
 
 # -- the hand -----------------------------------------------------------------------------------------
@@ -80,7 +121,7 @@ def test_a_macro_of_modifiers_is_not(behind: str) -> None:
 @pytest.mark.parametrize("grasp", ["CLOSE .1", "CENTER .1"])
 def test_a_touch_of_closed_fingers_is_told(grasp: str) -> None:
     (told,) = diagnose(f"{grasp}\nTOUCH 3\nCHANGE Z -1")
-    assert told.message.endswith("the fingers are closed: it ends at once")
+    assert told.message.endswith("the fingers are closed: what they hold ends it at once")
 
 
 @pytest.mark.parametrize("hand", ["", "CLOSE .1\nOPEN 1\n", "CLOSE .1\nSKIPE 2\nOPEN 1\n"])
@@ -115,6 +156,14 @@ def test_a_comparison_with_a_picture_taken_as_the_camera_saw_fit_is_told() -> No
     assert diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE A B") == []
 
 
+def test_two_pictures_in_the_wrong_order_are_told_so() -> None:
+    (told,) = diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE B A")
+    assert (told.code, told.message) == (
+        "compared-without-hold",
+        "`B` is the picture that is taken with `HOLD`, after `A`",
+    )
+
+
 # -- what was meant -----------------------------------------------------------------------------------
 
 
@@ -132,8 +181,12 @@ def test_a_position_that_only_a_comment_goes_to_is_seen_there() -> None:
         "unused-position",
         "on line 2 it stands behind a `;`, which begins a comment",
     )
-    (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; look for the ROD\nPARK")
-    assert told.help is None
+
+
+@pytest.mark.parametrize("comment", ["; look for the ROD", "; OPEN ROD", '\nWAIT "; MOVE ROD"'])
+def test_a_position_that_a_comment_only_speaks_of_is_not(comment: str) -> None:
+    (told,) = diagnose(f"TRANS ROD [24 36 3 90 90 0]\nOPEN 1 {comment}\nPARK")
+    assert (told.code, told.help) == ("unused-position", None)
 
 
 def test_what_is_taught_is_not_required() -> None:
@@ -151,6 +204,9 @@ def planned(text: str) -> list[str | None]:
 def test_angles_in_radians_are_known_where_they_lead_nowhere() -> None:
     assert planned("TRANS A [26 36 5 1.5708 1.571 0]\nMOVE A") == [
         "O, A and T are in degrees; 1.5708 is 90 degrees in radians"
+    ]
+    assert planned("TRANS A [26 36 5 3.14 2 0]\nMOVE A") == [
+        "O, A and T are in degrees; 3.14 is 180 degrees in radians"
     ]
 
 

@@ -72,6 +72,10 @@ def test_no_cure_of_an_example_leaves_its_diagnostic_or_adds_errors(code: str) -
             assert len(after) < len(found) or code not in after or after == ["empty-program"], fix
 
 
+def test_a_macro_is_not_closed_up_over_its_own_call() -> None:
+    assert cures("DEFINE D\nSTOP 9\n\nCHANGE Z -1\nD\nMOVE T\n\nPARK") == []
+
+
 def test_a_missing_name_is_chosen_among_those_there_are() -> None:
     assert [fix.title for fix in cures("GENERAL")] == ["name `BASE`", "name `GASKET`"]
     text = "AIM BASE\nJUMP"

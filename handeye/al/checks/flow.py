@@ -108,7 +108,7 @@ class _Flow:
     def __init__(self, graph: Graph, origins: Sequence[Statement]) -> None:
         self.graph = graph
         self.origins = origins
-        self.reached = graph.from_start()
+        self.reached = graph.reached
         self.trapped = graph.trapped(graph.which(op.Wait, op.Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
@@ -234,12 +234,13 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: op.Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Whether a test leaves out nothing but the test of another error, which can be there."""
-        behind = self.graph.steps[number].next
-        second = None if behind is None else self.graph.steps[behind].operation
+        """Whether a test leaves out nothing but the test of another error, which can be there, before a case."""
+        steps, behind = self.graph.steps, self.graph.steps[number].next
+        second = None if behind is None else steps[behind].operation
         if behind is None or not isinstance(second, op.Test) or second.number not in raised[behind]:
             return False
-        return first.raised == self.graph.steps[behind].next
+        led = first.raised == steps[behind].next and first.raised is not None
+        return led and isinstance(steps[first.raised or 0].operation, op.Jump | op.Wait)
 
     def no_effect(self, number: int, error: int) -> Diagnostic:
         message = f"with error {error} the program goes on as it does without an error"

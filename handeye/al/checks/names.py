@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
-from handeye.al.definition import NIL, Refers, Role
-from handeye.al.instructions import AXES, INSTRUCTIONS
+from handeye.al.definition import NIL, Refers
+from handeye.al.instructions import AXES, INSTRUCTIONS, SKIPS
 from handeye.al.statements import ByWord, Used, all_statements, pairs
 from handeye.al.syntax import Name, Number, Script, Statement
 from handeye.al.unitwords import no_units
@@ -35,7 +35,6 @@ _MESSAGES = {
 }
 _DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 """Instructions that make what they name."""
-_TESTS = {instruction.op for instruction in INSTRUCTIONS.values() if instruction.role is Role.SKIP}
 
 
 def check_names(script: Script, words: ByWord, used: Used, taught: Taught) -> list[Diagnostic]:
@@ -82,7 +81,7 @@ def _swapped(script: Script, known: dict[Refers, set[str]]) -> Iterator[Diagnost
 def _error_numbers(words: ByWord) -> list[Diagnostic]:
     return [
         _unknown_error(number)
-        for test in _TESTS
+        for test in SKIPS
         for statement in words.get(test, ())
         for number in statement.operands
         if isinstance(number, Number) and int(number.value) not in ERRORS

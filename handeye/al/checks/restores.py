@@ -25,6 +25,8 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
     lost: dict[Span, Name] = {}
     right: set[Span] = set()
     for number, shifts in lowered.shifts.items():
+        if number not in graph.reached:
+            continue
         near = {saves[save].text for save in graph.last(number, Save)}
         for statement in shifts:
             name = _name(statement)

@@ -8,6 +8,7 @@ from handeye.al.syntax import Name
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.plan.program import Part
 from handeye.plan.taught import Taught
+from handeye.source import Span
 
 Need = tuple[str, Callable[[Part], bool]]
 """What has to be taught of a part, and whether it is."""
@@ -50,10 +51,20 @@ def _unlike(words: ByWord) -> Iterator[Diagnostic]:
         assert isinstance(name, Name)
         looks.setdefault(name.text, []).append((name, hold is not None))
     for inspect in words.get("INSPECT", ()):
-        after = inspect.operands[2]
+        _, before, after = inspect.operands
+        assert isinstance(before, Name)
         assert isinstance(after, Name)
         taken = looks.get(after.text, [])
-        if taken and not any(held for _, held in taken):
+        if not taken or any(held for _, held in taken):
+            continue
+        if any(held for _, held in looks.get(before.text, [])):
+            yield Diagnostic(
+                code="compared-without-hold",
+                message=f"{quoted(before.text)} is the picture that is taken with `HOLD`, after {quoted(after.text)}",
+                primary=Label(span=Span(start=before.start, end=after.end)),
+                help="the picture before comes first",
+            )
+        else:
             yield Diagnostic(
                 code="compared-without-hold",
                 message=f"picture {quoted(after.text)} is not taken as the one it is compared with",

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache, partial
 
 from handeye.al.definition import Refers
 from handeye.al.instructions import INSTRUCTIONS
@@ -16,6 +17,10 @@ _WRITTEN = {
     "VECT": ("vector", (Refers.VECTOR,)),
 }
 """What an instruction declares, and as what it is used."""
+_COMMENTED = re.compile(
+    r"""^ (?: [^\n;"] | "[^\n"]*" )* ; [ \t]* (\w+) [ \t]+ (\w+)""", re.ASCII | re.MULTILINE | re.VERBOSE
+)
+"""A comment that begins with two words."""
 _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 
 
@@ -29,13 +34,16 @@ def check_unused(script: Script, words: ByWord, used: Used, source: Source) -> I
                 yield _unused("unused-label", label, message)
     for op, (what, as_) in _WRITTEN.items():
         found = {name.text for refers in as_ for name in used[refers]}
+        commented = cache(partial(_in_comments, source, as_))
         for statement in words.get(op, ()):
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in found:
-                help = _in_a_comment(name.text, source)
-                yield _unused(
-                    f"unused-{what}", name, f"{what} {quoted(name.text)} is written and never used", help
+                line = commented().get(name.text)
+                help = (
+                    None if line is None else f"on line {line} it stands behind a `;`, which begins a comment"
                 )
+                message = f"{what} {quoted(name.text)} is written and never used"
+                yield _unused(f"unused-{what}", name, message, help)
     for word, macro in script.macros.items():
         if word not in words:
             yield _unused("unused-macro", macro.name, f"macro {quoted(word)} is never used")
@@ -56,13 +64,14 @@ def with_unused(found: list[Diagnostic], unused: list[Diagnostic]) -> list[Diagn
     return told + left
 
 
-def _in_a_comment(name: str, source: Source) -> str | None:
-    """What helps if the one instruction that uses a name stands behind a semicolon."""
-    for comment in re.finditer(rf";[ \t]*(\w+)[ \t]+{re.escape(name)}\b", source.text, re.ASCII):
-        if comment[1].upper() in INSTRUCTIONS:
-            line = source.position(comment.start())[0]
-            return f"on line {line} it stands behind a `;`, which begins a comment"
-    return None
+def _in_comments(source: Source, refers: tuple[Refers, ...]) -> dict[str, int]:
+    """Names that an instruction behind a semicolon would use, and the line it stands on."""
+    words = {i.op for i in INSTRUCTIONS.values() if i.operands and i.operands[0].refers in refers}
+    found: dict[str, int] = {}
+    for comment in _COMMENTED.finditer(source.text):
+        if comment[1].upper() in words:
+            found.setdefault(comment[2], source.position(comment.start(1))[0])
+    return found
 
 
 def _unused(code: str, name: Name, message: str, help: str | None = None) -> Diagnostic:

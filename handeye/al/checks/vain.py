@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -56,15 +56,14 @@ def _stops(graph: Graph) -> Iterator[Vain]:
 
 def _grasps(graph: Graph) -> Iterator[Vain]:
     """Grasps of more than the hand was opened to."""
-    gaps = [o.gap for n in graph.which(op.Open) if isinstance(o := graph.steps[n].operation, op.Open)]
-    least = min(gaps, default=math.inf)
+    least = min(_gaps(graph, graph.which(op.Open)), default=math.inf)  # no OPEN is too little for less
     for number in graph.which(op.Close, op.Center):
         grasp = graph.steps[number].operation
         assert isinstance(grasp, op.Close | op.Center)
         if grasp.minimum <= least:
             continue
         before = graph.last(number, op.Open, op.Close, op.Center)
-        opened = [o.gap for n in before if isinstance(o := graph.steps[n].operation, op.Open)]
+        opened = _gaps(graph, before)
         if before and len(opened) == len(before) and max(opened) < grasp.minimum - LEAST:
             yield Vain(
                 code="opened-too-little",
@@ -74,6 +73,11 @@ def _grasps(graph: Graph) -> Iterator[Vain]:
                 help="it would always raise error 2",
                 cause=max(before),
             )
+
+
+def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
+    """How far those of some steps that open the hand open it, m."""
+    return [o.gap for n in numbers if isinstance(o := graph.steps[n].operation, op.Open)]
 
 
 def _travels(graph: Graph) -> Iterator[Vain]:
@@ -103,10 +107,8 @@ def _torques(graph: Graph) -> Iterator[Vain]:
     tools = graph.which(op.Tool)
     running = {number for number in tools if graph.steps[number].operation != op.Tool(speed=0.0)}
     started: set[int] | None = None
-    for number in graph.which(op.Move, op.Change, op.Turn):
-        motion = graph.steps[number].operation
-        assert isinstance(motion, op.Move | op.Change | op.Turn)
-        if motion.stop is None or motion.stop.torque is None:
+    for number, stop in _stopped(graph):
+        if stop.torque is None:
             continue
         started = graph.after(running) if started is None else started
         last = graph.last(number, op.Tool)
@@ -122,20 +124,27 @@ def _torques(graph: Graph) -> Iterator[Vain]:
 
 def _touches(graph: Graph) -> Iterator[Vain]:
     """Stops on a touch of fingers that are closed."""
-    for number in graph.which(op.Move, op.Change, op.Turn):
-        motion = graph.steps[number].operation
-        assert isinstance(motion, op.Move | op.Change | op.Turn)
-        if motion.stop is None or motion.stop.touch is None:
+    for number, stop in _stopped(graph):
+        if stop.touch is None:
             continue
         last = graph.last(number, op.Open, op.Close, op.Center)
         if last and not any(isinstance(graph.steps[n].operation, op.Open) for n in last):
             yield Vain(
                 code="touch-while-closed",
                 step=number,
-                message="a touch is to end this motion, and the fingers are closed: it ends at once",
+                message="a touch is to end this motion, and the fingers are closed: what they hold ends it at once",
                 help="what the held thing meets is felt by `STOP`; fingers touch when they are open",
                 cause=max(last),
             )
+
+
+def _stopped(graph: Graph) -> Iterator[tuple[int, op.Stop]]:
+    """The motions that something is to end."""
+    for number in graph.which(op.Move, op.Change, op.Turn):
+        motion = graph.steps[number].operation
+        assert isinstance(motion, op.Move | op.Change | op.Turn)
+        if motion.stop is not None:
+            yield number, motion.stop
 
 
 def _pauses(graph: Graph) -> Iterator[Vain]:
