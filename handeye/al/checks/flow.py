@@ -239,8 +239,10 @@ class _Flow:
         second = None if behind is None else steps[behind].operation
         if behind is None or not isinstance(second, op.Test) or second.number not in raised[behind]:
             return False
-        led = first.raised == steps[behind].next and first.raised is not None
-        return led and isinstance(steps[first.raised or 0].operation, op.Jump | op.Wait)
+        case = first.raised
+        if case is None or case != steps[behind].next:
+            return False
+        return isinstance(steps[case].operation, op.Jump | op.Wait)
 
     def no_effect(self, number: int, error: int) -> Diagnostic:
         message = f"with error {error} the program goes on as it does without an error"

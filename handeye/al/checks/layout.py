@@ -10,62 +10,63 @@ from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Source
 
 _NO_STEP = frozenset(i.op for i in INSTRUCTIONS.values() if i.role in (DECLARATION, SHIFT))
+"""What a skip passes over, or takes with the step before."""
 _LEADS_AWAY = frozenset(i.op for i in INSTRUCTIONS.values() if i.role is JUMP) | SKIPS | {"WAIT"}
+"""Behind these the program need not go on with the next line."""
 _BEGINNINGS = ("MOVE", "PARK")
 """Motions with which a program may well begin, behind its macros."""
+_BODY = 2
+"""Steps that are more than a skip can skip."""
 
 
 def check_layout(script: Script, source: Source) -> Iterator[Diagnostic]:
     """A warning for each place, of a script without mistakes."""
     for statements in (script.statements, *(macro.body for macro in script.macros.values())):
         yield from _bodies(statements, source)
-    torn = [macro for macro in script.macros.values() if macro.body and _modifies(macro.body[-1])]
-    if torn:
-        behind = sorted(script.statements, key=lambda statement: statement.start)
-        starts = [statement.start for statement in behind]
-        for macro in torn:
-            at = bisect_right(starts, macro.body[-1].end)
-            if at < len(behind):
-                yield from _torn(macro, behind[at], source)
+    ending = [macro for macro in script.macros.values() if macro.body and _modifies(macro.body[-1])]
+    if ending:
+        ordered = sorted(script.statements, key=lambda statement: statement.start)
+        starts = [statement.start for statement in ordered]
+        for macro in ending:
+            behind = bisect_right(starts, macro.body[-1].end)
+            if behind < len(ordered):
+                yield from _torn(macro, ordered[behind], source)
 
 
 def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnostic]:
     """Skips with two or more lines behind them that stand farther in, as if all of them were skipped."""
-    skips = [n for n, s in enumerate(statements) if s.word is not None and s.word.text in SKIPS]
-    for number in skips:
-        skip, one, two = _steps(statements, number)
-        if number == 0 or one is None or two is None or one.text in _LEADS_AWAY:
+    for number, statement in enumerate(statements):
+        skip = statement.word
+        if number == 0 or skip is None or skip.text not in SKIPS:
             continue
-        before = statements[number - 1].word
+        before, behind = statements[number - 1].word, _steps_behind(statements, number)
+        if before is None or len(behind) < _BODY or behind[0].text in _LEADS_AWAY:
+            continue
         here = _column(skip, source)
-        if _column(two, source) > here and _column(one, source) > here == _column(before, source):
-            assert skip is not None
+        if here == _column(before, source) and all(_column(word, source) > here for word in behind):
             yield Diagnostic(
                 code="skips-one-only",
                 message=f"`{skip.text}` skips one instruction, and not all that stands farther in",
                 primary=Label(span=skip.span),
-                secondary=(Label(span=two.span, text="this is carried out in any case"),),
+                secondary=(Label(span=behind[-1].span, text="this is carried out in any case"),),
                 help="to leave out more, jump over it: the opposite test, and a `JUMP`",
             )
 
 
-def _steps(statements: Sequence[Statement], skip: int) -> tuple[Name | None, Name | None, Name | None]:
-    """The words of a skip and of the two steps behind it that no jump leads to."""
-    words = [statements[skip].word]
+def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
+    """The words of the steps behind a skip, as many as make a body, up to a label."""
+    words: list[Name] = []
     for number in range(skip + 1, len(statements)):
         word = statements[number].word
-        if statements[number].labels or len(words) > 2:
+        if statements[number].labels or len(words) == _BODY:
             break
         if word is not None and word.text not in _NO_STEP:
             words.append(word)
-    first, second, third, *_ = [*words, None, None]
-    return first, second, third
+    return words
 
 
-def _column(word: Name | None, source: Source) -> int:
-    """Where a word begins on its line, if there is one."""
-    if word is None:
-        return -1
+def _column(word: Name, source: Source) -> int:
+    """Where a word begins on its line."""
     text, start = source.find(word.start)
     return len(text.text[text.text.rfind("\n", 0, start) + 1 : start].expandtabs())
 
