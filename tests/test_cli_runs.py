@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.stepping.checkpoint_file import read_head
-from handeye.stepping.folder import open_again
+from handeye.events import PanicStopped, StepStarted
+from handeye.runs.checkpoint_file import read_head
+from handeye.runs.folder import open_again
 from handeye.trace.eventlist import effective, read_events
-from handeye.work.events import PanicStopped, StepStarted
 
 pytestmark = pytest.mark.slow
 

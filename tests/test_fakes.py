@@ -7,7 +7,7 @@ from fakes import FakeWorkcell, Wall
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
 from handeye.arm.stanford import STANFORD
-from handeye.cell.ports import TICK, Drive
+from handeye.ports.ports import TICK, Drive
 from handeye.pose import Array
 from handeye.units import DEGREE, INCH
 

@@ -3,8 +3,8 @@
 from handeye.al.compiler import compile_text
 from handeye.al.extensions import extensions
 from handeye.al.formatter import format_text
+from handeye.al.includes import read_script, sewn, sewn_of
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.sewing import read_script, sewn, sewn_of
 
 __all__ = [
     "INSTRUCTIONS",

@@ -3,18 +3,18 @@
 from pathlib import PurePath
 
 from handeye.al.checks.names import check_names
-from handeye.al.checks.whole import Whole, check_whole
-from handeye.al.form import MISSING
+from handeye.al.checks.program_checks import CompiledScript, check_whole
 from handeye.al.lower import Lowered, lower
 from handeye.al.macros import expand
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script
+from handeye.al.syntax_check import MISSING
 from handeye.al.vectors import named_vectors, with_vectors
 from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
-from handeye.plan.program import Position, Program
-from handeye.plan.taught import Taught
+from handeye.program.program import Position, Program
+from handeye.program.taught import Taught
 from handeye.source import Source, Span
 
 
@@ -42,7 +42,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
     if has_errors(found):  # what follows would tell a mistake twice, as what it leads to
         return None, arranged(found)
     positions = {**taught.positions, **dict(map(position, words.get("TRANS", ())))}
-    whole = Whole(
+    whole = CompiledScript(
         source=source, script=script, words=words, used=used, vectors=vectors, placed=placed, lowered=lowered
     )
     found += check_whole(whole, taught, positions)

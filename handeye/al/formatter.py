@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import Final
 
+from handeye.al.hints import with_digits
 from handeye.al.instructions import FREE
 from handeye.al.operands import free_text
 from handeye.al.scanner import Kind, Line, Token, scan
-from handeye.al.slips import with_digits
 
 OPERATION: Final = 8
 OPERANDS: Final = 16

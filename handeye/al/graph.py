@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from typing import Final
 
-from handeye.plan.program import Countdown, Operation, Step, Test
+from handeye.program.program import Countdown, Operation, Step, Test
 
 FAR: Final = 100
 """Steps that are looked at for what was done last."""

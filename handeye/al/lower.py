@@ -13,7 +13,7 @@ from handeye.al.macros import Call, Placed
 from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.plan.program import AnyOperation, Countdown, Move, Step, Test
+from handeye.program.program import AnyOperation, Countdown, Move, Step, Test
 from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]

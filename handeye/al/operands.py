@@ -8,9 +8,9 @@ from itertools import pairwise
 import msgspec
 
 from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
+from handeye.al.hints import alone, letters_for_digits, strange, with_unit
 from handeye.al.instructions import AXES, FREE, INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
-from handeye.al.slips import alone, letters_for_digits, strange, with_unit
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.al.unitwords import no_units
 from handeye.diagnostics import Diagnostic, Label, quoted

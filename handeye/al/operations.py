@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
-from handeye.plan import program as p
+from handeye.program import program as p
 from handeye.units import INCH, OUNCE_FORCE
 
 PLACE_DEPTH: Final = 3.0 * INCH

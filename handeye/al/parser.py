@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field
 from typing import Final
 
+from handeye.al.hints import elsewhere, strange
+from handeye.al.includes import REQUIRE
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, free_text, read_operands
 from handeye.al.requirements import Requirements
 from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
-from handeye.al.sewing import REQUIRE
-from handeye.al.slips import elsewhere, strange
 from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.source import Source, Span

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from handeye.al.sewing import MOST, key_of, own_key
+from handeye.al.includes import MOST, key_of, own_key
 from handeye.al.syntax import Text
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import LARGEST, Source, Span

@@ -5,7 +5,7 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.cell.ports import TICK
+from handeye.ports.ports import TICK
 from handeye.pose import Array
 
 BRAKE: Final = np.array([200.0, 200.0, 600.0, 30.0, 30.0, 20.0])
@@ -19,7 +19,7 @@ _GIVE: Final = 0.004  # m by which the fingers must be held up to press with all
 _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N s/m over 2000 N/m.
 
 
-class ArmDrive:
+class SimulatedArm:
     """Six torque motors and six brakes.
 
     A brake is dry friction in the joint, as on the real arm: it holds where the arm is and gives way to

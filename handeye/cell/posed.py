@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
-from handeye.cell.imperfection import World
-from handeye.cell.scene import build
-from handeye.cell.threads import SEEN
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.threads import SEEN
+from handeye.tasks.water_pump.variation import World
 
 
 def posed(world: World, poses: Mapping[str, Sequence[float]]) -> tuple[mujoco.MjModel, mujoco.MjData]:

@@ -3,10 +3,10 @@
 import mujoco
 import numpy as np
 
-from handeye.cell.drives import ArmDrive, HandDrive
-from handeye.cell.imperfection import World
-from handeye.cell.ports import Sensed
-from handeye.cell.threads import Threads
+from handeye.cell.drives import HandDrive, SimulatedArm
+from handeye.ports.ports import Sensed
+from handeye.tasks.water_pump.threads import Threads
+from handeye.tasks.water_pump.variation import World
 
 
 class Sensors:
@@ -18,7 +18,7 @@ class Sensors:
         """Source of the noise."""
         self._switches = [int(model.sensor(f"stanford/switch_{side}").adr[0]) for side in "ab"]
 
-    def read(self, arm: ArmDrive, hand: HandDrive, threads: Threads, *, braked: bool) -> Sensed:
+    def read(self, arm: SimulatedArm, hand: HandDrive, threads: Threads, *, braked: bool) -> Sensed:
         """One reading of everything; draws new noise each time."""
         data, world, noise = self._data, self._world, self.rng.standard_normal(14)
         errors = world.hand

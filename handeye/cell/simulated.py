@@ -6,17 +6,17 @@ import mujoco
 import numpy as np
 
 from handeye.cell.camera import SimulatedCamera
-from handeye.cell.drives import ArmDrive, HandDrive, Lamp
-from handeye.cell.imperfection import World
-from handeye.cell.ports import TICK, Drive, Sensed, Workcell
+from handeye.cell.drives import HandDrive, Lamp, SimulatedArm
 from handeye.cell.renderers import make_renderer
-from handeye.cell.resting import Resting
-from handeye.cell.scene import build
 from handeye.cell.sensors import Sensors
 from handeye.cell.state import MUTABLE, CellState, noise_state, set_noise
-from handeye.cell.threads import Threads
 from handeye.cell.truth import Drawn, Truth
 from handeye.errors import HandeyeError, InvalidInput
+from handeye.ports.ports import TICK, Drive, Sensed, Workcell
+from handeye.tasks.water_pump.clamping import Resting
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.threads import Threads
+from handeye.tasks.water_pump.variation import World
 from handeye.units import DEGREE, INCH
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
@@ -50,7 +50,7 @@ class SimulatedCell(Workcell):
         self._model, self._data = model, data
         self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
         self._steps = round(TICK / model.opt.timestep)
-        self._arm, self._hand = ArmDrive(model, data), HandDrive(model, data)
+        self._arm, self._hand = SimulatedArm(model, data), HandDrive(model, data)
         self._lamp = Lamp(model)
         self._threads, self._sensors = Threads(model, data, world), Sensors(model, data, world)
         self._resting = Resting(model, data, allowed=rest)

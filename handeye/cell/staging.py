@@ -4,11 +4,11 @@ import mujoco
 import numpy as np
 
 from handeye.cell.camera import SimulatedCamera, true_camera
-from handeye.cell.imperfection import World
 from handeye.cell.renderers import make_renderer
-from handeye.cell.scene import ARM, build
 from handeye.cell.simulated import PARK
 from handeye.pose import Pose, pose
+from handeye.tasks.water_pump.scene import ARM, build
+from handeye.tasks.water_pump.variation import World
 
 
 class Stage:

@@ -6,9 +6,9 @@ from typing import Annotated, Final
 import msgspec
 import numpy as np
 
-from handeye.cell.ports import Sensed
-from handeye.cell.threads import Thread
+from handeye.ports.ports import Sensed
 from handeye.pose import Array
+from handeye.tasks.water_pump.threads import Thread
 
 MUTABLE: Final = (
     "dof_frictionloss",

@@ -7,8 +7,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.resting import Resting
-from handeye.cell.threads import Thread
+from handeye.tasks.water_pump.clamping import Resting
+from handeye.tasks.water_pump.threads import Thread
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

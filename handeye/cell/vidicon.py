@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.ports import Picture
+from handeye.ports.ports import Picture
 from handeye.vision.camera import COLUMNS, RASTER, ROWS
 
 Luminance = NDArray[np.float32]

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Seed, Whole, compiled, notes, screen, world
+from handeye.cli.common import Camera, Json, Seed, WholeNumber, compiled, notes, screen, world
 from handeye.errors import InvalidInput
 from handeye.resources import plans
 
@@ -48,7 +48,7 @@ def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
     """
     from handeye.report.progress import Progress
-    from handeye.stepping.snapshot import Setup
+    from handeye.runs.snapshot import Setup
     from handeye.trials.overhead import measure
 
     plan = compiled(plans() / "water_pump.al")
@@ -72,7 +72,7 @@ def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
 
 def language(
     *,
-    times: Annotated[Whole, Parameter(help="How often each is measured.")] = 15,
+    times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 15,
     json: Json = False,
 ) -> int:
     """Say how long a check, a keystroke and a plan make people wait, each time on a text not seen before.

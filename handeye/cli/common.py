@@ -12,8 +12,8 @@ from handeye.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
 from handeye.files import beside
-from handeye.plan.plan import Plan
-from handeye.plan.taught import Taught, load_taught
+from handeye.planfile.plan import Plan
+from handeye.program.taught import Taught, load_taught
 from handeye.source import Source
 
 Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
@@ -33,8 +33,10 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
         raise ValueError(f"{quoted(tokens[0].value)} is not a whole number") from None
 
 
-Whole = Annotated[int, Parameter(converter=_whole)]
-Seed = Annotated[Whole, Parameter(help="Draws the world: where the base lies, what is off by how much.")]
+WholeNumber = Annotated[int, Parameter(converter=_whole)]
+Seed = Annotated[
+    WholeNumber, Parameter(help="Draws the world: where the base lies, what is off by how much.")
+]
 Camera = Annotated[
     CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")
 ]
@@ -88,7 +90,7 @@ def compiled(file: Path) -> Plan:
         InvalidInput: the script has errors; they have been shown.
     """
     from handeye.arm.stanford import STANFORD
-    from handeye.plan.planner import make_plan
+    from handeye.planning.planner import make_plan
 
     source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))

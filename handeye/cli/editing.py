@@ -6,9 +6,9 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.al.form import check_form
 from handeye.al.formatter import format_text
-from handeye.al.sewing import read_script
+from handeye.al.includes import read_script
+from handeye.al.syntax_check import check_form
 from handeye.cli.common import note, say, show
 from handeye.diagnostics import has_errors
 from handeye.errors import InvalidInput

@@ -10,7 +10,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Json, PlanFile, say
 from handeye.errors import InvalidInput
 from handeye.files import Kind, write_over
-from handeye.plan.store import read_plan
+from handeye.planfile.store import read_plan
 
 StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or the start of it.")]
 DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
@@ -35,10 +35,10 @@ def inspect(
     json: Json = False,
 ) -> int:
     """Lay a plan open: stages, steps, times, guards, forces, and what each step depends on."""
-    from handeye.plan.drawing import flow_svg
-    from handeye.plan.flow import flow, flow_dot
-    from handeye.plan.inspection import inspection, inspection_text
-    from handeye.stepping.breakpoints import stage_number
+    from handeye.debugger.breakpoints import stage_number
+    from handeye.inspection.drawing import flow_svg
+    from handeye.inspection.flow import flow, flow_dot
+    from handeye.inspection.inspection import inspection, inspection_text
 
     if graph is not None and json:
         raise InvalidInput("--graph and --json do not go together")
@@ -64,8 +64,8 @@ def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
 
     Exit code 0: both do the same; 1: they do not; 2: bad input.
     """
-    from handeye.plan.difference import difference
-    from handeye.plan.difference_text import difference_text
+    from handeye.inspection.difference import difference
+    from handeye.inspection.difference_text import difference_text
 
     found = difference(read_plan(old), read_plan(new))
     if json:
@@ -83,7 +83,7 @@ def schema(
     ] = None,
 ) -> int:
     """Print the JSON schema of the plan format."""
-    from handeye.plan.schema import SCHEMA, plan_schema
+    from handeye.planfile.schema import SCHEMA, plan_schema
 
     _write(plan_schema(), output, SCHEMA)
     return 0

@@ -8,13 +8,13 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Camera, Json, Out, PlanFile, Seed, compiled, note, world
 from handeye.errors import InvalidInput
-from handeye.plan.plan import Plan
-from handeye.plan.store import read_plan
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import read_plan
 from handeye.resources import plans
 
 if TYPE_CHECKING:
-    from handeye.stepping.advance import Stop
-    from handeye.stepping.snapshot import Checkpoint
+    from handeye.runs.advance import Stop
+    from handeye.runs.snapshot import Checkpoint
 
 To = Annotated[str | None, Parameter(help="Stop when this stage has ended.")]
 Until = Annotated[
@@ -61,8 +61,8 @@ def assemble(
     Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program said done but the
     referee disagrees; 2: bad input; 130: interrupted.
     """
-    from handeye.cli.working import Job, work
-    from handeye.stepping.snapshot import Checkpoint, Setup
+    from handeye.cli.job import Job, work
+    from handeye.runs.snapshot import Checkpoint, Setup
 
     started = time.process_time()
     plan = compiled(plans() / "water_pump.al")
@@ -112,8 +112,8 @@ def run(
     operator; 3: the referee, if asked, disagrees; 2: bad input, or a command of --step was refused that came from
     no terminal; 130: interrupted.
     """
-    from handeye.cli.working import Job, work
-    from handeye.stepping.snapshot import Checkpoint, Setup
+    from handeye.cli.job import Job, work
+    from handeye.runs.snapshot import Checkpoint, Setup
 
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
@@ -173,9 +173,9 @@ def resume(
     path
         A checkpoint, or the folder of a run, which is gone on with from its newest sound checkpoint.
     """
-    from handeye.cli.working import Job, work
-    from handeye.stepping.checkpoint_file import read_checkpoint
-    from handeye.stepping.folder import CHECKPOINTS, PLAN, open_again
+    from handeye.cli.job import Job, work
+    from handeye.runs.checkpoint_file import read_checkpoint
+    from handeye.runs.folder import CHECKPOINTS, PLAN, open_again
 
     folder = None
     if path.name == CHECKPOINTS and (path.parent / PLAN).is_file():
@@ -213,7 +213,7 @@ def resume(
 
 def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) -> list["Stop"]:
     """Where a run ends; breaks are only looked at, so that a wrong one is told before anything moves."""
-    from handeye.stepping.breakpoints import ToStage, UntilStep, breakpoint, stage_number, step_number
+    from handeye.debugger.breakpoints import ToStage, UntilStep, breakpoint, stage_number, step_number
 
     for text in breaks:
         breakpoint(text, plan)
@@ -227,7 +227,7 @@ def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) 
 
 def _check_order(plan: Plan, first: str | None, last: str | None) -> None:
     """Raises InvalidInput if a run that begins with one stage cannot end with another."""
-    from handeye.stepping.breakpoints import stage_number
+    from handeye.debugger.breakpoints import stage_number
 
     if first is None or last is None:
         return
@@ -243,8 +243,8 @@ def _check_ahead(start: "Checkpoint", stops: list["Stop"], breaks: list[str]) ->
     Raises:
         InvalidInput: the step does at which it is to stop; it would run on to its end.
     """
-    from handeye.stepping.ahead import is_ahead
-    from handeye.stepping.breakpoints import UntilStep, breakpoint
+    from handeye.debugger.ahead import is_ahead
+    from handeye.debugger.breakpoints import UntilStep, breakpoint
 
     for stop in stops:
         if isinstance(stop, UntilStep) and not is_ahead(stop, start):
@@ -256,7 +256,7 @@ def _check_ahead(start: "Checkpoint", stops: list["Stop"], breaks: list[str]) ->
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
     """Where checkpoints are looked for: a folder of them, or one inside the folder of a run."""
-    from handeye.stepping.folder import CHECKPOINTS
+    from handeye.runs.folder import CHECKPOINTS
 
     folder = checkpoints or out
     if folder is not None and (checkpoints is None or (folder / CHECKPOINTS).is_dir()):
@@ -266,16 +266,16 @@ def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | Non
 
 def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | None) -> "Checkpoint":
     """The checkpoint from which a stage is reached soonest."""
-    from handeye.stepping.breakpoints import stage_number
-    from handeye.stepping.folder import EVENTS
-    from handeye.stepping.kept import Kept
+    from handeye.debugger.breakpoints import stage_number
+    from handeye.runs.checkpoint_store import CheckpointStore
+    from handeye.runs.folder import EVENTS
 
     if out is not None and (out / EVENTS).exists():
         raise InvalidInput(f"{out} holds a run; name it by --checkpoints, and another folder by --out")
     plan = start.setup.plan
     number = stage_number(name, plan)
     wanted = plan.program.stages[number]
-    found = None if kept is None else Kept(kept).for_stage(start.setup, number)
+    found = None if kept is None else CheckpointStore(kept).for_stage(start.setup, number)
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
         note(

@@ -25,7 +25,7 @@ from handeye.cli.common import (
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
-from handeye.plan.store import read_plan, write_plan
+from handeye.planfile.store import read_plan, write_plan
 
 Version = tuple[int, int, int] | None
 
@@ -115,7 +115,7 @@ def _version(path: Path) -> Version:
 
 def _check(file: Path, *, json: bool, strict: bool) -> int:
     from handeye.arm.stanford import STANFORD
-    from handeye.plan.planner import make_plan
+    from handeye.planning.planner import make_plan
 
     source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))
@@ -154,7 +154,7 @@ def stages(
     file: PlanFile, /, *, json: Annotated[bool, Parameter(help="One JSON object on standard output.")] = False
 ) -> int:
     """List the stages of a plan and their steps, with lines of the source."""
-    from handeye.stepping.listing import listing, listing_text
+    from handeye.debugger.listing import listing, listing_text
 
     made = read_plan(file)
     if json:

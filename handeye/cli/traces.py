@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Final
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, Whole, note, notes, say, screen
+from handeye.cli.common import Json, WholeNumber, note, notes, say, screen
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
 
 if TYPE_CHECKING:
+    from handeye.events import AnyEvent
     from handeye.trace.reading import Trace
-    from handeye.work.events import AnyEvent
 
 SHOWN: Final = 0.01
 """s to which times are shown; what is typed is as exact as that."""
@@ -31,8 +31,8 @@ def register(app: App) -> None:
 
 def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
     """Tell what happened in a run, and why."""
+    from handeye.events import to_line
     from handeye.trace.account import account
-    from handeye.work.events import to_line
 
     _, events = _read(file)
     if json:
@@ -65,13 +65,13 @@ def photograph(
     at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` tells them.")],
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
     camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
-    width: Whole = 1280,
-    height: Whole = 960,
+    width: WholeNumber = 1280,
+    height: WholeNumber = 960,
 ) -> int:
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
-    from handeye.cell.imperfection import World
     from handeye.cell.photograph import PNG, photograph_png
     from handeye.cell.posed import posed
+    from handeye.tasks.water_pump.variation import World
     from handeye.trace.replay import Replay
 
     check_place(output, PNG)
@@ -100,7 +100,7 @@ def verify(file: File, /) -> int:
 
     Exit code 0: it comes out the same; 1: it does not; 2: bad input.
     """
-    from handeye.stepping.verify import difference, settled
+    from handeye.runs.verify import difference, settled
     from handeye.versions import versions
 
     trace, events = _read(file)
@@ -127,7 +127,7 @@ def verify(file: File, /) -> int:
 
 def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
     """The trace in a file or folder, and the events that count."""
-    from handeye.stepping.folder import EVENTS, PLAN, TRACE
+    from handeye.runs.folder import EVENTS, PLAN, TRACE
     from handeye.trace.eventlist import effective, read_events
     from handeye.trace.reading import read_trace
     from handeye.trace.recorder import part

@@ -2,8 +2,8 @@
 
 from handeye.arm.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
-from handeye.plan.planner import make_plan
-from handeye.plan.program import Program
+from handeye.planning.planner import make_plan
+from handeye.program.program import Program
 
 
 def planning(program: Program) -> list[Diagnostic]:

@@ -5,16 +5,16 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from handeye.al.compiler import compile_text
+from handeye.al.includes import Read, sewn
 from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.scanner import Line, scan
-from handeye.al.sewing import Read, sewn
 from handeye.al.statements import all_statements
 from handeye.diagnostics import Diagnostic
 from handeye.editor.occurrences import PART, POSITION, Occurrence, macros_of, occurrences
 from handeye.editor.taughtfile import taught_occurrences
-from handeye.plan.program import Position, Program
-from handeye.plan.taught import Taught
+from handeye.program.program import Position, Program
+from handeye.program.taught import Taught
 from handeye.source import Source, Span
 
 

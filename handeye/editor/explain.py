@@ -6,9 +6,9 @@ from typing import Final
 from handeye.al import extensions
 from handeye.al.compiler import compile_text
 from handeye.al.definition import Instruction
+from handeye.al.includes import sewn_of
 from handeye.al.instructions import EXPLAINED
-from handeye.al.sewing import sewn_of
-from handeye.al.takes import origin, part, takes
+from handeye.al.operand_help import origin, part, takes
 from handeye.boxes import Box
 from handeye.codes import CODES
 from handeye.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
@@ -17,8 +17,8 @@ from handeye.editor.document import Document
 from handeye.editor.fix import cured
 from handeye.editor.fixes import fixes
 from handeye.errors import ERRORS, InvalidInput
-from handeye.plan.program import Fixture, Held, Hole, Part, Position
-from handeye.plan.taught import Taught
+from handeye.program.program import Fixture, Held, Hole, Part, Position
+from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.units import DEGREE, INCH
 

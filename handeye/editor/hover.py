@@ -18,9 +18,9 @@ from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
 from handeye.editor.places import Place, instruction, places
 from handeye.errors import ERRORS
-from handeye.plan.program import Position
-from handeye.plan.world import WorldModel
 from handeye.pose import Pose, hand_angles
+from handeye.program.program import Position
+from handeye.program.world_model import WorldModel
 from handeye.source import Source, Span, line_name
 from handeye.units import DEGREE, INCH
 

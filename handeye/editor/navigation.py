@@ -4,8 +4,8 @@ import re
 from dataclasses import dataclass
 from typing import Final
 
+from handeye.al.includes import key_of, own_key, required_by
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.sewing import key_of, own_key, required_by
 from handeye.diagnostics import quoted
 from handeye.editor.document import Document
 from handeye.editor.occurrences import LABEL, MACRO, PARK, PART, POSITION, Occurrence, same

@@ -8,14 +8,14 @@ from lsprotocol import types as lsp
 from pygls.uris import from_fs_path, to_fs_path
 from pygls.workspace import Workspace
 
-from handeye.al.form import check_form
-from handeye.al.sewing import led_by
+from handeye.al.includes import led_by
+from handeye.al.syntax_check import check_form
 from handeye.diagnostics import Diagnostic, arranged
 from handeye.editor import wire
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit, Found
 from handeye.errors import InvalidInput
-from handeye.plan.taught import Taught, load_taught
+from handeye.program.taught import Taught, load_taught
 from handeye.source import Source, Span, line_name, read_source
 
 

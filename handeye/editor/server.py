@@ -10,7 +10,7 @@ from handeye import __version__
 from handeye.diagnostics import Diagnostic
 from handeye.editor.checking import planning
 from handeye.editor.script import Script
-from handeye.plan.taught import Taught
+from handeye.program.taught import Taught
 from handeye.source import Source, Span
 
 PAUSE: Final = 0.3

@@ -7,16 +7,16 @@ import cv2
 
 from handeye.cell.photograph import photograph_png
 from handeye.errors import InvalidInput
+from handeye.execution.state import ExecutionState, Found
 from handeye.files import write_whole
-from handeye.stepping.runner import Runner
+from handeye.runs.runner import Runner
 from handeye.vision.drawing import annotate
-from handeye.work.run import Found, Run
 
 PHOTOGRAPHS: Final = ("studio", "pump")
 """Cameras of the scene whose view of the end is kept."""
 
 
-def annotated_png(run: Run, name: str) -> bytes:
+def annotated_png(run: ExecutionState, name: str) -> bytes:
     """A picture the program took, with what it found in it, as a PNG file."""
     found = run.found.get(name, Found())
     image = annotate(

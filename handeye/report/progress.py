@@ -10,9 +10,9 @@ from rich.markup import escape
 from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
 
-from handeye.plan.plan import Plan
-from handeye.stepping.observer import Observer
-from handeye.work.events import AnyEvent, ErrorRaised, RunStarted, StageStarted, StepStarted
+from handeye.events import AnyEvent, ErrorRaised, RunStarted, StageStarted, StepStarted
+from handeye.planfile.plan import Plan
+from handeye.runs.observer import Observer
 
 
 class Progress(Observer):

@@ -4,7 +4,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.plan.program import Record
+from handeye.program.program import Record
 
 PERIOD: Final = {"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0}
 """The timing table of 1973, s: Bolles and Paul, STAN-CS-73-396. Total is that of the working phase."""

@@ -2,14 +2,7 @@
 
 from collections.abc import Iterable
 
-from handeye.judge.finding import Finding
-from handeye.judge.referee import assembled
-from handeye.report.result import CameraReport, Check, Result, Stage, Timing
-from handeye.stepping.advance import Pause
-from handeye.stepping.runner import Runner
-from handeye.units import INCH
-from handeye.versions import versions
-from handeye.work.events import (
+from handeye.events import (
     AnyEvent,
     CameraBusy,
     ExperimentMade,
@@ -18,6 +11,13 @@ from handeye.work.events import (
     StageFinished,
     StageStarted,
 )
+from handeye.judge.finding import Finding
+from handeye.report.result import CameraReport, Check, Result, Stage, Timing
+from handeye.runs.advance import Pause
+from handeye.runs.runner import Runner
+from handeye.tasks.water_pump.referee import assembled
+from handeye.units import INCH
+from handeye.versions import versions
 
 
 def summary(

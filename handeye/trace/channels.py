@@ -15,7 +15,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
 from google.protobuf.message import Message
 
-from handeye.work.events import AnyEvent
+from handeye.events import AnyEvent
 
 FORMAT: Final = "handeye trace"
 VERSION: Final = 1

@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from itertools import zip_longest
 
+from handeye.events import AnyEvent
 from handeye.trace.channels import EVENTS, LOG, MOMENTS
-from handeye.trace.continuing import until
 from handeye.trace.records import RawMessage
+from handeye.trace.resuming import until
 from handeye.trace.sentences import sentence
 from handeye.trace.trace import Trace
-from handeye.work.events import AnyEvent
 
 
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:

@@ -6,8 +6,8 @@ from pathlib import Path
 import msgspec
 
 from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, WentBack
 from handeye.files import read_whole
-from handeye.work.events import AnyEvent, WentBack
 
 _decode = msgspec.json.Decoder(AnyEvent).decode
 

@@ -7,12 +7,12 @@ from pathlib import Path
 import msgspec
 
 from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, RunStarted
 from handeye.files import read_whole
-from handeye.plan.store import decode, plan_digest
+from handeye.planfile.store import decode, plan_digest
 from handeye.trace.channels import EVENTS, FORMAT, VERSION
 from handeye.trace.records import Unsound, check, front, is_mcap, read_messages
 from handeye.trace.trace import Trace
-from handeye.work.events import AnyEvent, RunStarted
 
 __all__ = ["Trace", "read_trace"]
 

@@ -5,17 +5,17 @@ from pathlib import Path
 
 from google.protobuf.message import DecodeError
 
-from handeye.cell.ports import Picture, Sensed
 from handeye.errors import InvalidInput
+from handeye.events import Event, PictureTaken, RunStarted, StepStarted, WentBack
 from handeye.files import read_whole
+from handeye.ports.ports import Picture, Sensed
 from handeye.pose import Array
-from handeye.trace.continuing import known, until
 from handeye.trace.frames import Frames, Mask
-from handeye.trace.growing import GrowingFile
+from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.records import read_messages
+from handeye.trace.resuming import known, until
 from handeye.trace.writing import Writing
-from handeye.work.events import Event, PictureTaken, RunStarted, StepStarted, WentBack
 
 
 def part(path: Path) -> Path:

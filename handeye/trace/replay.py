@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handeye.errors import InvalidInput
+from handeye.events import StageFinished, StageStarted, StepStarted
 from handeye.pose import Array
 from handeye.trace.messages import Poses
 from handeye.trace.trace import Pose7, TakenPicture, Trace
-from handeye.work.events import StageFinished, StageStarted, StepStarted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

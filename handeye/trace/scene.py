@@ -11,10 +11,10 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 
-from handeye.cell.scene.shapes import BOX, CYLINDER, MESH
-from handeye.cell.threads import SEEN
 from handeye.cell.truth import Truth
 from handeye.pose import Array
+from handeye.tasks.water_pump.scene.shapes import BOX, CYLINDER, MESH
+from handeye.tasks.water_pump.threads import SEEN
 from handeye.trace.channels import WORLD
 from handeye.trace.messages import stamp
 

@@ -7,9 +7,9 @@ from typing import Final
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from handeye import errors
+from handeye import events as happened
+from handeye.events import Event
 from handeye.units import DEGREE, INCH, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
-from handeye.work import events as happened
-from handeye.work.events import Event
 
 LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.RunStarted: Log.INFO,

@@ -8,8 +8,8 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.work import events as happened
-from handeye.work.events import AnyEvent, Event
+from handeye import events as happened
+from handeye.events import AnyEvent, Event
 
 BROKEN_OFF = "broken off"
 """How a stage ended whose end was not recorded."""

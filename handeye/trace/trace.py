@@ -11,13 +11,13 @@ from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 from google.protobuf.message import DecodeError
 
-from handeye.cell.ports import Picture
 from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, PictureTaken, RunStarted
+from handeye.ports.ports import Picture
 from handeye.pose import Array
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage, read_messages
-from handeye.work.events import AnyEvent, PictureTaken, RunStarted
 
 Pose7 = tuple[float, float, float, float, float, float, float]
 """Place of a frame in W (m) and its unit quaternion w, x, y, z."""

@@ -6,17 +6,17 @@ import msgspec
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
-from handeye.cell.ports import Picture, Sensed
+from handeye.events import AnyEvent, Event, RunStarted, StepStarted
+from handeye.ports.ports import Picture, Sensed
 from handeye.pose import Array
 from handeye.trace import messages
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, LOG, PICTURE, SCENE, nanoseconds
-from handeye.trace.continuing import event_data
 from handeye.trace.frames import Frames, Mask
-from handeye.trace.growing import GrowingFile
+from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage
+from handeye.trace.resuming import event_data
 from handeye.trace.sentences import LEVELS, sentence
-from handeye.work.events import AnyEvent, Event, RunStarted, StepStarted
 
 MOVED: Final = 1e-6
 """Change of a pose (m, or of a component of its quaternion) that is worth writing down."""

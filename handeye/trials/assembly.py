@@ -4,14 +4,14 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from handeye.judge.referee import judge
-from handeye.plan.plan import Plan
+from handeye.planfile.plan import Plan
 from handeye.report.result import Result
 from handeye.report.summary import summary
-from handeye.stepping.advance import advance
-from handeye.stepping.observer import Observer
-from handeye.stepping.runner import Runner
-from handeye.stepping.snapshot import Checkpoint, Setup
+from handeye.runs.advance import advance
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.tasks.water_pump.referee import judge
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,14 +14,14 @@ from typing import Final
 import msgspec
 import numpy as np
 
-from handeye.cell.ports import TICK
 from handeye.errors import HandeyeError
-from handeye.stepping.folder import CHECKPOINTS, EVENTS, TRACE
-from handeye.stepping.kept import Kept
-from handeye.stepping.snapshot import Snapshot
+from handeye.events import AnyEvent, PanicStopped, StageFinished, StageStarted
+from handeye.ports.ports import TICK
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.folder import CHECKPOINTS, EVENTS, TRACE
+from handeye.runs.snapshot import Snapshot
 from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
-from handeye.work.events import AnyEvent, PanicStopped, StageFinished, StageStarted
 
 POLL: Final = 0.002
 """s between two looks at what a run has written."""
@@ -43,7 +43,7 @@ class Verdict:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Whole:
+class UnbrokenRun:
     """A run that nobody broke off, to compare with."""
 
     folder: Path
@@ -57,7 +57,7 @@ class Whole:
         return (self.folder / TRACE).read_bytes()
 
 
-def whole_run(folder: Path, seed: int) -> Whole:
+def whole_run(folder: Path, seed: int) -> UnbrokenRun:
     """Assemble a pump without a break.
 
     Raises:
@@ -70,10 +70,10 @@ def whole_run(folder: Path, seed: int) -> Whole:
         )
     events = tuple(effective(read_events(folder / EVENTS)))
     stages = tuple(event.stage for event in events if isinstance(event, StageStarted))
-    return Whole(folder=folder, seed=seed, events=events, stages=stages)
+    return UnbrokenRun(folder=folder, seed=seed, events=events, stages=stages)
 
 
-def killed(whole: Whole, folder: Path, jobs: int) -> Iterator[Verdict]:
+def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
     """Kill a run in the middle of each stage, go on with it, and compare the traces byte for byte."""
 
     def one(number: int) -> Verdict:
@@ -87,7 +87,7 @@ def killed(whole: Whole, folder: Path, jobs: int) -> Iterator[Verdict]:
     yield from _each(one, range(len(whole.stages)), jobs)
 
 
-def interrupted(whole: Whole, folder: Path, count: int, jobs: int) -> Iterator[Verdict]:
+def interrupted(whole: UnbrokenRun, folder: Path, count: int, jobs: int) -> Iterator[Verdict]:
     """Press Ctrl-C at random moments of the working phase; brakes, exit code, and what comes when it goes on."""
     moments = random.Random(whole.seed)  # noqa: S311 - moments, not secrets
     plans = [(n, moments.randrange(1, len(whole.events) - 4), moments.uniform(0, 0.1)) for n in range(count)]
@@ -108,7 +108,7 @@ def interrupted(whole: Whole, folder: Path, count: int, jobs: int) -> Iterator[V
     yield from _each(one, plans, jobs)
 
 
-def alone(whole: Whole, folder: Path, jobs: int) -> Iterator[Verdict]:
+def alone(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
     """Carry out each stage by itself from its checkpoint; its end must be that within the whole run."""
 
     def one(number: int) -> Verdict:
@@ -154,7 +154,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
         raise TrialFailed(f"`handeye {words[0]}` was not done after {LIMIT:.0f} s") from None
 
 
-def _begun(whole: Whole, place: Path) -> "subprocess.Popen[bytes]":
+def _begun(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
     return subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-m", "handeye", "assemble", "--seed", str(whole.seed), "--out", str(place)],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -183,7 +183,7 @@ def _wait_for(journal: Path, lines: int, process: "subprocess.Popen[bytes]") -> 
     raise TrialFailed(f"the run ended before it could be broken off (exit {process.wait()})")
 
 
-def _middle(whole: Whole, stage: str) -> int:
+def _middle(whole: UnbrokenRun, stage: str) -> int:
     """The number of the event in the middle of a stage."""
     first = next(n for n, e in enumerate(whole.events) if isinstance(e, StageStarted) and e.stage == stage)
     last = next(n for n, e in enumerate(whole.events) if isinstance(e, StageFinished) and e.stage == stage)
@@ -193,7 +193,7 @@ def _middle(whole: Whole, stage: str) -> int:
 # -- judging ------------------------------------------------------------------------------------------
 
 
-def _gone_on_with(whole: Whole, place: Path) -> list[str]:
+def _gone_on_with(whole: UnbrokenRun, place: Path) -> list[str]:
     """Go on with a run that was broken off; what is not as in the run that was not."""
     done = handeye("resume", str(place))
     if done.returncode != 0:
@@ -220,14 +220,14 @@ def _brakes(place: Path) -> list[str]:
 def _end(folder: Path, stages: tuple[str, ...], number: int) -> Snapshot | None:
     """The state in which a stage ended."""
     following = stages[number + 1] if number + 1 < len(stages) else None
-    for path, head in Kept(folder / CHECKPOINTS).heads():
+    for path, head in CheckpointStore(folder / CHECKPOINTS).heads():
         if head.stage == following and (head.between_stages or following is None) and head.position > 0:
             return _snapshot(path)
     return None
 
 
 def _snapshot(path: Path) -> Snapshot | None:
-    from handeye.stepping.checkpoint_file import read_checkpoint
+    from handeye.runs.checkpoint_file import read_checkpoint
 
     return read_checkpoint(path).snapshot
 

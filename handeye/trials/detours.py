@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
-from handeye.stepping.folder import EVENTS, TRACE
+from handeye.events import WentBack
+from handeye.runs.folder import EVENTS, TRACE
 from handeye.trace.eventlist import effective, read_events
-from handeye.trials.breaking import Verdict, Whole, handeye
-from handeye.work.events import WentBack
+from handeye.trials.breaking import UnbrokenRun, Verdict, handeye
 
 DETOURS: Final = 10
 """Times that the run goes back."""
@@ -16,7 +16,7 @@ ENOUGH: Final = 600
 """Times to go on from a break: more than a run has breaks."""
 
 
-def stepped(whole: Whole, folder: Path) -> Iterator[Verdict]:
+def stepped(whole: UnbrokenRun, folder: Path) -> Iterator[Verdict]:
     """Step through the assembly from standard input, stopping at AOJ and on error 23, and going back ten times."""
     place = folder / "stepped"
     done = handeye(

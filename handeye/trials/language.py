@@ -16,9 +16,9 @@ from msgspec.structs import replace
 
 from handeye.al import compile_text
 from handeye.arm.stanford import STANFORD
-from handeye.plan.planner import make_plan
-from handeye.plan.program import Position
-from handeye.plan.taught import Taught, load_taught
+from handeye.planning.planner import make_plan
+from handeye.program.program import Position
+from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source, read_source
 from handeye.trials.keystrokes import typed

@@ -6,14 +6,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from handeye.cell.ports import Sensed
+from handeye.events import AnyEvent
+from handeye.ports.ports import Sensed
 from handeye.pose import Array
-from handeye.stepping.advance import advance
-from handeye.stepping.folder import TRACE, RunFolder, open_new
-from handeye.stepping.observer import Observer
-from handeye.stepping.runner import Runner
-from handeye.stepping.snapshot import Checkpoint, Setup
-from handeye.work.events import AnyEvent
+from handeye.runs.advance import advance
+from handeye.runs.folder import TRACE, RunFolder, open_new
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 
-from handeye.plan.plan import Plan
+from handeye.planfile.plan import Plan
 from handeye.report.result import Result
 from handeye.trials.assembly import run_plan
 

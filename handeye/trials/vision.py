@@ -6,13 +6,13 @@ from typing import Final
 
 import numpy as np
 
-from handeye.cell.imperfection import BELT_LINE, BELT_X, BELT_Y, World
-from handeye.cell.ports import Picture, TvCamera
-from handeye.cell.scene.dimensions import dimensions
-from handeye.cell.scene.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.cell.staging import Stage
-from handeye.plan.program import Hole, Part
+from handeye.ports.ports import Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
+from handeye.program.program import Hole, Part
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
+from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y, World
 from handeye.units import DEGREE, INCH
 from handeye.vision.base import (
     Failure,

@@ -10,10 +10,10 @@ from typing import Final
 
 import numpy as np
 
-from handeye.cell.ports import Picture
 from handeye.errors import InvalidInput
-from handeye.plan.program import Part
+from handeye.ports.ports import Picture
 from handeye.pose import Array
+from handeye.program.program import Part
 from handeye.units import DEGREE, INCH
 from handeye.vision.beam import Scan
 from handeye.vision.blob import Box, localise

@@ -12,10 +12,10 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from handeye.cell.ports import Picture
 from handeye.errors import InvalidInput
-from handeye.plan.program import Hole, Part
+from handeye.ports.ports import Picture
 from handeye.pose import Array
+from handeye.program.program import Hole, Part
 from handeye.units import INCH
 from handeye.vision.beam import Scan
 from handeye.vision.camera import View

@@ -7,8 +7,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from handeye.plan.program import Part
 from handeye.pose import Array
+from handeye.program.program import Part
 from handeye.units import DEGREE
 from handeye.vision.beam import DARKER, Edge, Scan, beam
 from handeye.vision.blob import Box

@@ -7,8 +7,18 @@ import msgspec
 
 from handeye import al
 from handeye.diagnostics import Diagnostic
-from handeye.plan.program import ACTIONS, Assign, Countdown, Hole, Move, Part, Position, Program, Test
-from handeye.plan.taught import Taught
+from handeye.program.program import (
+    ACTIONS,
+    Assign,
+    Countdown,
+    Hole,
+    Move,
+    Part,
+    Position,
+    Program,
+    Test,
+)
+from handeye.program.taught import Taught
 from handeye.source import Source
 
 ORIGIN = Position(at=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))

@@ -23,13 +23,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from fakes import FakeWorkcell, Wall
-from work.bench import at_standard, put, settle
+from pump_bench import at_standard, put, settle
 
 from handeye.arm.stanford import STANFORD
-from handeye.cell.imperfection import World
-from handeye.cell.ports import Workcell
 from handeye.cell.simulated import SimulatedCell
+from handeye.ports.ports import Workcell
 from handeye.pose import Array
+from handeye.tasks.water_pump.variation import World
 from handeye.units import INCH, OUNCE_INCH
 
 SIMULATED = "the simulated cell"

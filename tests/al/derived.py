@@ -8,10 +8,10 @@ from suites import MANUAL, Case, cases, compiled, shown
 from handeye.al.definition import Instruction, Operand
 from handeye.al.formatter import format_text
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.takes import origin, part, takes
+from handeye.al.operand_help import origin, part, takes
 from handeye.codes import CODES, Code
 from handeye.errors import ERRORS
-from handeye.plan.raises import raises
+from handeye.program.raises import raises
 
 REFERENCE = MANUAL / "reference"
 END = "## Meaning\n"

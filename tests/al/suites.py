@@ -20,18 +20,18 @@ from handeye import al
 from handeye.arm.kinematics import solve
 from handeye.diagnostics import Diagnostic, arranged, render
 from handeye.editor.explain import SAMPLE
-from handeye.plan.inspection import inspection, inspection_text
-from handeye.plan.plan import Plan
-from handeye.plan.planner import make_plan
-from handeye.plan.program import Program
-from handeye.plan.taught import Taught, load_taught
-from handeye.plan.world import WorldModel
+from handeye.events import AnyEvent
+from handeye.execution.executor import Executor
+from handeye.execution.state import ExecutionState
+from handeye.inspection.inspection import inspection, inspection_text
+from handeye.planfile.plan import Plan
+from handeye.planning.planner import make_plan
+from handeye.program.program import Program
+from handeye.program.taught import Taught, load_taught
+from handeye.program.world_model import WorldModel
 from handeye.source import Source
 from handeye.trace.account import account
 from handeye.vision.camera import DRAWING
-from handeye.work.events import AnyEvent
-from handeye.work.executor import Executor
-from handeye.work.run import Run
 
 ROOT = Path(__file__).parents[2]
 MANUAL = ROOT / "docs" / "language"
@@ -105,7 +105,7 @@ def carried_out(plan: Plan, cell: str) -> list[AnyEvent]:
     at_rest = solve(ARM, world.planned_position("PARK"), middle).q if not begun else begun[0]
     assert at_rest is not None
     events: list[AnyEvent] = []
-    run = Run(plan=plan, arm=ARM, cell=cell_of(cell, at_rest), camera=DRAWING, emit=events.append)
+    run = ExecutionState(plan=plan, arm=ARM, cell=cell_of(cell, at_rest), camera=DRAWING, emit=events.append)
     executor = Executor(state=run)
     while executor.at is not None:
         executor.step()

@@ -13,8 +13,8 @@ import pytest
 
 from handeye.al import compile_text
 from handeye.arm.stanford import STANFORD
-from handeye.plan.planner import make_plan
-from handeye.plan.taught import Taught, load_taught
+from handeye.planning.planner import make_plan
+from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import read_source
 

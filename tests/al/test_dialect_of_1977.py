@@ -4,7 +4,7 @@ import pytest
 from al_support import codes, compiled, diagnose, moves, only, walk
 
 from handeye import al
-from handeye.plan.program import Assign, Change, Countdown, Move, Program, Stop
+from handeye.program.program import Assign, Change, Countdown, Move, Program, Stop
 from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 LISTING_1977 = """\

@@ -7,9 +7,9 @@ from al_support import LISTING, codes, diagnose
 
 from handeye import al
 from handeye.codes import CODES
-from handeye.plan.program import ACTIONS, Advance, Change, Close, Jump, Move, Save, Stop
-from handeye.plan.raises import raises
-from handeye.plan.taught import load_taught
+from handeye.program.program import ACTIONS, Advance, Change, Close, Jump, Move, Save, Stop
+from handeye.program.raises import raises
+from handeye.program.taught import load_taught
 from handeye.source import Source
 
 PLANS = Path(__file__).parents[2] / "plans"

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from handeye.al.graph import Graph
-from handeye.plan.program import Countdown, Step
+from handeye.program.program import Countdown, Step
 
 GRAPHS = st.integers(1, 9).flatmap(
     lambda size: st.lists(

@@ -4,7 +4,7 @@ import pytest
 from al_support import LISTING, compiled, diagnose, moves, only
 
 from handeye.al.instructions import LENSES
-from handeye.plan.program import (
+from handeye.program.program import (
     Advance,
     Change,
     Close,

@@ -15,8 +15,8 @@ from handeye.al.scanner import scan
 from handeye.arm.stanford import STANFORD
 from handeye.diagnostics import has_errors, render
 from handeye.errors import InvalidInput
-from handeye.plan.planner import make_plan
-from handeye.plan.taught import load_taught
+from handeye.planning.planner import make_plan
+from handeye.program.taught import load_taught
 from handeye.source import Source, read_source
 
 PUMP_TAUGHT = load_taught(ROOT / "plans" / "water_pump.toml")

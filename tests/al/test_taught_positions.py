@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from handeye.errors import InvalidInput
-from handeye.plan.program import Hole
-from handeye.plan.taught import load_taught
+from handeye.program.program import Hole
+from handeye.program.taught import load_taught
 from handeye.units import DEGREE, INCH
 
 GOOD = """

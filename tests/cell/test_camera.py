@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from handeye.cell.camera import SimulatedCamera, true_camera
-from handeye.cell.imperfection import World
 from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
+from handeye.tasks.water_pump.variation import World
 from handeye.vision.beam import Scan
 from handeye.vision.camera import COLUMNS, DRAWING, ROWS, View
 from handeye.vision.characteriser import characterise

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scene_bench import Bench
 
-from handeye.cell.imperfection import World
 from handeye.cell.posed import posed
-from handeye.cell.threads import SEEN
 from handeye.pose import planar
+from handeye.tasks.water_pump.threads import SEEN
+from handeye.tasks.water_pump.variation import World
 
 pytestmark = pytest.mark.slow
 

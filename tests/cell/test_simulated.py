@@ -10,11 +10,11 @@ import pytest
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import solve
 from handeye.arm.stanford import STANFORD
-from handeye.cell.imperfection import World
-from handeye.cell.ports import TICK, Drive, Sensed
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
+from handeye.ports.ports import TICK, Drive, Sensed
 from handeye.pose import Array, hand
+from handeye.tasks.water_pump.variation import World
 from handeye.units import DEGREE, INCH
 
 NONE = np.zeros(6)

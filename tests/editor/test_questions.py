@@ -18,7 +18,7 @@ from handeye.editor.navigation import definition, references, rename
 from handeye.editor.outline import outline
 from handeye.editor.taughtfile import taught_occurrences
 from handeye.errors import InvalidInput
-from handeye.plan.taught import load_taught
+from handeye.program.taught import load_taught
 from handeye.source import Source
 
 PLANS = Path(__file__).parents[2] / "plans"

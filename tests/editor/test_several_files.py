@@ -2,7 +2,7 @@
 
 import pytest
 
-from handeye.al.sewing import led_by, sewn_of
+from handeye.al.includes import led_by, sewn_of
 from handeye.editor.completion import completions
 from handeye.editor.document import Document
 from handeye.editor.explain import SAMPLE

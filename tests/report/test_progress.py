@@ -6,8 +6,8 @@ from functools import cache
 import pytest
 from rich.console import Console
 
-from handeye.plan.plan import Plan
-from handeye.plan.store import read_plan
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import read_plan
 from handeye.report.progress import Progress
 from handeye.resources import plans
 

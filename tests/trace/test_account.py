@@ -1,8 +1,8 @@
 """The account says what happened and why, as somebody who knows the language would tell it."""
 
+from handeye import events as happened
+from handeye.events import AnyEvent
 from handeye.trace.account import account
-from handeye.work import events as happened
-from handeye.work.events import AnyEvent
 
 BEGUN = happened.RunStarted(
     time=10.0, program="pins", steps=5, plan="0123456789abcdef", arm="Stanford", arm_digest="0" * 16,

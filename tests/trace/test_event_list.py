@@ -6,8 +6,8 @@ import pytest
 from recordings import EVENTS
 
 from handeye.errors import InvalidInput
+from handeye.events import WentBack, to_line
 from handeye.trace.eventlist import effective, read_events
-from handeye.work.events import WentBack, to_line
 
 
 def _written(path: Path, data: bytes) -> Path:

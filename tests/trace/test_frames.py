@@ -8,8 +8,8 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from handeye.arm.kinematics import forward
 from handeye.arm.stanford import STANFORD
-from handeye.cell.imperfection import World
 from handeye.cell.simulated import PARK, SimulatedCell
+from handeye.tasks.water_pump.variation import World
 from handeye.trace.frames import Frames
 
 SCENE_LIMIT = 300_000  # bytes: what a trace may grow by to show shapes and not only axes

@@ -11,8 +11,8 @@ from mcap.reader import DecodedMessageTuple, make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from recordings import EVENTS, HISTORY, PLAN, record
 
-from handeye.cell.ports import Sensed
-from handeye.work.events import to_line
+from handeye.events import to_line
+from handeye.ports.ports import Sensed
 
 TYPES = {
     "/joint_states": "foxglove.JointStates",

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from recordings import BOUNDARIES, EVENTS, HISTORY, PLAN, Recording, between, record, started
 
-from handeye.cell.ports import Sensed
 from handeye.errors import InvalidInput
-from handeye.trace import growing
+from handeye.events import StepStarted, WentBack
+from handeye.ports.ports import Sensed
+from handeye.trace import mcap_writer
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
-from handeye.work.events import StepStarted, WentBack
 
 FULL = r"^.*short\.mcap.* cannot be written: No space left on device$"
 
@@ -23,7 +23,7 @@ FULL = r"^.*short\.mcap.* cannot be written: No space left on device$"
 @pytest.fixture
 def path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A place for a trace whose chunks are so small that each stage has several."""
-    monkeypatch.setattr(growing, "CHUNK", 3000)
+    monkeypatch.setattr(mcap_writer, "CHUNK", 3000)
     return tmp_path / "short.mcap"
 
 
@@ -231,7 +231,7 @@ class Disk:
 
     def __init__(self, room: int, monkeypatch: pytest.MonkeyPatch, *, at_once: int = 1 << 30) -> None:
         self.room, self._at_once, self._write = room, at_once, os.write
-        monkeypatch.setattr(growing.os, "write", self.write)
+        monkeypatch.setattr(mcap_writer.os, "write", self.write)
 
     def write(self, handle: int, data: bytes) -> int:
         if self.room == 0:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from recordings import HISTORY, Recording, record
 
-from handeye.cell.ports import Sensed
 from handeye.errors import InvalidInput
+from handeye.ports.ports import Sensed
 from handeye.trace.reading import read_trace
 from handeye.trace.replay import Replay
 

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from handeye import events as happened
+from handeye.events import AnyEvent, Event
 from handeye.trace.sentences import LEVELS, inches, sentence
-from handeye.work import events as happened
-from handeye.work.events import AnyEvent, Event
 
 KINDS = typing.get_args(AnyEvent)
 

@@ -6,10 +6,10 @@ import msgspec
 import pytest
 from recordings import EVENTS, Recording
 
+from handeye.events import Event
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
-from handeye.work.events import Event
 
 
 def _changed(
@@ -41,7 +41,7 @@ def test_a_trace_does_not_differ_from_one_of_the_same_run(tmp_path: Path, whole:
 def test_how_a_trace_is_packed_makes_no_difference(
     tmp_path: Path, whole: Trace, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("handeye.trace.growing.CHUNK", 1000)
+    monkeypatch.setattr("handeye.trace.mcap_writer.CHUNK", 1000)
     other = _changed(tmp_path / "b.mcap")
     assert other.data != whole.data
     assert first_difference(whole, other) is None

@@ -9,7 +9,7 @@ from conftest import Command
 
 from handeye.al import compile_text
 from handeye.errors import InvalidInput
-from handeye.plan.taught import Taught
+from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.trials.keystrokes import typed
 from handeye.trials.language import Waiting, script

@@ -5,8 +5,8 @@ import math
 import cv2
 import numpy as np
 
-from handeye.cell.ports import Picture
-from handeye.plan.program import Hole, Part
+from handeye.ports.ports import Picture
+from handeye.program.program import Hole, Part
 from handeye.units import DEGREE, INCH
 from handeye.vision.camera import COLUMNS, DRAWING, ROWS, View
 from handeye.vision.holes import hole_places

@@ -6,14 +6,14 @@ A statement of a macro is several steps. It is at fault only if it is at fault i
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from handeye.al.checks.rounds import stale_rounds
-from handeye.al.checks.vain import in_vain
+from handeye.al.checks.always_fails import in_vain
+from handeye.al.checks.loops import stale_rounds
 from handeye.al.graph import Graph
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label
 from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
-from handeye.plan import program as op
-from handeye.plan.raises import raises
+from handeye.program import program as op
+from handeye.program.raises import raises
 from handeye.source import Span
 
 _CURES = {

@@ -10,7 +10,7 @@ from handeye.al.syntax import Name, Number, Script, Statement
 from handeye.al.unitwords import no_units
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.errors import ERRORS
-from handeye.plan.taught import Taught
+from handeye.program.taught import Taught
 from handeye.source import Span
 
 _CODES = {

@@ -10,7 +10,7 @@ from handeye.al.graph import Graph
 from handeye.al.lower import Lowered
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.plan.program import Move, Save
+from handeye.program.program import Move, Save
 from handeye.source import Span
 
 

@@ -1,0 +1,161 @@
+"""Stops and checks that come out in one way only, whatever the arm meets."""
+
+import math
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.al.graph import Graph
+from handeye.program import program as op
+from handeye.units import INCH
+
+_TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNORECASE)
+LEAST: Final = 1e-6
+"""m by which a figure has to be off before anything is said of it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlwaysFails:
+    """A step that is in vain."""
+
+    code: str
+    step: int
+    message: str
+    help: str
+    cause: int | None = None
+    """The step that makes it so."""
+
+
+def in_vain(graph: Graph) -> Iterator[AlwaysFails]:
+    """The steps of a program that never do what they are for, or always raise an error."""
+    yield from _stops(graph)
+    yield from _grasps(graph)
+    yield from _travels(graph)
+    yield from _torques(graph)
+    yield from _touches(graph)
+    yield from _pauses(graph)
+
+
+def _stops(graph: Graph) -> Iterator[AlwaysFails]:
+    for number in graph.which(op.Change):
+        change = graph.steps[number].operation
+        assert isinstance(change, op.Change)
+        stop = change.stop
+        if stop is None or stop.force is None or stop.moment is not None:
+            continue
+        (x, y, z), (f, g, h) = change.displacement, stop.force
+        if x * f + y * g + z * h < 0:
+            yield AlwaysFails(
+                code="stop-away-from-motion",
+                step=number,
+                message="the hand moves away from what its `STOP` would have it press on",
+                help="the vector of a `STOP` is the force of the hand: let it point where the hand goes",
+            )
+
+
+def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
+    """Grasps of more than the hand was opened to."""
+    least = min(_gaps(graph, graph.which(op.Open)), default=math.inf)  # no OPEN is too little for less
+    for number in graph.which(op.Close, op.Center):
+        grasp = graph.steps[number].operation
+        assert isinstance(grasp, op.Close | op.Center)
+        if grasp.minimum <= least:
+            continue
+        before = graph.last(number, op.Open, op.Close, op.Center)
+        opened = _gaps(graph, before)
+        if before and len(opened) == len(before) and max(opened) < grasp.minimum - LEAST:
+            yield AlwaysFails(
+                code="opened-too-little",
+                step=number,
+                message=f"at least {grasp.minimum / INCH:g} in are to be grasped, and the hand is open by "
+                f"{max(opened) / INCH:g} in",
+                help="it would always raise error 2",
+                cause=max(before),
+            )
+
+
+def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
+    """How far those of some steps that open the hand open it, m."""
+    return [o.gap for n in numbers if isinstance(o := graph.steps[n].operation, op.Open)]
+
+
+def _travels(graph: Graph) -> Iterator[AlwaysFails]:
+    """Checks for a longer way than the motion before goes."""
+    for number in graph.which(op.Travel):
+        travel = graph.steps[number].operation
+        assert isinstance(travel, op.Travel)
+        before = graph.last(number, op.Change)
+        ways = [
+            math.hypot(*o.displacement)
+            for n in before
+            if isinstance(o := graph.steps[n].operation, op.Change)
+        ]
+        if ways and max(ways) < travel.minimum - LEAST:
+            yield AlwaysFails(
+                code="travel-too-long",
+                step=number,
+                message=f"at least {travel.minimum / INCH:g} in are asked for, and the motion goes "
+                f"{max(ways) / INCH:g} in at most",
+                help="it would always raise error 8",
+                cause=max(before),
+            )
+
+
+def _torques(graph: Graph) -> Iterator[AlwaysFails]:
+    """Stops on the torque of a screwdriver that does not turn."""
+    tools = graph.which(op.Tool)
+    running = {number for number in tools if graph.steps[number].operation != op.Tool(speed=0.0)}
+    started: set[int] | None = None
+    for number, stop in _stopped(graph):
+        if stop.torque is None:
+            continue
+        started = graph.after(running) if started is None else started
+        last = graph.last(number, op.Tool)
+        if number not in started or (last and running.isdisjoint(last)):
+            yield AlwaysFails(
+                code="torque-without-tool",
+                step=number,
+                message="a torque is to end this motion, and the screwdriver does not turn",
+                help="`TOOL` runs the screwdriver; without it this always raises error 24",
+                cause=max(last, default=None),
+            )
+
+
+def _touches(graph: Graph) -> Iterator[AlwaysFails]:
+    """Stops on a touch of fingers that are closed."""
+    for number, stop in _stopped(graph):
+        if stop.touch is None:
+            continue
+        last = graph.last(number, op.Open, op.Close, op.Center)
+        if last and not any(isinstance(graph.steps[n].operation, op.Open) for n in last):
+            yield AlwaysFails(
+                code="touch-while-closed",
+                step=number,
+                message="a touch is to end this motion, and the fingers are closed: what they hold ends it at once",
+                help="what the held thing meets is felt by `STOP`; fingers touch when they are open",
+                cause=max(last),
+            )
+
+
+def _stopped(graph: Graph) -> Iterator[tuple[int, op.Stop]]:
+    """The motions that something is to end."""
+    for number in graph.which(op.Move, op.Change, op.Turn):
+        motion = graph.steps[number].operation
+        assert isinstance(motion, op.Move | op.Change | op.Turn)
+        if motion.stop is not None:
+            yield number, motion.stop
+
+
+def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
+    """Calls of the operator that were meant to let time pass."""
+    for number in graph.which(op.Wait):
+        wait = graph.steps[number].operation
+        assert isinstance(wait, op.Wait)
+        if _TIME.fullmatch(wait.message):
+            yield AlwaysFails(
+                code="wait-for-time",
+                step=number,
+                message="`WAIT` stops the work and calls the operator: it waits for no time",
+                help="leave it out: the arm has come to rest when a motion ends",
+            )

@@ -1,0 +1,54 @@
+"""Loops that search or count, and try the same again in every round."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache
+
+from handeye.al.graph import Graph
+from handeye.program import program as op
+
+
+@dataclass(frozen=True, slots=True)
+class Stale:
+    """A jump back to a round like the one before."""
+
+    jump: int
+    """The step that jumps back."""
+    cause: int | None
+    """The step that begins the search or the count anew; None: nothing moves to the next place."""
+
+
+Circles = Callable[[], list[set[int]]]
+
+
+def stale_rounds(graph: Graph) -> Iterator[Stale]:
+    """The jumps of searches and counts that cannot come to an end by themselves."""
+    circles = cache(graph.circles)  # asked for only where something looks wrong
+    searches, moves = set(graph.which(op.Search)), set(graph.which(op.Move))
+    places = searches | moves
+    for jump in graph.which(op.Advance):
+        target = graph.steps[jump].next
+        yield from _anew(graph, circles, jump, target, searches)
+        if graph.leads(target, jump, without=places) and circles()[jump].isdisjoint(moves):
+            yield Stale(jump, None)
+    assigns = _assigns(graph)
+    for jump in graph.which(op.Countdown):
+        operation = graph.steps[jump].operation
+        assert isinstance(operation, op.Countdown)
+        yield from _anew(graph, circles, jump, operation.positive, assigns.get(operation.counter, set()))
+
+
+def _anew(graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]) -> Iterator[Stale]:
+    """A jump back whose every round begins anew."""
+    if not graph.leads(target, jump, without=begins) and target in circles()[jump]:
+        yield Stale(jump, min(circles()[jump] & begins))
+
+
+def _assigns(graph: Graph) -> dict[str, set[int]]:
+    """The steps that set each counter."""
+    found: dict[str, set[int]] = {}
+    for number in graph.which(op.Assign):
+        operation = graph.steps[number].operation
+        assert isinstance(operation, op.Assign)
+        found.setdefault(operation.counter, set()).add(number)
+    return found

@@ -1,0 +1,76 @@
+"""What a program wants to see and cannot: parts of which too little is taught, pictures that cannot be compared."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Final
+
+from handeye.al.statements import ByWord
+from handeye.al.syntax import Name
+from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.program.program import Part
+from handeye.program.taught import Taught
+from handeye.source import Span
+
+Need = tuple[str, Callable[[Part], bool]]
+"""What has to be taught of a part, and whether it is."""
+_REGION: Final[Need] = ("`region`", lambda part: part.region is not None)
+_OUTLINE: Final[Need] = ("`outline`", lambda part: part.outline is not None)
+_HOLES: Final[Need] = ("two `holes`", lambda part: len(part.holes) >= 2)
+_NEEDS: Final = {"GENERAL": (_REGION, _OUTLINE), "SPECIFIC": (_HOLES,), "INSPECT": (_HOLES,)}
+
+
+def check_sights(words: ByWord, taught: Taught) -> Iterator[Diagnostic]:
+    """What is wrong with the looks of a script all of whose names are right."""
+    for op, needs in _NEEDS.items():
+        for statement in words.get(op, ()):
+            name = statement.operands[0] if statement.operands else None
+            if isinstance(name, Name) and name.text in taught.parts:
+                yield from _undescribed(op, name, needs, taught.parts)
+    yield from _unlike(words)
+
+
+def _undescribed(
+    op: str, name: Name, needs: tuple[Need, ...], parts: Mapping[str, Part]
+) -> Iterator[Diagnostic]:
+    lacking = [said for said, has in needs if not has(parts[name.text])]
+    if lacking:
+        others = [quoted(other) for other, part in parts.items() if all(has(part) for _, has in needs)]
+        known = f"; taught so {'is' if len(others) == 1 else 'are'} {', '.join(others)}" if others else ""
+        yield Diagnostic(
+            code="part-not-described",
+            message=f"`{op}` cannot find {quoted(name.text)} without {' and '.join(lacking)} of it",
+            primary=Label(span=name.span),
+            help=f"that stands under `[parts.{name.text}]` in the file of what is taught{known}",
+        )
+
+
+def _unlike(words: ByWord) -> Iterator[Diagnostic]:
+    """Comparisons with a picture that the camera took as it saw fit."""
+    looks: dict[str, list[tuple[Name, bool]]] = {}
+    for look in words.get("LOOK", ()):
+        name, hold = look.operands
+        assert isinstance(name, Name)
+        looks.setdefault(name.text, []).append((name, hold is not None))
+    for inspect in words.get("INSPECT", ()):
+        _, before, after = inspect.operands
+        assert isinstance(before, Name)
+        assert isinstance(after, Name)
+        taken = looks.get(after.text, [])
+        if not taken or any(held for _, held in taken):
+            continue
+        if any(held for _, held in looks.get(before.text, [])):
+            yield Diagnostic(
+                code="compared-without-hold",
+                message=f"{quoted(before.text)} is the picture that is taken with `HOLD`, after {quoted(after.text)}",
+                primary=Label(span=Span(start=before.start, end=after.end)),
+                help="the picture before comes first",
+            )
+        else:
+            yield Diagnostic(
+                code="compared-without-hold",
+                message=f"picture {quoted(after.text)} is not taken as the one it is compared with",
+                primary=Label(span=after.span),
+                secondary=(
+                    Label(span=taken[0][0].span, text="here the camera sets its target voltage anew"),
+                ),
+                help=f"`LOOK {after.text} HOLD` keeps that of the picture before",
+            )

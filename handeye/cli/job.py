@@ -1,0 +1,272 @@
+"""What the commands that move the arm have in common: build, carry out, keep, judge, print."""
+
+import shlex
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from handeye.cli.common import note, notes, say, screen
+from handeye.cli.panic_button import PanicButton
+from handeye.cli.prompt import typed_lines
+from handeye.debugger.breakpoints import breakpoint
+from handeye.debugger.command_table import COMMANDS
+from handeye.debugger.formatting import MOST
+from handeye.debugger.listing import labels
+from handeye.debugger.operator import Ask, Operator, attend, parse_policy
+from handeye.debugger.stepper import Stepper, interact
+from handeye.debugger.views import TOPICS
+from handeye.errors import InvalidInput
+from handeye.events import RunStarted
+from handeye.execution.drive import Halted
+from handeye.files import write_whole
+from handeye.report.page import page
+from handeye.report.pictures import keep_pictures
+from handeye.report.progress import Progress
+from handeye.report.result import Result, to_json
+from handeye.report.summary import summary
+from handeye.runs.advance import Pause, Stop
+from handeye.runs.checkpoint_store import CheckpointStore, leave
+from handeye.runs.folder import PICTURES, RESULT, RunFolder, open_new
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.tasks.water_pump.referee import judge
+from handeye.versions import versions
+
+PANIC = Pause(kind="panic", sentence="stopped by hand; the brakes are set")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Job:
+    """A run to be begun or gone on with, and what is wanted of it."""
+
+    start: Checkpoint
+    folder: RunFolder | None = None
+    """The folder of a run that is gone on with."""
+    out: Path | None = None
+    """Folder for a run that is begun."""
+    overwrite: bool = False
+    """The run in that folder, if any, may be lost."""
+    checkpoints: Path | None = None
+    """Where states at the beginning of stages are kept besides."""
+    stops: Sequence[Stop] = ()
+    """Where it ends, for now."""
+    breaks: Sequence[str] = ()
+    """Where it stops besides, as after --break."""
+    halfway: bool = False
+    """It is to stop where somebody will want to go on from."""
+    step: bool = False
+    """Ask before every step."""
+    on_stop: str | None = None
+    json: bool = False
+    referee: bool = False
+    planning: float = 0.0
+    """Seconds of the processor for the planning phase."""
+
+
+class _KeepStages(Observer):
+    """Keeps the states at the beginning of stages in a folder."""
+
+    def __init__(self, folder: Path, setup: Setup) -> None:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+        self._kept = CheckpointStore(folder)
+        self._kept.claim(setup)
+
+    def checkpoint(self, checkpoint: Checkpoint) -> None:
+        if checkpoint.between_stages and not checkpoint.touched:
+            self._kept.save(checkpoint)
+
+
+class _Work:
+    """One job under way."""
+
+    def __init__(self, job: Job, panic: PanicButton) -> None:
+        self.job = job
+        self.panic = panic
+        self.begun = time.perf_counter()
+        self.policy = self._policy()  # first: a word nobody knows must not cost a folder
+        self.folder = job.folder
+        if self.folder is None and job.out is not None:
+            self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
+        self.progress = Progress(job.start.setup.plan, notes)
+        self.refused = False
+        self.left: Path | None = None
+        """The file that a state was last kept in, outside the folder of the run."""
+
+    def do(self) -> int:
+        """All of it; the exit code."""
+        runner = self._built()
+        if runner is None:
+            return self._interrupted(None)
+        try:
+            pause = self._stepped(runner) if self.job.step else self._attended(runner)
+        except KeyboardInterrupt:
+            pause = PANIC
+            if self.folder is not None:
+                self.folder.checkpoint(runner.checkpoint())
+        if pause.kind == "panic":
+            return self._interrupted(runner)
+        with self.panic.aside():
+            code = self._finished(runner, pause)
+        return code or 2 * (self.refused and not sys.stdin.isatty())
+
+    def _built(self) -> Runner | None:
+        """The cell, ready for its first step; None if the panic button was hit meanwhile."""
+        try:
+            with self.progress:
+                runner = Runner(self.job.start, halt=self.panic, observers=self._observers)
+        except Halted:
+            return None
+        except BaseException:
+            if self.folder is not None and self.job.folder is None:
+                self.folder.discard()
+            raise
+        _warn(runner)
+        return runner
+
+    def _observers(self, runner: Runner) -> list[Observer]:
+        looking: list[Observer] = [] if self.job.step else [self.progress]
+        if self.job.start.stage is not None:
+            self.progress.goes_on(self.job.start.stage)
+        if self.folder is not None:
+            looking.append(self.folder.watch(runner, self.job.start, again=self.job.folder is not None))
+        if self.job.checkpoints is not None:
+            looking.append(_KeepStages(self.job.checkpoints, self.job.start.setup))
+        return looking
+
+    # -- carrying out ---------------------------------------------------------------------------------
+
+    def _attended(self, runner: Runner) -> Pause:
+        with self.progress:
+            breaks = [breakpoint(text, runner.setup.plan) for text in self.job.breaks]
+            lines = typed_lines("> ", self._waiting, lambda: (), droppable=False)
+            return attend(runner, self.policy or Ask(lines, note), [*breaks, *self.job.stops], self._kept)
+
+    def _policy(self) -> Operator | None:
+        """The rule for when the operator is called; None: somebody is asked."""
+        policy = self.job.on_stop
+        if policy is None:
+            policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
+        return parse_policy(policy)
+
+    def _stepped(self, runner: Runner) -> Pause:
+        stepper = Stepper(
+            runner,
+            breaks=self.job.breaks,
+            stops=self.job.stops,
+            kept=self._kept,
+            keep=self._keep,
+            pictures=None if self.folder is None else self.folder.path / PICTURES,
+        )
+        program = runner.setup.plan.program
+        words = [*(command.name for command in COMMANDS), *TOPICS, *labels(program), *program.positions]
+        lines = typed_lines("handeye> ", self._waiting, lambda: words)
+        most = MOST if screen.is_terminal else None
+        try:
+            return interact(stepper, lines, say, json=self.job.json, prompt=sys.stdin.isatty(), most=most)
+        finally:
+            self.refused = stepper.refused
+
+    @contextmanager
+    def _waiting(self) -> Iterator[None]:
+        """While a line is waited for."""
+        with self.panic.aside(), self.progress.aside():
+            yield
+        if sys.stdin.isatty():
+            self.panic()  # what was pressed while nothing moved must not stop what comes
+
+    def _kept(self, position: int) -> Checkpoint | None:
+        """The newest state of this run on disk at a position or before it."""
+        if self.folder is not None:
+            return self.folder.kept.at_or_before(position)
+        if self.job.checkpoints is None:
+            return None
+        begun = self.job.start.position  # what is there from later on may be of a run that went another way
+        return CheckpointStore(self.job.checkpoints).at_or_before(min(position, begun))
+
+    def _keep(self, checkpoint: Checkpoint) -> Path:
+        if self.folder is not None:
+            self.folder.check_traced()
+            return self.folder.kept.save(checkpoint)
+        self.left = leave(self.job.checkpoints or Path(), checkpoint)
+        return self.left
+
+    # -- ending ---------------------------------------------------------------------------------------
+
+    def _interrupted(self, runner: Runner | None) -> int:
+        where = "while the cell was set up" if runner is None else f"at {runner.run.time:.1f} s"
+        note(f"interrupted {where}; the brakes are set")
+        if self.folder is None and runner is not None:
+            try:
+                self._keep(runner.checkpoint())
+            except InvalidInput as fault:
+                note(str(fault))
+        self._tell_how_to_go_on()
+        return 130
+
+    def _tell_how_to_go_on(self) -> None:
+        kept = self.left if self.folder is None else self.folder.path
+        if kept is not None:
+            note(f"go on with: handeye resume {shlex.quote(str(kept))}")
+
+    def _finished(self, runner: Runner, pause: Pause) -> int:
+        job = self.job
+        if pause.kind != "break":
+            runner.finish()
+        elif job.halfway and self.folder is None:
+            self._keep(runner.checkpoint())
+        findings = None
+        if job.referee and pause.kind != "break":
+            findings = judge(runner.cell.truth) if pause.kind == "end" else {}
+        wall = time.perf_counter() - self.begun
+        result = summary(runner, pause, findings=findings, wall=wall, planning=job.planning)
+        if self.folder is not None:
+            self.folder.close()
+            keep_pictures(self.folder.path / PICTURES, runner)
+            write_whole(self.folder.path / RESULT, to_json(result))
+        self._print(result)
+        if pause.kind in ("break", "operator"):
+            self._tell_how_to_go_on()
+        elif self.folder is not None:
+            note(f"kept in {self.folder.path}")
+        return result.exit_code
+
+    def _print(self, result: Result) -> None:
+        if self.job.json:
+            sys.stdout.buffer.write(to_json(result, line=self.job.step))
+            sys.stdout.flush()
+        else:
+            screen.print(page(result))
+
+
+def work(job: Job) -> int:
+    """Do a job; the exit code.
+
+    Raises:
+        InvalidInput: something it needs cannot be used, or a file cannot be written.
+    """
+    with PanicButton() as panic, ExitStack() as closing:
+        under_way = _Work(job, panic)
+        if under_way.folder is not None:
+            closing.callback(under_way.folder.close)
+        return under_way.do()
+
+
+def _warn(runner: Runner) -> None:
+    """Tell if a run that is gone on with need not come out as it would have."""
+    begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
+    if begun is None:
+        return
+    if begun.camera != runner.cell.camera.renderer:
+        note(
+            f"the run was begun with pictures by {begun.camera}; now they are by {runner.cell.camera.renderer}"
+        )
+    changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
+    if changed:
+        note(f"the run was begun with other versions of {', '.join(changed)}; it need not come out the same")

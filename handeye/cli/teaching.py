@@ -1,0 +1,196 @@
+"""Commands for programming by doing: functions carried out at once, and the two modes of the arm program."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Camera, Json, Seed, note, notes, screen, world
+from handeye.cli.panic_button import PanicButton
+from handeye.cli.prompt import typed_lines
+from handeye.errors import InvalidInput
+from handeye.files import beside, check_place
+from handeye.program.taught import Taught, load_taught
+from handeye.resources import plans
+from handeye.source import read_source
+
+if TYPE_CHECKING:
+    from handeye.teaching.answers import Answer
+    from handeye.teaching.workplace import Workplace
+
+TaughtFile = Annotated[
+    Path | None, Parameter(name="--taught", help="File of taught positions; by default the water pump's.")
+]
+Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first.")]
+From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell as this checkpoint has it.")]
+Keep = Annotated[Path | None, Parameter(help="Keep the cell as it is at the end in this checkpoint.")]
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    for command in (do, repl, teach):
+        app.command(command)
+
+
+def do(
+    *functions: str,
+    seed: Seed = 0,
+    taught: TaughtFile = None,
+    look: Looking = False,
+    first: From = None,
+    keep: Keep = None,
+    camera: Camera = "auto",
+    json: Json = False,
+) -> int:
+    """Plan functions and carry them out at once, each by itself: `handeye do "OPEN 3" PARK`.
+
+    Exit code 0: done; 1: the operator was called; 2: bad input; 130: interrupted.
+
+    Parameters
+    ----------
+    functions
+        A function of the arm language each; modifiers stand before theirs, with a line end between.
+    """
+    from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
+    from handeye.teaching.answers import converse
+    from handeye.teaching.commands import ReplSession
+    from handeye.teaching.repl import Repl
+
+    if not all(map(str.strip, functions or ("",))):
+        raise InvalidInput('a function is wanted, such as `handeye do "OPEN 3"`')
+    if keep is not None:
+        check_place(keep, CHECKPOINT)
+    with PanicButton() as panic:
+        workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
+        lines = (f"DO {function}" for function in functions)
+        repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
+        failed = converse(ReplSession(repl), lines, _say, json=json, strict=True)
+    if failed is not None and "modifier-without-motion" in {d.code for d in failed.diagnostics}:
+        note("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE Z -1'")
+    if keep is not None and (failed is None or not failed.refused):
+        write_checkpoint(keep, workplace.checkpoint())
+    return _code(failed)
+
+
+def repl(
+    script: Path | None = None,
+    /,
+    *,
+    seed: Seed = 0,
+    taught: TaughtFile = None,
+    look: Looking = False,
+    first: From = None,
+    camera: Camera = "auto",
+    json: Json = False,
+) -> int:
+    """Type functions: they are collected and checked; DO carries them out. HELP tells the rest.
+
+    Exit code 0: left; 1: the operator was called at last; 2: a line was refused, and came from no terminal;
+    130: interrupted.
+
+    Parameters
+    ----------
+    script
+        A script beside which programs for `DO NAME`, and what is taught, are looked for.
+    """
+    from handeye.al.instructions import INSTRUCTIONS
+    from handeye.teaching.answers import converse
+    from handeye.teaching.commands import COMMANDS, ReplSession
+    from handeye.teaching.repl import Repl
+
+    if script is not None and taught is None and beside(script, ".toml").exists():
+        taught = beside(script, ".toml")
+    folder = Path() if script is None else script.parent
+    with PanicButton() as panic:
+        workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
+        lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
+        typist = ReplSession(Repl(workplace=workplace, folder=folder))
+        failed = converse(typist, lines, _say, json=json)
+    return 0 if sys.stdin.isatty() else _code(failed)
+
+
+def teach(
+    file: Path,
+    /,
+    *,
+    seed: Seed = 0,
+    first: From = None,
+    camera: Camera = "auto",
+    json: Json = False,
+) -> int:
+    """Move the arm and name where it is; the file of taught positions gets what was named, and keeps the rest.
+
+    Exit code 0: left; 2: bad input, or a line was refused that came from no terminal, or something was left
+    unsaved; 130: interrupted.
+
+    Parameters
+    ----------
+    file
+        The file of taught positions (TOML), or the script it stands beside. It need not be there yet.
+    """
+    from handeye.teaching.answers import converse
+    from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
+    from handeye.teaching.teacher import Teacher
+
+    path = file if file.suffix == ".toml" else beside(file, ".toml")
+    text = read_source(path).text if path.exists() else ""
+    known = load_taught(path) if path.exists() else Taught()
+    with PanicButton() as panic:
+        workplace = _workplace(panic, known, seed=seed, camera=camera, look=False, first=first)
+        teacher = Teacher(workplace=workplace, file=path, saved=text)
+        lines = typed_lines(
+            "teach> ",
+            panic.aside,
+            lambda: (*TEACH_COMMANDS, *workplace.taught.positions, *workplace.taught.parts),
+        )
+        failed = converse(TeachSession(teacher), lines, _say, json=json)
+    if teacher.unsaved:
+        notes.print(f"not saved: {', '.join(teacher.unsaved)}", markup=False, soft_wrap=True)
+    refused = failed is not None and not sys.stdin.isatty()
+    return 2 if refused or teacher.unsaved else 0
+
+
+def _workplace(
+    panic: PanicButton, taught: Taught | None, *, seed: int, camera: str, look: bool, first: Path | None
+) -> "Workplace":
+    """The cell to work in.
+
+    Raises:
+        InvalidInput: a file cannot be used, or the camera cannot work as asked.
+    """
+    from handeye.execution.drive import Halted
+    from handeye.runs.checkpoint_file import read_checkpoint
+    from handeye.teaching.workplace import Workplace
+
+    if first is not None:
+        return Workplace.at(read_checkpoint(first), taught, panic)
+    known = load_taught(plans() / "water_pump.toml") if taught is None else taught
+    try:
+        return Workplace(seed=world(seed), camera=camera, taught=known, look=look, halt=panic)
+    except Halted:
+        raise KeyboardInterrupt from None
+
+
+def _given(file: Path | None) -> Taught | None:
+    return None if file is None else load_taught(file)
+
+
+def _kept(file: Path | None) -> str:
+    """How to go on when the operator was called and nobody is there to be asked."""
+    if file is None:
+        return "with --keep FILE the cell would be kept as it is now, and --from FILE goes on from there"
+    return f"`handeye do --from {file}` goes on from there"
+
+
+def _code(failed: "Answer | None") -> int:
+    """The exit code for the first answer that was not as wished."""
+    if failed is None:
+        return 0
+    if failed.refused:
+        return 2
+    return 130 if failed.stopped == "panic" else 1
+
+
+def _say(text: str) -> None:
+    screen.print(text, markup=False, soft_wrap=True)

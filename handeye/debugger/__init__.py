@@ -1,0 +1,1 @@
+"""Runs stepped by people: commands, breakpoints, views."""

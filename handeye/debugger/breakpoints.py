@@ -1,0 +1,242 @@
+"""Reasons to stop, as a user names them: an error, a line, a label, an instruction, a stage, a step."""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Final
+
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.debugger.listing import labels, numbered_stage
+from handeye.debugger.source_places import Place, named_place
+from handeye.diagnostics import quoted
+from handeye.errors import ERRORS, InvalidInput
+from handeye.events import AnyEvent, ErrorRaised, StageFinished
+from handeye.planfile.plan import Plan
+from handeye.runs.advance import Stop
+from handeye.runs.runner import Runner
+from handeye.source import line_name
+
+NEAR: Final = 0.5
+"""How alike a name must be to be taken for what was meant, from 0 to 1."""
+_NUMBER: Final = re.compile(r"[0-9]{1,9}")
+_ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class _Watch:
+    """A reason to stop that never is one."""
+
+    def before(self, runner: Runner) -> str | None:
+        """Why to stop before the next step."""
+        return None
+
+    def after(self, events: Sequence[AnyEvent]) -> str | None:
+        """Why to stop behind a step."""
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class AtSteps(_Watch):
+    """Stop before any of some steps."""
+
+    steps: frozenset[int]
+    name: str
+    """What they are: `line 58`, `label L1`, `AOJ`."""
+
+    def before(self, runner: Runner) -> str | None:
+        return f"break at {self.name}" if runner.executor.at in self.steps else None
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class AtStage(_Watch):
+    """Stop when a stage is about to begin."""
+
+    stage: int
+    name: str
+
+    def before(self, runner: Runner) -> str | None:
+        step = runner.next
+        if step is None or step.stage != self.stage or not runner.executor.between_stages:
+            return None
+        return f"break at {self.name}"
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class OnError(_Watch):
+    """Stop behind the step that raised an error."""
+
+    number: int
+
+    def after(self, events: Sequence[AnyEvent]) -> str | None:
+        raised = any(isinstance(event, ErrorRaised) and event.number == self.number for event in events)
+        return f"break on {self}: {ERRORS[self.number]}" if raised else None
+
+    def __str__(self) -> str:
+        return f"error {self.number}"
+
+
+@dataclass(frozen=True, slots=True)
+class UntilStep(_Watch):
+    """Stop before a step, given by its number."""
+
+    step: int
+
+    def before(self, runner: Runner) -> str | None:
+        return f"step {self.step} is the next" if runner.executor.at == self.step else None
+
+
+@dataclass(frozen=True, slots=True)
+class ToStage(_Watch):
+    """Stop when a stage, given by its index, has ended."""
+
+    stage: int
+
+    def before(self, runner: Runner) -> str | None:
+        program, last = runner.setup.plan.program, runner.events[-1]
+        if not isinstance(last, StageFinished) or last.stage != program.stages[self.stage]:
+            return None
+        return f"{numbered_stage(program, self.stage)}, has ended"
+
+
+def breakpoint(text: str, plan: Plan) -> Stop:
+    """What a user wants to stop at.
+
+    Args:
+        text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first behind it); a label; an
+            instruction word (every step that begins with it); a stage or the beginning of its name.
+
+    Raises:
+        InvalidInput: there is nothing of that name, or more than one stage.
+    """
+    text = text.strip()
+    if not text:
+        raise InvalidInput(
+            "a place to stop is an error (error:23), a line, a label, an instruction or a stage"
+        )
+    if error := _ERROR.fullmatch(text):
+        return _on_error(error["number"] or error["any"])
+    place = named_place(text, plan.program)
+    if place is not None:
+        return _at_line(place, plan)
+    stop = _at_label(text, plan) or _at_word(text, plan) or _at_stage(text, plan)
+    if stop is None and text.upper() in INSTRUCTIONS:
+        raise InvalidInput(f"no step of the program begins with {text.upper()}")
+    if stop is None:
+        known = [*labels(plan.program), *_words(plan), *plan.program.stages]
+        raise InvalidInput(
+            f"the program has no label, instruction or stage {quoted(text)}{nearest(text, known)}"
+        )
+    return stop
+
+
+def stage_number(text: str, plan: Plan) -> int:
+    """The index of a stage given by its number from 1, its name, or a beginning that no other name has.
+
+    Raises:
+        InvalidInput: there is no such stage, or more than one.
+    """
+    stages = plan.program.stages
+    if _NUMBER.fullmatch(text.strip()):
+        if not 1 <= int(text) <= len(stages):
+            raise InvalidInput(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
+        return int(text) - 1
+    found = _stage(text, plan)
+    if found is None:
+        raise InvalidInput(f"there is no stage {quoted(text)}{nearest(text, stages)}")
+    return found
+
+
+def step_number(text: str, plan: Plan) -> int:
+    """The index of a step given by its number in the plan, or by a label that stands for one step.
+
+    Raises:
+        InvalidInput: there is no such step.
+    """
+    text, steps = text.strip(), plan.program.steps
+    if _NUMBER.fullmatch(text):
+        if int(text) >= len(steps):
+            raise InvalidInput(f"there is no step {int(text)}; the program has steps 0 to {len(steps) - 1}")
+        return int(text)
+    found = labels(plan.program).get(text)
+    if found is None:
+        known = labels(plan.program)
+        raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{nearest(text, known)}")
+    if len(found) > 1:
+        where = ", ".join(map(str, found))
+        raise InvalidInput(f"label {quoted(text)} stands for steps {where}; give one by its number")
+    return found[0]
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """`; did you mean ...` with the known name that is most like `name`; nothing if none is like it."""
+    spelt = {choice.casefold(): choice for choice in known}
+    like = get_close_matches(name.casefold(), spelt, 1, NEAR)
+    return f"; did you mean {quoted(spelt[like[0]])}?" if like else ""
+
+
+# -- one kind each --------------------------------------------------------------------------------------
+
+
+def _on_error(number: str) -> Stop:
+    if not _NUMBER.fullmatch(number) or int(number) not in ERRORS:
+        raise InvalidInput(f"there is no error {quoted(number)}; there are {', '.join(map(str, ERRORS))}")
+    return OnError(int(number))
+
+
+def _at_line(place: Place, plan: Plan) -> Stop:
+    file, line = place
+    lines = {i: step.line for i, step in enumerate(plan.program.steps) if step.file == file}
+    if not lines:
+        raise InvalidInput(f"no step stands in {quoted(file or plan.program.name)}")
+    last = max(lines.values())
+    if line > last:
+        behind, on = line_name(line, file), line_name(last, file)
+        raise InvalidInput(f"line {behind} lies behind the last step, which is on line {on}")
+    first = min(number for number in lines.values() if number >= line)
+    steps = frozenset(i for i, number in lines.items() if number == first)
+    return AtSteps(steps, f"line {line_name(first, file)}")
+
+
+def _at_label(text: str, plan: Plan) -> Stop | None:
+    known = labels(plan.program)
+    label = text if text in known else text.upper()
+    return AtSteps(frozenset(known[label]), f"label {label}") if label in known else None
+
+
+def _words(plan: Plan) -> list[str]:
+    """The instruction of each step."""
+    return [step.text.split()[0].upper() if step.text.strip() else "" for step in plan.program.steps]
+
+
+def _at_word(text: str, plan: Plan) -> Stop | None:
+    steps = frozenset(i for i, word in enumerate(_words(plan)) if word == text.upper())
+    return AtSteps(steps, text.upper()) if steps else None
+
+
+def _at_stage(text: str, plan: Plan) -> Stop | None:
+    stage = _stage(text, plan)
+    return None if stage is None else AtStage(stage, numbered_stage(plan.program, stage))
+
+
+def _stage(text: str, plan: Plan) -> int | None:
+    """The index of a stage by its name or the beginning of it; None if there is none.
+
+    Raises:
+        InvalidInput: several begin so.
+    """
+    names = [name.casefold() for name in plan.program.stages]
+    wanted = text.strip().casefold()
+    if wanted in names:
+        return names.index(wanted)
+    found = [i for i, name in enumerate(names) if wanted and name.startswith(wanted)]
+    if len(found) > 1:
+        several = ", ".join(quoted(plan.program.stages[i]) for i in found)
+        raise InvalidInput(f"{len(found)} stages begin with {quoted(text.strip())}: {several}")
+    return found[0] if found else None

@@ -1,0 +1,176 @@
+"""The commands of the stepper as a table, from which reading and help derive."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.debugger import commands as acts
+from handeye.debugger.breakpoints import nearest
+from handeye.debugger.reply import CommandResult
+from handeye.debugger.session import DebugSession
+from handeye.debugger.views import TOPICS
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """Something that can be said."""
+
+    usage: str
+    group: str
+    act: Callable[[DebugSession, str], CommandResult]
+    help: str
+    short: str = ""
+    """Another word for it."""
+    repeats: bool = False
+    """An empty line behind it says it again."""
+
+    @property
+    def name(self) -> str:
+        """Its word."""
+        return self.usage.partition(" ")[0]
+
+    @property
+    def bare(self) -> bool:
+        """Nothing may stand behind it."""
+        return " " not in self.usage
+
+    @property
+    def shown(self) -> str:
+        """As help has it."""
+        return f"{self.usage}, {self.short}" if self.short else self.usage
+
+
+def find(line: str) -> tuple[Command, str]:
+    """The command that a line says, and what stands behind its word.
+
+    Raises:
+        InvalidInput: there is none, or it takes nothing behind it.
+    """
+    word, _, rest = line.strip().partition(" ")
+    name, _, more = _SHORT.get(word.casefold(), word.casefold()).partition(" ")
+    rest = f"{more} {rest}".strip()
+    named = [command for command in COMMANDS if command.name == name]
+    if not named:
+        near = nearest(word, [command.name for command in COMMANDS])
+        if word.casefold() in _ELSEWHERE:
+            near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
+        raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` tells which there are'}")
+    if rest and all(command.bare for command in named):
+        raise InvalidInput(f"`{name}` takes nothing behind it; {quoted(rest)} is too much")
+    return named[0], rest
+
+
+def manual() -> str:
+    """All commands, for people who see them for the first time."""
+    out = [
+        "The script is carried out a step at a time. A step is a line that does something, together with the",
+        "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
+    ]
+    width = max(len(command.shown) for command in COMMANDS)
+    for group in dict.fromkeys(command.group for command in COMMANDS):
+        out += ["", group]
+        out += [
+            f"  {command.shown:{width}}  {command.help}" for command in COMMANDS if command.group == group
+        ]
+    return "\n".join(
+        [
+            *out,
+            "",
+            "PLACE is a line (58; pins.al:3 in a file that is required), a label (L1), an instruction (AOJ), a",
+            "stage or the beginning of its name, or an error (error:23). WHAT is one of",
+            f"    {', '.join(TOPICS)}.",
+            "Numbers are inches and degrees, forces ounces. On a terminal an empty line says the last step, stage",
+            "or continue again.",
+        ]
+    )
+
+
+def _help(_: DebugSession, rest: str) -> CommandResult:
+    if not rest:
+        return CommandResult(said=manual())
+    name = find(rest.partition(" ")[0])[0].name
+    return CommandResult(
+        said="\n".join(f"{each.shown}: {each.help}" for each in COMMANDS if each.name == name)
+    )
+
+
+_GOING, _BACK, _BREAKS, _LOOKING = "Going on", "Going back in time", "Stopping", "Looking"
+_TRYING, _CALLED, _LEAVING = "Trying something else", "When the operator is called", "Keeping and leaving"
+
+COMMANDS: Final = (
+    Command(
+        usage="step [N]", short="s", group=_GOING, act=acts.step, repeats=True,
+        help="do the next step, or the next N",
+    ),
+    Command(
+        usage="stage", short="n", group=_GOING, act=acts.stage, repeats=True,
+        help="go on to the end of the stage",
+    ),
+    Command(
+        usage="continue", short="c", group=_GOING, act=acts.go_on, repeats=True,
+        help="go on to a break, to the operator or to the end",
+    ),
+    Command(
+        usage="until PLACE", short="u", group=_GOING, act=acts.until,
+        help="go on to a place, if no break comes first",
+    ),
+    Command(
+        usage="back [N]", short="b", group=_BACK, act=acts.back,
+        help="undo the last step, or the last N: arm, parts and program are as they were",
+    ),
+    Command(
+        usage="back stage", short="bs", group=_BACK, act=acts.back,
+        help="to the beginning of this stage or, if nothing of it is done, of the one before",
+    ),
+    Command(
+        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="stop there whenever the run comes by"
+    ),
+    Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="tell which are set, and their numbers"),
+    Command(usage="delete N", group=_BREAKS, act=acts.delete, help="take away the break with that number"),
+    Command(
+        usage="list [LINE]", short="l", group=_LOOKING, act=acts.script,
+        help="the script around where the run stands, or around a line",
+    ),
+    Command(
+        usage="show [WHAT]", short="p", group=_LOOKING, act=acts.look,
+        help="what there is to see: all of it, or one thing",
+    ),
+    Command(
+        usage="picture FILE", group=_LOOKING, act=acts.picture,
+        help="write the last picture, with what was found in it, to a new PNG file",
+    ),
+    Command(
+        usage="set saved NAME x y z", group=_TRYING, act=acts.experiment,
+        help="give a saved difference a value of your own",
+    ),
+    Command(
+        usage="set position NAME x y z [o a t]", group=_TRYING, act=acts.experiment,
+        help="teach a position anew, in the frame that `show positions` tells",
+    ),
+    Command(
+        usage="proceed", group=_CALLED, act=acts.answer("proceed"), help="go on behind the step that called"
+    ),
+    Command(
+        usage="retry", group=_CALLED, act=acts.answer("retry"),
+        help="go on with the first step of the stage, the world as it is now",
+    ),
+    Command(usage="skip", group=_CALLED, act=acts.answer("skip"), help="leave out the rest of the stage"),
+    Command(usage="abort", group=_CALLED, act=acts.abort, help="end the run"),
+    Command(
+        usage="checkpoint [FILE]", group=_LEAVING, act=acts.checkpoint,
+        help="keep this state, for `handeye resume`",
+    ),
+    Command(usage="quit", short="q", group=_LEAVING, act=acts.leave, help="keep this state and leave"),
+    Command(usage="help [COMMAND]", short="h", group=_LEAVING, act=_help, help="say this, or of one command"),
+)  # fmt: skip
+
+_SHORT: Final = {
+    "?": "help",
+    "exit": "quit",
+    **{c.short: " ".join(filter(str.islower, c.usage.split())) for c in COMMANDS if c.short},
+}
+"""What short words stand for."""
+_ELSEWHERE: Final = {"run": "continue", "go": "continue", "next": "step", "print": "show", "info": "show"}
+"""What other debuggers call the commands."""

@@ -1,0 +1,223 @@
+"""What the commands of the stepper do to a run in hand; each is given what stands behind its word."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Final
+
+from msgspec import UNSET
+
+from handeye.debugger.breakpoints import ToStage, breakpoint
+from handeye.debugger.experiments import set_position, set_saved
+from handeye.debugger.reply import Break, CommandResult
+from handeye.debugger.session import DebugSession
+from handeye.debugger.source_places import named_place, text_of
+from handeye.debugger.views import show, write_picture
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.execution.executor import Choice
+from handeye.files import check_place
+from handeye.runs.advance import Pause
+from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
+from handeye.runs.runner import reach
+
+WIDE: Final = 8
+"""Lines that `list` tells before and behind a line."""
+
+# -- going on -------------------------------------------------------------------------------------------
+
+
+def step(hands: DebugSession, rest: str) -> CommandResult:
+    """Do so many steps."""
+    count = _count(rest, "step takes a number from 1 up")
+    pause = hands.go(steps=count)
+    as_asked = pause.kind == "break" and pause.sentence.startswith(f"{count} step")
+    return CommandResult(pause=pause, source=hands.source()) if as_asked else _told(hands, pause)
+
+
+def stage(hands: DebugSession, _: str) -> CommandResult:
+    """Go on to the end of the stage."""
+    present = hands.stage
+    return _told(hands, hands.go([] if present is None else [ToStage(present)]))
+
+
+def go_on(hands: DebugSession, _: str) -> CommandResult:
+    """Go on to a break."""
+    return _told(hands, hands.go())
+
+
+def until(hands: DebugSession, rest: str) -> CommandResult:
+    """Go on to a place."""
+    return _told(hands, hands.go([breakpoint(rest, hands.runner.setup.plan)]))
+
+
+def _told(hands: DebugSession, pause: Pause) -> CommandResult:
+    """How far a command came, and why no farther."""
+    said = hands.at_its_end() or pause.sentence
+    if pause.kind == "panic":
+        said += "; the step that was broken off is undone"
+    return CommandResult(pause=pause, source=hands.source(), said=said)
+
+
+def _count(text: str, expected: str) -> int:
+    if not text:
+        return 1
+    if not re.fullmatch(r"0*[1-9][0-9]{0,6}", text):
+        raise InvalidInput(f"{expected}; {quoted(text)} is none")
+    return int(text)
+
+
+# -- going back -----------------------------------------------------------------------------------------
+
+
+def back(hands: DebugSession, rest: str) -> CommandResult:
+    """Be again where a step, some steps or a stage had not been done."""
+    done = hands.runner.position
+    if rest.casefold() == "stage":
+        position = hands.stage_began()
+    else:
+        position = done - _count(rest, "back takes a number from 1 up, or `stage`")
+    if position is None or not done:
+        raise InvalidInput("this is the beginning; nothing lies before it")
+    first = hands.first()
+    if position < first:
+        raise InvalidInput(
+            reach(first) if first else f"only {done} step{'' if done == 1 else 's'} can be gone back"
+        )
+    hands.back_to(position)
+    undone = done - position
+    return CommandResult(source=hands.source(), said=f"{undone} step{'' if undone == 1 else 's'} undone")
+
+
+# -- breaks ---------------------------------------------------------------------------------------------
+
+
+def set_break(hands: DebugSession, rest: str) -> CommandResult:
+    """Set a break."""
+    before = len(hands.breaks)
+    made = hands.add_break(rest)
+    return CommandResult(breaks=(made,), said="it is set already" if len(hands.breaks) == before else UNSET)
+
+
+def breaks(hands: DebugSession, _: str) -> CommandResult:
+    """Tell which are set."""
+    return CommandResult(breaks=tuple(Break(number=n, at=str(stop)) for n, stop in hands.breaks.items()))
+
+
+def delete(hands: DebugSession, rest: str) -> CommandResult:
+    """Take a break away."""
+    there = f"those that are set: {', '.join(map(str, hands.breaks)) or 'none'}"
+    if not re.fullmatch(r"[0-9]{1,7}", rest):
+        wrong = f"; {quoted(rest)} is none" if rest else ""
+        raise InvalidInput(f"delete takes the number of a break{wrong}; {there}")
+    if int(rest) not in hands.breaks:
+        raise InvalidInput(f"no break has the number {int(rest)}; {there}")
+    del hands.breaks[int(rest)]
+    return breaks(hands, "")
+
+
+# -- looking --------------------------------------------------------------------------------------------
+
+
+def script(hands: DebugSession, rest: str) -> CommandResult:
+    """Tell the script around a line."""
+    if not rest:
+        return CommandResult(source=hands.source(None, WIDE))
+    file, line = named_place(rest, hands.program) or ("", 0)
+    last = text_of(hands.program, file).removesuffix("\n").count("\n") + 1
+    if not 1 <= line <= last:
+        raise InvalidInput(f"list takes a line from 1 to {last}; {quoted(rest)} is none")
+    return CommandResult(source=hands.source((file, line), WIDE))
+
+
+def look(hands: DebugSession, rest: str) -> CommandResult:
+    """Show what there is to see."""
+    return CommandResult(show=show(hands.runner, rest, hands.pictures))
+
+
+def picture(hands: DebugSession, rest: str) -> CommandResult:
+    """Write the last picture to a file that is not there yet."""
+    if not rest:
+        raise InvalidInput("picture takes the name of a file to write")
+    path = _file(rest)
+    if path.exists():
+        raise InvalidInput(f"{path} is there already; it is left alone")
+    name = write_picture(hands.runner, path)
+    return CommandResult(file=str(path), said=f"{name}, in {path}")
+
+
+# -- interfering ----------------------------------------------------------------------------------------
+
+
+def experiment(hands: DebugSession, rest: str) -> CommandResult:
+    """Give what the program remembers another value."""
+    kind, _, values = rest.partition(" ")
+    act = {"saved": set_saved, "position": set_position}.get(kind.casefold())
+    if act is None:
+        raise InvalidInput("an experiment is `set saved NAME x y z` or `set position NAME x y z [o a t]`")
+    if hands.runner.trouble is not None:
+        raise InvalidInput("nothing can be tried from here; go back first")
+    act(hands.runner, values)
+    return CommandResult()
+
+
+def answer(choice: Choice) -> Callable[[DebugSession, str], CommandResult]:
+    """Answer for the operator."""
+
+    def act(hands: DebugSession, _: str) -> CommandResult:
+        _check_called(hands, choice)
+        hands.runner.answer(choice)
+        return _told(hands, hands.pause) if hands.runner.ended else CommandResult(source=hands.source())
+
+    return act
+
+
+def abort(hands: DebugSession, _: str) -> CommandResult:
+    """End the run where the operator was called."""
+    _check_called(hands, "abort")
+    hands.over = True
+    return CommandResult(said="the run ends here")
+
+
+def _check_called(hands: DebugSession, word: str) -> None:
+    if not hands.runner.called:
+        raise InvalidInput(f"`{word}` is for when the operator is called, and nobody has called")
+
+
+# -- keeping and leaving --------------------------------------------------------------------------------
+
+
+def checkpoint(hands: DebugSession, rest: str) -> CommandResult:
+    """Keep the present state."""
+    if rest:
+        path = _file(rest)
+        check_place(path, CHECKPOINT)
+        write_checkpoint(path, hands.runner.checkpoint())
+        return CommandResult(file=str(path), said=f"kept in {path}")
+    kept = hands.keep(hands.runner.checkpoint())
+    if kept is None:
+        raise InvalidInput("the checkpoints of this run are kept nowhere; name a file")
+    return CommandResult(file=str(kept), said=f"kept in {kept}")
+
+
+def _file(name: str) -> Path:
+    """Raises InvalidInput for a name that no file can have."""
+    try:
+        path = Path(name).expanduser()
+        path.exists()
+    except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
+        raise InvalidInput(f"{quoted(name)} cannot be a file's name") from None
+    return path
+
+
+def leave(hands: DebugSession, _: str) -> CommandResult:
+    """Keep the present state, and end."""
+    hands.over = True
+    if hands.runner.ended and not hands.runner.called:
+        return CommandResult(said="nothing is left to go on with")
+    if hands.idle:
+        return CommandResult(said="nothing was done, so that nothing is kept")
+    path = hands.keep(hands.runner.checkpoint())
+    if path is None:
+        return CommandResult(said="nothing is kept")
+    return CommandResult(file=str(path), said=f"kept in {path}")

@@ -1,0 +1,167 @@
+"""The two faces of an answer: lines of text for people, one line of JSON for programs."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, Final
+
+import msgspec
+from msgspec import UNSET
+
+from handeye.debugger.listing import excerpt_lines, one_line
+from handeye.debugger.reply import CommandResult, Reply
+from handeye.debugger.step_summary import StepSummary
+from handeye.debugger.view_records import (
+    Hand,
+    Joint,
+    PartPose,
+    PartShown,
+    PictureShown,
+    Search,
+    Shown,
+    Taught,
+)
+from handeye.source import line_name
+
+MOST: Final = 24
+"""Lines of deeds that a terminal is told of a long way; all of them are in the trace."""
+STATEMENT: Final = 30
+"""Columns for a statement."""
+
+_encoder = msgspec.json.Encoder()
+_ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in CommandResult.__struct_fields__)
+"""Of the fields of an answer: the command and where the run stands first."""
+
+
+def as_json(reply: Reply) -> str:
+    """The answer as a JSON object on one line."""
+    fields = {name: getattr(reply, name) for name in _ORDER}
+    return _encoder.encode({n: value for n, value in fields.items() if value is not UNSET}).decode()
+
+
+def as_text(reply: Reply, most: int | None = None) -> str:
+    """The answer for people, without the end of its last line; of a long way the last `most` deeds."""
+    if reply.error is not None:
+        return reply.error
+    lines = [*summary_lines(reply.did, most), _standing(reply)]
+    if reply.source is not UNSET:
+        lines += excerpt_lines(reply.source, "■" if reply.step is None else "→")
+    if reply.show is not UNSET:
+        lines += shown_lines(reply.show)
+    if reply.breaks is not UNSET:
+        lines += [f"{each.number:3}  {each.at}" for each in reply.breaks] or ["no breaks are set"]
+    if reply.said is not UNSET:
+        lines.append(reply.said)
+    return "\n".join(lines)
+
+
+def _standing(reply: Reply) -> str:
+    """Where the run stands."""
+    stage = "behind the last stage" if reply.stage is None else f"stage {reply.stage_number}, {reply.stage}"
+    step = "" if reply.step is None else f", step {reply.step}"
+    done = f"{reply.position} step{'' if reply.position == 1 else 's'} done"
+    return f"── {stage}{step}; {done}, {reply.time:.2f} s"
+
+
+def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
+    """What was done, as lines of text; of a long way the last `most`."""
+    left_out = 0 if most is None else max(0, len(did) - most)
+    head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
+    return head + [_deed(deed) for deed in did[left_out:]]
+
+
+def _deed(deed: StepSummary) -> str:
+    if deed.line is None:
+        return f"      — {deed.text}"
+    return f"{line_name(deed.line, deed.file):>5} {deed.text:{STATEMENT}} {deed.outcome}".rstrip()
+
+
+# -- what is shown --------------------------------------------------------------------------------------
+
+
+def shown_lines(shown: Shown) -> list[str]:
+    """What was asked to be seen, as lines of text."""
+    lines: list[str] = []
+    for field, (title, tell) in _TITLES.items():
+        value = getattr(shown, field)
+        if value is UNSET:
+            continue
+        told = ["none"] if value is None or value == {} else tell(value)
+        lines += [f"{title if i == 0 else '':10}{line}" for i, line in enumerate(told)]
+    return lines
+
+
+def _vector(values: Sequence[float], places: int) -> str:
+    return "(" + ", ".join(f"{round(x, places) + 0.0:.{places}f}" for x in values) + ")"
+
+
+def _joints(joints: tuple[Joint, ...]) -> list[str]:
+    told = [f"{joint.name} {joint.value:.2f} {joint.unit}" for joint in joints]
+    return [", ".join(told[:3]), ", ".join(told[3:])]
+
+
+def _hand(hand: Hand) -> list[str]:
+    return [f"at {_vector(hand.at_in, 3)} in, O A T {_vector(hand.angles_deg, 2)} deg"]
+
+
+def _force(force: Sequence[float]) -> list[str]:
+    return [f"the hand presses with {_vector(force, 1)} oz, as last estimated"]
+
+
+def _switches(switches: tuple[bool, bool]) -> list[str]:
+    return [", ".join("closed" if switch else "open" for switch in switches)]
+
+
+def _search(search: Search) -> list[str]:
+    return [f"place {search.place} of {search.places}, {_vector(search.offset_in, 2)} in from the first"]
+
+
+def _named(table: dict[str, tuple[float, ...]]) -> list[str]:
+    width = max(map(len, table))
+    return [f"{name:{width}}  {_vector(value, 3)} in" for name, value in table.items()]
+
+
+def _parts(parts: dict[str, PartShown]) -> list[str]:
+    width = max(map(len, parts))
+    lines = []
+    for name, part in parts.items():
+        lines.append(f"{name:{width}}  planned  {_pose(part.planned)}")
+        for how, pose in (("measured", part.measured), ("is off", part.difference)):
+            if pose is not None:
+                lines.append(f"{'':{width}}  {how:8} {_pose(pose)}")
+    return lines
+
+
+def _pose(pose: PartPose) -> str:
+    return f"{_vector(pose.at_in, 3)} in, {pose.yaw_deg:.2f} deg"
+
+
+def _picture(picture: PictureShown) -> list[str]:
+    return [picture.name if picture.file is None else f"{picture.name}, in {picture.file}"]
+
+
+def _positions(positions: dict[str, Taught]) -> list[str]:
+    width = max(map(len, positions))
+    lines = []
+    for name, taught in positions.items():
+        where = "" if taught.of is None else f" of {taught.of}"
+        moved = ", defined anew" if taught.moved else ""
+        angles = _vector(taught.at[3:], 1)
+        lines.append(f"{name:{width}}  {_vector(taught.at[:3], 3)} in, {angles} deg{where}{moved}")
+    return lines
+
+
+_TITLES: Final[dict[str, tuple[str, Callable[[Any], list[str]]]]] = {
+    "time_s": ("time", lambda seconds: [f"{seconds:.2f} s"]),
+    "joints": ("joints", _joints),
+    "hand": ("hand", _hand),
+    "force_oz": ("force", _force),
+    "gap_in": ("gap", lambda gap: [f"{gap:.3f} in"]),
+    "switches": ("switches", _switches),
+    "error": ("error", lambda error: [f"{error.number}: {one_line(error.sentence)}"]),
+    "saved_in": ("saved", _named),
+    "restored_in": ("restored", _named),
+    "search": ("search", _search),
+    "parts": ("parts", _parts),
+    "picture": ("picture", _picture),
+    "positions": ("positions", _positions),
+}
+"""Of each field: its title, and how to tell it."""

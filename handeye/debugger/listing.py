@@ -1,0 +1,151 @@
+"""The program to look at: its stages and steps, its labels, and the source around a line."""
+
+from typing import Final
+
+from handeye.al.definition import Role
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.macros import expand
+from handeye.al.parser import parse_whole
+from handeye.al.syntax import Statement
+from handeye.debugger.source_places import Place, text_of
+from handeye.planfile.plan import Plan
+from handeye.program.program import Program, Record
+from handeye.source import Source, line_name
+
+_NO_STEP: Final = (Role.MODIFIER, Role.SHIFT, Role.DECLARATION)
+"""What a statement can be that makes no step of its own."""
+
+
+class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """A step, by its number in the plan."""
+
+    step: int
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
+    line: int
+    text: str
+
+
+class ListedStage(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """A stage, by its number from 1."""
+
+    number: int
+    name: str
+    file: str = ""
+    """The required file it begins in; empty: the script itself."""
+    lines: tuple[int, int] | None
+    """First and last line of its steps there, those of macros only if it has no others; None if it has no steps."""
+    steps: tuple[ListedStep, ...]
+
+
+class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """A line of the source, or of a required file."""
+
+    file: str = ""
+    line: int
+    text: str
+    here: bool
+    """The run stands at it."""
+
+
+def listing(plan: Plan) -> tuple[ListedStage, ...]:
+    """The stages of a plan with their steps."""
+    program = plan.program
+    listed: list[list[ListedStep]] = [[] for _ in program.stages]
+    for number, step in enumerate(program.steps):
+        shown = ListedStep(step=number, file=step.file, line=step.line, text=one_line(step.text))
+        listed[step.stage].append(shown)
+    macros = _macro_lines(program)
+    return tuple(
+        _stage(number, name, steps, macros)
+        for number, (name, steps) in enumerate(zip(program.stages, listed, strict=True), 1)
+    )
+
+
+def listing_text(plan: Plan) -> list[str]:
+    """The stages of a plan and their steps as lines of text."""
+    found = listing(plan)
+    width = max(len(stage.name) for stage in found)
+    out = []
+    for stage in found:
+        count = f"{len(stage.steps)} step{'' if len(stage.steps) == 1 else 's'}"
+        where = ""
+        if stage.lines is not None:
+            where = f"  lines {line_name(stage.lines[0], stage.file)} to {stage.lines[1]}"
+        out.append(f"{stage.number:3}  {stage.name:{width}}  {count:>9}{where}".rstrip())
+        places = [line_name(step.line, step.file) for step in stage.steps]
+        column = max([4, *map(len, places)])
+        out += [
+            f"{step.step:10}  line {place:{column}}  {step.text}"
+            for step, place in zip(stage.steps, places, strict=True)
+        ]
+    return out
+
+
+def labels(program: Program) -> dict[str, list[int]]:
+    """The steps that each label stands before; a label in a macro has one for each call."""
+    found: dict[str, list[int]] = {}
+    number = 0
+    for placed in expand(parse_whole(program.whole)[0], lambda _: None):
+        for label in placed.statement.labels:
+            if number < len(program.steps):
+                found.setdefault(label.text, []).append(number)
+        number += _makes_step(placed.statement)
+    return found
+
+
+def excerpt(
+    program: Program, line: int, here: int | None, around: int, file: str = ""
+) -> tuple[SourceLine, ...]:
+    """The source, or a required file, from `around` lines before `line` to as many after it; `here` is marked."""
+    text = text_of(program, file).removesuffix("\n")
+    source, last = Source(name=program.name, text=text), text.count("\n") + 1
+    return tuple(
+        SourceLine(file=file, line=number, text=_printable(source.line(number)), here=number == here)
+        for number in range(max(1, line - around), min(last, line + around) + 1)
+    )
+
+
+def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]:
+    """An excerpt as lines of text, `mark` before the line where the run stands."""
+    width = len(str(lines[-1].line)) if lines else 0
+    head = [f"    {_printable(lines[0].file)}"] if lines and lines[0].file else []
+    return head + [
+        f"{mark if line.here else ' ':>3} {line.line:{width}}  {line.text}".rstrip() for line in lines
+    ]
+
+
+def numbered_stage(program: Program, stage: int) -> str:
+    """`stage 4, insert the aligning pins`."""
+    return f"stage {stage + 1}, {program.stages[stage]}"
+
+
+def one_line(text: str) -> str:
+    """A statement without the blanks that put it in columns."""
+    return _printable(" ".join(text.split()))
+
+
+def _makes_step(statement: Statement) -> bool:
+    if statement.word is None:
+        return False
+    definition = INSTRUCTIONS.get(statement.word.text)
+    return definition is not None and definition.role not in _NO_STEP
+
+
+def _macro_lines(program: Program) -> set[Place]:
+    whole = program.whole
+    macros = parse_whole(whole)[0].macros.values()
+    return {(whole.find(s.span.start)[0].key, s.line) for macro in macros for s in macro.body}
+
+
+def _stage(number: int, name: str, steps: list[ListedStep], macros: set[Place]) -> ListedStage:
+    own = [step for step in steps if (step.file, step.line) not in macros] or steps
+    file = own[0].file if own else ""
+    lines = [step.line for step in own if step.file == file]
+    extent = (min(lines), max(lines)) if lines else None
+    return ListedStage(number=number, name=name, file=file, lines=extent, steps=tuple(steps))
+
+
+def _printable(text: str) -> str:
+    """Text that changes nothing on a terminal but what it shows."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text.expandtabs())

@@ -1,0 +1,59 @@
+"""What the stepper answers to a command, as one plain record: programs read it as JSON, people as text."""
+
+from msgspec import UNSET, UnsetType
+
+from handeye.debugger.listing import SourceLine
+from handeye.debugger.step_summary import StepSummary
+from handeye.debugger.view_records import Shown
+from handeye.events import AnyEvent
+from handeye.program.program import Record
+from handeye.runs.advance import Pause
+
+
+class Break(Record, frozen=True, kw_only=True):
+    """A reason to stop, and the number to delete it by."""
+
+    number: int
+    at: str
+
+
+class CommandResult(Record, frozen=True, kw_only=True):
+    """What a command came to; what it has nothing to say of is left out."""
+
+    said: str | UnsetType = UNSET
+    """A sentence or more."""
+    pause: Pause | None = None
+    """Why the run stands still, if the command made it go."""
+    source: tuple[SourceLine, ...] | UnsetType = UNSET
+    """The script around the line where the run stands, or around one that was asked for."""
+    show: Shown | UnsetType = UNSET
+    breaks: tuple[Break, ...] | UnsetType = UNSET
+    file: str | UnsetType = UNSET
+    """What was written."""
+
+
+class Reply(CommandResult, frozen=True, kw_only=True):
+    """The answer to a command: where the run now stands, and what came of the command."""
+
+    command: str
+    position: int
+    """Steps done since the run began."""
+    time: float
+    """s on the cell's clock."""
+    stage: str | None
+    """The stage under way, or the one about to begin; None behind the last."""
+    stage_number: int | None
+    """From 1."""
+    step: int | None
+    """The step to be done next; None if the run cannot go on by itself."""
+    line: int | None
+    text: str | None
+    """Its statement."""
+    script: str = ""
+    """The required file its line is in; empty: the script itself."""
+    did: tuple[StepSummary, ...] = ()
+    """What was done, in words."""
+    events: tuple[AnyEvent, ...] = ()
+    """What has happened, in full."""
+    error: str | None = None
+    """Why the command was not carried out."""

@@ -1,0 +1,168 @@
+"""A run in somebody's hands: the runner, the breaks that are set, and where states are kept."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
+
+from handeye.debugger.breakpoints import breakpoint
+from handeye.debugger.listing import SourceLine, excerpt
+from handeye.debugger.operator import beginnings
+from handeye.debugger.reply import Break
+from handeye.debugger.source_places import Place
+from handeye.errors import HandeyeError, InvalidInput
+from handeye.events import StepStarted
+from handeye.execution.drive import Halted
+from handeye.program.program import Program
+from handeye.runs.advance import Pause, Stop, advance
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+
+AROUND: Final = 2
+"""Lines of the script that are told before and behind the one where the run stands."""
+
+
+class DebugSession:
+    """What the commands of the stepper act on."""
+
+    def __init__(
+        self,
+        runner: Runner,
+        *,
+        stops: Sequence[Stop] = (),
+        kept: Callable[[int], Checkpoint | None],
+        keep: Callable[[Checkpoint], Path | None],
+        pictures: Path | None,
+    ) -> None:
+        """Take a run in hand.
+
+        Args:
+            stops: reasons to stop besides breaks.
+            kept: the newest checkpoint on disk at a position or before it.
+            keep: writes a checkpoint to where the run's are kept; None: they are kept nowhere.
+            pictures: folder that the last picture is kept in when it is shown; None: nowhere.
+        """
+        self.runner = runner
+        self.stops = stops
+        self.kept = kept
+        self.keep = keep
+        self.pictures = pictures
+        self.breaks: dict[int, Stop] = {}
+        """By their numbers, which are never used twice."""
+        self.over = False
+        self._set = 0
+        self._begun = tuple(runner.events)
+
+    @property
+    def program(self) -> Program:
+        """What is carried out."""
+        return self.runner.setup.plan.program
+
+    @property
+    def idle(self) -> bool:
+        """Nothing has been done, or all of it was undone."""
+        return tuple(self.runner.events) == self._begun
+
+    # -- breaks ---------------------------------------------------------------------------------------
+
+    def add_break(self, text: str) -> Break:
+        """Stop there from now on; a break that is set already stays as it is.
+
+        Raises:
+            InvalidInput: there is no such place.
+        """
+        stop = breakpoint(text, self.runner.setup.plan)
+        number = next((number for number, there in self.breaks.items() if there == stop), None)
+        if number is None:
+            number = self._set = self._set + 1
+            self.breaks[number] = stop
+        return Break(number=number, at=str(stop))
+
+    # -- going ----------------------------------------------------------------------------------------
+
+    def go(self, stops: Sequence[Stop] = (), steps: int | None = None) -> Pause:
+        """Go on to the next of these stops or a break, or so many steps.
+
+        A step that is broken off, by the panic button or because something cannot be written, is undone.
+
+        Raises:
+            InvalidInput: the run cannot go on.
+        """
+        refusal = self.at_its_end()
+        if refusal is not None:
+            raise InvalidInput(refusal)
+        try:
+            pause = advance(self.runner, [*self.stops, *self.breaks.values(), *stops], steps)
+        except HandeyeError:
+            self.runner.undo()
+            raise
+        if pause.kind == "panic":
+            self.runner.undo()
+        return pause
+
+    @property
+    def pause(self) -> Pause:
+        """Why the run stands still now."""
+        if self.runner.ended:
+            return advance(self.runner)  # which then does nothing but say why
+        return Pause(kind="break", sentence="left by hand")
+
+    def at_its_end(self) -> str | None:
+        """Why the run cannot go on by itself; None if it can."""
+        runner = self.runner
+        if not runner.ended:
+            return None
+        if runner.trouble is not None:
+            return f"the run cannot go on from here, only back: {runner.trouble}"
+        if runner.called:
+            return "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
+        return "the program has come to its end: `back` goes back from here, `quit` leaves"
+
+    def back_to(self, position: int) -> None:
+        """Be again where so many steps were done.
+
+        Raises:
+            InvalidInput: no state from so far back was kept, or the panic button was hit while steps were done
+                again on the way there.
+        """
+        try:
+            self.runner.back_to(position, self.kept)
+        except Halted:
+            self.runner.undo()
+            done = self.runner.position
+            raise InvalidInput(
+                f"stopped by hand on the way back to where {position} steps were done; {done} are done"
+            ) from None
+
+    def first(self) -> int:
+        """Steps that were done at the earliest state there is to go back to."""
+        first = self.runner.history[0].position
+        while first > 0 and (before := self.kept(first - 1)) is not None:
+            first = before.position
+        return first
+
+    def stage_began(self) -> int | None:
+        """Where the stage began that is under way or, between two stages, the one before; None before the first."""
+        return next(reversed(beginnings(self.runner).values()), None)
+
+    # -- where it stands ------------------------------------------------------------------------------
+
+    @property
+    def stage(self) -> int | None:
+        """The stage under way or about to begin, by index; None behind the last."""
+        step = self.runner.next
+        present = self.runner.executor.stage
+        return present if present is not None or step is None else step.stage
+
+    @property
+    def place(self) -> Place:
+        """The file and line that come next; at an end, the last that were begun."""
+        step, events = self.runner.next, reversed(self.runner.events)
+        if step is not None:
+            return step.file, step.line
+        return next(((event.file, event.line) for event in events if isinstance(event, StepStarted)), ("", 1))
+
+    def source(self, place: Place | None = None, around: int = AROUND) -> tuple[SourceLine, ...]:
+        """The script around a line, by default around where the run stands."""
+        file, line = place or self.place
+        here = self.place[1] if self.place[0] == file else None
+        return excerpt(self.program, line, here, around, file)

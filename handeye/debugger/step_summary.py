@@ -1,0 +1,81 @@
+"""What was done: a line for each step, with its place in the source and what came of it."""
+
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+from handeye import events as happened
+from handeye.debugger.listing import one_line
+from handeye.events import AnyEvent
+from handeye.program.program import Program, Record
+from handeye.trace.sentences import inches, sentence
+from handeye.units import INCH
+
+_BETWEEN: Final = (happened.StageStarted, happened.OperatorAnswered, happened.ExperimentMade)
+"""What happens between two steps."""
+_SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
+"""What happens in a step and is told otherwise, or not at all."""
+_HAND: Final = ("OPEN", "CLOSE", "CENTER")
+"""Instructions that come to a gap; other actions come to a place."""
+
+
+class StepSummary(Record, frozen=True, kw_only=True):
+    """A step that was done, or something else between two steps."""
+
+    line: int | None
+    """Of the source; None between steps."""
+    file: str = ""
+    """The required file that line is in; empty: the script itself."""
+    text: str
+    outcome: str
+
+
+def step_summaries(events: Iterable[AnyEvent], program: Program) -> tuple[StepSummary, ...]:
+    """What was done in the course of some events, whole steps."""
+    groups: list[list[AnyEvent]] = [[]]
+    for event in events:
+        if isinstance(event, (happened.StepStarted, *_BETWEEN)):
+            groups.append([event])
+        elif not isinstance(event, happened.StageFinished):
+            groups[-1].append(event)
+    return tuple(_deed(group, program) for group in groups[1:])
+
+
+def _deed(group: Sequence[AnyEvent], program: Program) -> StepSummary:
+    first = group[0]
+    if isinstance(first, happened.StepStarted):
+        outcome = _outcome(group, first, program)
+        return StepSummary(line=first.line, file=first.file, text=one_line(first.text), outcome=outcome)
+    return StepSummary(line=None, text=sentence(first), outcome="")
+
+
+def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Program) -> str:
+    """What came of a step."""
+    said = []
+    for event in group:
+        if isinstance(event, happened.ErrorTested):
+            said.append(f"{sentence(event)}: {_onward(event, step, program)}")
+        elif isinstance(event, happened.OperatorCalled) and event.error is not None:
+            said.append("the operator is called")
+        elif not isinstance(event, _SILENT):
+            said.append(sentence(event))
+    busy = sum(event.seconds for event in group if isinstance(event, happened.CameraBusy))
+    if busy:
+        said.append(f"the camera took {busy:.1f} s")
+    return "; ".join(said) or _end(group, step)
+
+
+def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Program) -> str:
+    """Where the program goes on after a test."""
+    tested = program.steps[step.step]
+    onward = getattr(tested.operation, "raised", None) if event.occurred else tested.next
+    return "to the end" if onward is None else f"on at line {program.steps[onward].place}"
+
+
+def _end(group: Sequence[AnyEvent], step: happened.StepStarted) -> str:
+    """Where a step ended of which there is nothing else to say; nothing for one that took no time."""
+    last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
+    if last is None or last.time == step.time:
+        return ""
+    if step.text.upper().startswith(_HAND):
+        return f"gap {last.gap / INCH:.2f} in"
+    return f"hand at {inches(last.hand)}"

@@ -1,0 +1,139 @@
+"""The interactive stepper: a line is a command, its answer a record; a loop gives the answers a face."""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
+
+from handeye.debugger.command_table import find
+from handeye.debugger.formatting import as_json, as_text
+from handeye.debugger.reply import CommandResult, Reply
+from handeye.debugger.session import DebugSession
+from handeye.debugger.step_summary import step_summaries
+from handeye.errors import HandeyeError
+from handeye.runs.advance import Pause, Stop
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+
+
+class Stepper:
+    """Carries out commands on a run."""
+
+    def __init__(
+        self,
+        runner: Runner,
+        *,
+        breaks: Sequence[str] = (),
+        stops: Sequence[Stop] = (),
+        kept: Callable[[int], Checkpoint | None] = lambda _: None,
+        keep: Callable[[Checkpoint], Path | None] = lambda _: None,
+        pictures: Path | None = None,
+    ) -> None:
+        """Take a run in hand.
+
+        Args:
+            breaks: places to stop, as after `break`.
+            stops: other reasons to stop.
+            kept: the newest checkpoint on disk at a position or before it, for going far back.
+            keep: writes a checkpoint to where those of the run are kept; None: they are kept nowhere.
+            pictures: folder that the last picture is kept in when it is shown; None: nowhere.
+
+        Raises:
+            InvalidInput: there is no such place to stop.
+        """
+        self.hands = DebugSession(runner, stops=stops, kept=kept, keep=keep, pictures=pictures)
+        for text in breaks:
+            self.hands.add_break(text)
+        self.repeated: str | None = None
+        """What an empty line on a terminal says again."""
+        self.refused = False
+        """A command was not carried out; those said at the end, of which nobody knows when it comes, do not count."""
+
+    @property
+    def over(self) -> bool:
+        """Somebody has left, or ended the run."""
+        return self.hands.over
+
+    @property
+    def pause(self) -> Pause:
+        """Why the run stands still now."""
+        return self.hands.pause
+
+    def do(self, line: str) -> Reply:
+        """Carry out a command; one that is wrong changes nothing."""
+        line = line.strip()
+        happened = len(self.hands.runner.events)
+        try:
+            command, rest = find(line)
+            self.repeated = line if command.repeats else None
+            told = command.act(self.hands, rest)
+        except HandeyeError as error:
+            self.refused |= str(error) != self.hands.at_its_end()
+            return self._reply(line, CommandResult(), happened, error=str(error))
+        return self._reply(line, told, happened)
+
+    def standing(self) -> Reply:
+        """Where the run stands, before anything is said."""
+        runner = self.hands.runner
+        said = (
+            f"{self.hands.program.name}, {len(self.hands.program.steps)} steps; `help` tells what can be said"
+        )
+        refusal = self.hands.at_its_end()
+        told = CommandResult(source=self.hands.source(), said=refusal or said)
+        return self._reply("", told, len(runner.events))
+
+    def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
+        """The answer, with what has happened behind the first `happened` events."""
+        hands = self.hands
+        runner, step, stage = hands.runner, hands.runner.next, hands.stage
+        events = runner.events[happened:]
+        return Reply(
+            command=line,
+            position=runner.position,
+            time=runner.run.time,
+            stage=None if stage is None else hands.program.stages[stage],
+            stage_number=None if stage is None else stage + 1,
+            step=runner.executor.at,
+            script="" if step is None else step.file,
+            line=None if step is None else step.line,
+            text=None if step is None else step.text,
+            did=step_summaries(events, hands.program),
+            events=tuple(events),
+            error=error,
+            **{name: getattr(told, name) for name in CommandResult.__struct_fields__},
+        )
+
+
+def interact(
+    stepper: Stepper,
+    lines: Iterator[str],
+    write: Callable[[str], None],
+    *,
+    json: bool = False,
+    prompt: bool = False,
+    most: int | None = None,
+) -> Pause:
+    """Carry out a command a line until somebody leaves; the end of the lines is taken for `quit`.
+
+    Args:
+        write: puts out lines of text; the end of the last one is not in them.
+        json: answer each command with one JSON object on one line, and say nothing else.
+        prompt: somebody is asked for each line: an empty one says again what last made the run go.
+        most: deeds that are told of a long way; None: all.
+
+    Returns:
+        Why the run stands still.
+    """
+    face = as_json if json else partial(as_text, most=most)
+    if not json:
+        write(face(stepper.standing()))
+    while not stepper.over:
+        line = next(lines, "quit")
+        if not line.strip():
+            if not prompt or stepper.repeated is None:
+                continue
+            line = stepper.repeated
+        reply = stepper.do(line)
+        write(face(reply))
+        if reply.pause is not None and reply.pause.kind == "panic" and not prompt:
+            return reply.pause  # nobody is there to say whether the next line still holds
+    return stepper.pause

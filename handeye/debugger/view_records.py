@@ -1,0 +1,89 @@
+"""What can be seen of a run that stands still, as plain records in inches, degrees and ounces."""
+
+from msgspec import UNSET, UnsetType
+
+from handeye.program.program import Record, Vector
+
+Six = tuple[float, float, float, float, float, float]
+
+
+class Joint(Record, frozen=True, kw_only=True):
+    """Where a joint is."""
+
+    name: str
+    value: float
+    unit: str
+    """`deg` or `in`."""
+
+
+class Hand(Record, frozen=True, kw_only=True):
+    """Where the hand is, in W; the angles are O, A, T."""
+
+    at_in: Vector
+    angles_deg: Vector
+
+
+class Error(Record, frozen=True, kw_only=True):
+    """An error that the next step tests."""
+
+    number: int
+    sentence: str
+
+
+class Search(Record, frozen=True, kw_only=True):
+    """A search under way; places count from 1."""
+
+    place: int
+    places: int
+    offset_in: tuple[float, float]
+
+
+class PartPose(Record, frozen=True, kw_only=True):
+    """Where a part is, upright in W."""
+
+    at_in: Vector
+    yaw_deg: float
+
+
+class PartShown(Record, frozen=True, kw_only=True):
+    """Where a part was planned to be, where it was measured, and measured less planned."""
+
+    planned: PartPose
+    measured: PartPose | None
+    difference: PartPose | None
+
+
+class Taught(Record, frozen=True, kw_only=True):
+    """A position in the frame it was taught in: x, y, z (in), O, A, T (deg)."""
+
+    at: Six
+    of: str | None
+    moved: bool
+    """Put elsewhere by `HERE`, or for an experiment."""
+
+
+class PictureShown(Record, frozen=True, kw_only=True):
+    """The last picture, with what was found in it."""
+
+    name: str
+    file: str | None
+
+
+class Shown(Record, frozen=True, kw_only=True):
+    """What somebody asked to see; the rest is left out."""
+
+    time_s: float | UnsetType = UNSET
+    joints: tuple[Joint, ...] | UnsetType = UNSET
+    hand: Hand | UnsetType = UNSET
+    force_oz: Vector | UnsetType = UNSET
+    """What the hand exerts on the world, as estimated when it was last asked for, in W."""
+    gap_in: float | UnsetType = UNSET
+    switches: tuple[bool, bool] | UnsetType = UNSET
+    """Of the fingers on the +y and the -y side of the hand."""
+    error: Error | UnsetType | None = UNSET
+    saved_in: dict[str, Vector] | UnsetType = UNSET
+    restored_in: dict[str, Vector] | UnsetType = UNSET
+    search: Search | UnsetType | None = UNSET
+    parts: dict[str, PartShown] | UnsetType = UNSET
+    picture: PictureShown | UnsetType | None = UNSET
+    positions: dict[str, Taught] | UnsetType = UNSET

@@ -1,0 +1,200 @@
+"""Looking at a run that stands still: what the arm's own sensors say, and what the program remembers."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from handeye.debugger.breakpoints import nearest
+from handeye.debugger.view_records import (
+    Error,
+    Hand,
+    Joint,
+    PartPose,
+    PartShown,
+    PictureShown,
+    Search,
+    Shown,
+    Taught,
+)
+from handeye.diagnostics import quoted
+from handeye.errors import ERRORS, InvalidInput
+from handeye.events import PictureTaken
+from handeye.files import write_whole
+from handeye.pose import Array, Pose, hand_angles, yaw
+from handeye.program.program import Vector
+from handeye.program.world_model import planned_pose
+from handeye.report.pictures import annotated_png
+from handeye.runs.runner import Runner
+from handeye.units import DEGREE, INCH, OUNCE_FORCE
+
+
+def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
+    """What there is to see.
+
+    Args:
+        what: topics, or their beginnings, one behind the other; all but `positions` if empty.
+        pictures: folder that the last picture goes to as a file; None: nothing is written.
+
+    Raises:
+        InvalidInput: no such topic, or the picture cannot be written.
+    """
+    names = [_topic(word) for word in what.split()] or [name for name in TOPICS if name != "positions"]
+    fields: dict[str, Any] = {}
+    for name in names:
+        field, look = TOPICS[name]
+        fields[field] = look(runner)
+    last = fields.get("picture")
+    if last is not None and pictures is not None:
+        fields["picture"] = _kept(runner, last.name, pictures)
+    return Shown(**fields)
+
+
+def write_picture(runner: Runner, file: Path) -> str:
+    """Write the last picture, with what was found in it, as a PNG file; its name in the program.
+
+    Raises:
+        InvalidInput: none was taken yet, or the file cannot be written.
+    """
+    last = _picture(runner)
+    if last is None:
+        raise InvalidInput("the program has taken no picture yet")
+    write_whole(file, annotated_png(runner.run, last.name))
+    return last.name
+
+
+def _topic(what: str) -> str:
+    found = [name for name in TOPICS if name.startswith(what.casefold())]
+    if what.casefold() not in TOPICS and len(found) != 1:
+        meant = nearest(what, TOPICS) or f"; there are {', '.join(TOPICS)}"
+        raise InvalidInput(f"there is no {quoted(what)} to show{meant}")
+    return found[0]
+
+
+# -- by the sensors -------------------------------------------------------------------------------------
+
+
+def _joints(runner: Runner) -> tuple[Joint, ...]:
+    unit = {"revolute": ("deg", DEGREE), "prismatic": ("in", INCH)}
+    return tuple(
+        Joint(name=joint.name, value=_round(q / unit[joint.kind][1]), unit=unit[joint.kind][0])
+        for joint, q in zip(runner.arm.joints, runner.run.drive.sensed.q, strict=True)
+    )
+
+
+def _hand(runner: Runner) -> Hand:
+    X_WT = runner.run.drive.hand()
+    return Hand(at_in=_inches(X_WT[:3, 3]), angles_deg=_three(np.array(hand_angles(X_WT)) / DEGREE))
+
+
+def _force(runner: Runner) -> Vector:
+    return _three(-runner.run.drive.wrench[:3] / OUNCE_FORCE)
+
+
+# -- remembered -----------------------------------------------------------------------------------------
+
+
+def _error(runner: Runner) -> Error | None:
+    fault = runner.executor.pending
+    if fault is None:
+        return None
+    sentence = ERRORS.get(fault.number, "unknown")
+    return Error(number=fault.number, sentence=sentence + (f" ({fault.detail})" if fault.detail else ""))
+
+
+def _search(runner: Runner) -> Search | None:
+    search = runner.run.search
+    if search is None:
+        return None
+    x, y = search.offset()
+    return Search(place=search.count + 1, places=search.limit, offset_in=(_round(x / INCH), _round(y / INCH)))
+
+
+def _parts(runner: Runner) -> dict[str, PartShown]:
+    world = runner.run.world
+    shown = {}
+    for name, part in world.parts.items():
+        planned, measured = planned_pose(part), world.measured.get(name)
+        shown[name] = PartShown(
+            planned=_pose(planned),
+            measured=None if measured is None else _pose(measured),
+            difference=None if measured is None else _difference(measured, planned),
+        )
+    return shown
+
+
+def _pose(X_WP: Pose) -> PartPose:
+    return PartPose(at_in=_inches(X_WP[:3, 3]), yaw_deg=_round(yaw(X_WP) / DEGREE))
+
+
+def _difference(measured: Pose, planned: Pose) -> PartPose:
+    turn = math.remainder(yaw(measured) - yaw(planned), 2 * math.pi)
+    return PartPose(at_in=_inches(measured[:3, 3] - planned[:3, 3]), yaw_deg=_round(turn / DEGREE))
+
+
+def _positions(runner: Runner) -> dict[str, Taught]:
+    world = runner.run.world
+    shown = {}
+    for name, taught in world.positions.items():
+        position = world.moved.get(name, taught)
+        x, y, z = _inches(np.array(position.at[:3]))
+        o, a, t = _three(np.array(position.at[3:]) / DEGREE)
+        shown[name] = Taught(at=(x, y, z, o, a, t), of=position.of, moved=name in world.moved)
+    return shown
+
+
+def _picture(runner: Runner) -> PictureShown | None:
+    taken = (event.picture for event in reversed(runner.events) if isinstance(event, PictureTaken))
+    name = next(taken, None)
+    return None if name is None else PictureShown(name=name, file=None)
+
+
+def _kept(runner: Runner, name: str, folder: Path) -> PictureShown:
+    """The last picture among those of the run."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+    file = folder / f"{name.lower()}.png"
+    write_picture(runner, file)
+    return PictureShown(name=name, file=str(file))
+
+
+# -- figures --------------------------------------------------------------------------------------------
+
+
+def _round(x: float) -> float:
+    return round(float(x), 4) + 0.0
+
+
+def _three(values: Array) -> Vector:
+    x, y, z = (_round(value) for value in values)
+    return x, y, z
+
+
+def _inches(p: Array) -> Vector:
+    return _three(p / INCH)
+
+
+def _named(table: dict[str, Array]) -> dict[str, Vector]:
+    return {name: _inches(difference) for name, difference in sorted(table.items())}
+
+
+TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
+    "time": ("time_s", lambda runner: runner.run.time),
+    "joints": ("joints", _joints),
+    "hand": ("hand", _hand),
+    "force": ("force_oz", _force),
+    "gap": ("gap_in", lambda runner: _round(runner.run.drive.sensed.gap / INCH)),
+    "switches": ("switches", lambda runner: tuple(map(bool, runner.run.drive.sensed.touch))),
+    "error": ("error", _error),
+    "saved": ("saved_in", lambda runner: _named(runner.run.saved)),
+    "restored": ("restored_in", lambda runner: _named(runner.run.restored)),
+    "search": ("search", _search),
+    "parts": ("parts", _parts),
+    "picture": ("picture", _picture),
+    "positions": ("positions", _positions),
+}
+"""What can be asked for: the field of the answer, and how to look."""

@@ -1,1 +1,0 @@
-"""Programming by doing: functions carried out one at a time, and positions taught by moving the arm."""

@@ -1,0 +1,216 @@
+"""What happened, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
+
+from typing import Literal
+
+import msgspec
+
+from handeye.program.program import Record
+from handeye.source import line_name
+
+
+class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
+    """Base of the events; `time` is the cell's clock in seconds."""
+
+    time: float
+
+
+class RunStarted(Event, frozen=True, kw_only=True):
+    """The working phase begins; all that the events after it depend on, but for what the operator does."""
+
+    program: str
+    steps: int
+    plan: str
+    """Digest of the plan."""
+    arm: str
+    arm_digest: str
+    seed: int
+    camera: str
+    """How pictures are made."""
+    versions: dict[str, str]
+
+
+class StageStarted(Event, frozen=True, kw_only=True):
+    """A stage begins."""
+
+    stage: str
+
+
+class StageFinished(Event, frozen=True, kw_only=True):
+    """A stage ended."""
+
+    stage: str
+    status: Literal["done", "stopped", "skipped"]
+
+
+class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
+    """A step begins; `line` and `text` are the source's, or those of a required file."""
+
+    step: int
+    file: str = ""
+    line: int
+    text: str
+
+    @property
+    def place(self) -> str:
+        """Its line, as people are told: `12`, or `pins.al:12`."""
+        return line_name(self.line, self.file)
+
+
+class StepFinished(Event, frozen=True, kw_only=True):
+    """A step ended; where the hand is by the arm's own sensors (m), and the finger gap (m)."""
+
+    step: int
+    hand: tuple[float, float, float]
+    planned: tuple[float, float, float] | None
+    """Where a motion was planned to end (m); a guard or a measured world ends it elsewhere."""
+    gap: float
+
+
+class Adjusted(Event, frozen=True, kw_only=True):
+    """A goal was moved off its planned value before the motion began: by how much (m)."""
+
+    goal: str
+    shift: tuple[float, float, float]
+
+
+class GuardTripped(Event, frozen=True, kw_only=True):
+    """A guard ended a motion."""
+
+    guard: str
+    value: float
+    limit: float
+
+
+class ErrorRaised(Event, frozen=True, kw_only=True):
+    """An action raised an error."""
+
+    number: int
+    detail: str
+
+
+class ErrorTested(Event, frozen=True, kw_only=True):
+    """The program asked for an error; `occurred` is the answer."""
+
+    number: int
+    occurred: bool
+
+
+class SearchAdvanced(Event, frozen=True, kw_only=True):
+    """The search goes on to its place number `count` (0 is the first)."""
+
+    count: int
+    offset: tuple[float, float]
+
+
+class Saved(Event, frozen=True, kw_only=True):
+    """A difference was saved (m)."""
+
+    name: str
+    difference: tuple[float, float, float]
+
+
+class HandTold(Event, frozen=True, kw_only=True):
+    """WHERE: x, y, z (m) of the hand and its angles O, A, T (rad), by the arm's own sensors."""
+
+    at: tuple[float, float, float, float, float, float]
+
+
+class PositionDefined(Event, frozen=True, kw_only=True):
+    """HERE: a position is now x, y, z (m), O, A, T (rad), by the arm's own sensors; relative to the part if `of`."""
+
+    name: str
+    at: tuple[float, float, float, float, float, float]
+    of: str | None
+
+
+class Restored(Event, frozen=True, kw_only=True):
+    """A saved difference was added to a goal (m)."""
+
+    name: str
+    goal: str
+    difference: tuple[float, float, float]
+
+
+class PictureTaken(Event, frozen=True, kw_only=True):
+    """A picture was taken through a lens (focal length in m)."""
+
+    picture: str
+    lens: float
+
+
+class PartSeen(Event, frozen=True, kw_only=True):
+    """Vision measured a part: x, y (m) and yaw (rad), or no yaw from a general look."""
+
+    part: str
+    x: float
+    y: float
+    yaw: float | None
+
+
+class PartInspected(Event, frozen=True, kw_only=True):
+    """Vision compared two pictures."""
+
+    part: str
+    ok: bool
+    sentence: str
+
+
+class CameraBusy(Event, frozen=True, kw_only=True):
+    """The camera's mechanism needed this long (s)."""
+
+    action: str
+    seconds: float
+
+
+class OperatorCalled(Event, frozen=True, kw_only=True):
+    """Brakes are set and the operator is told."""
+
+    message: str
+    error: int | None
+
+
+class OperatorAnswered(Event, frozen=True, kw_only=True):
+    """What the operator chose after a stop, and the step the program goes on with (None: it ends)."""
+
+    choice: Literal["proceed", "retry", "skip"]
+    step: int | None
+
+
+class ExperimentMade(Event, frozen=True, kw_only=True):
+    """Somebody at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
+
+    what: Literal["saved", "position"]
+    name: str
+    value: tuple[float, ...]
+
+
+class PanicStopped(Event, frozen=True, kw_only=True):
+    """The operator hit the panic button: drives off, brakes set, at this servo period."""
+
+
+class WentBack(Event, frozen=True, kw_only=True):
+    """Everything after the first `events` events is undone. In a journal only; a trace leaves out what is undone."""
+
+    events: int
+    why: Literal["back", "resumed"]
+
+
+class RunFinished(Event, frozen=True, kw_only=True):
+    """The working phase ended."""
+
+    completed: bool
+
+
+AnyEvent = (
+    RunStarted | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted | GuardTripped
+    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
+    | PictureTaken | PartSeen | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered
+    | ExperimentMade | PanicStopped | WentBack | RunFinished
+)  # fmt: skip
+
+_encoder = msgspec.json.Encoder()
+
+
+def to_line(event: Event) -> bytes:
+    """The event as one line of JSON."""
+    return _encoder.encode(event) + b"\n"

@@ -1,0 +1,252 @@
+"""Motions of the arm and the hand: what each operation does in the working phase."""
+
+from typing import Final
+
+import numpy as np
+
+from handeye import errors
+from handeye.arm.kinematics import IKResult, forward
+from handeye.arm.trajectory import Trajectory, four_three_four
+from handeye.events import Adjusted, GuardTripped, Restored
+from handeye.execution.compliance import Course
+from handeye.execution.drive import Outcome
+from handeye.execution.state import ExecutionState, Fault, vector
+from handeye.planning.motions import (
+    Unreachable,
+    change_samples,
+    change_speed,
+    complies,
+    directions,
+    move_trajectory,
+    turn_samples,
+)
+from handeye.ports.ports import TICK
+from handeye.pose import Array, Pose, translated
+from handeye.program.program import (
+    Center,
+    Change,
+    Close,
+    Move,
+    Open,
+    Stop,
+    Travel,
+    Turn,
+    Vector,
+)
+from handeye.program.raises import unmet
+from handeye.touch.centring import Centring
+from handeye.touch.guards import (
+    AgainstGuard,
+    AnyGuard,
+    ForceGuard,
+    Guard,
+    MomentGuard,
+    TorqueGuard,
+    TouchGuard,
+)
+from handeye.touch.hold import at_least, within
+from handeye.units import INCH
+
+HAND_SPEED: Final = 0.05
+"""Speed of the finger gap when nothing is between them, m/s; the hand does .08 free (data sheet of 1974)."""
+CENTRE_SPEED: Final = 0.5 * INCH
+"""Speed of CENTER, m/s of gap."""
+GRASP_TICKS: Final = 20
+"""Periods the fingers press before the gap is read."""
+PLAN_TOLERANCE: Final = 1e-4
+"""A goal or start nearer than this (m, rad) to its planned value is run as planned."""
+
+__all__ = ["center", "change", "close", "move", "open_hand", "travel", "turn"]
+
+
+def move(run: ExecutionState, number: int, operation: Move) -> Fault | None:
+    """Move to a position by its measured place, shifted by what was saved and by the search."""
+    X_WT = run.world.position(operation.goal)
+    run.restored = {}
+    for restore in operation.restore:
+        difference = run.saved.get(restore.name, np.zeros(3)).copy()
+        if restore.level:
+            difference[2] = 0.0
+        X_WT = translated(X_WT, difference)
+        run.restored[restore.name] = difference
+        run.emit(
+            Restored(time=run.time, name=restore.name, goal=operation.goal, difference=vector(difference))
+        )  # fmt: skip
+    run.goal = X_WT[:3, 3].copy()
+    if operation.searching and run.search is not None:
+        X_WT = translated(X_WT, (*run.search.offset(), 0.0))
+    via = [run.world.position(name) for name in operation.via]
+    trajectory = _trajectory(run, number, operation, via, X_WT)
+    if isinstance(trajectory, Unreachable):
+        return Fault(
+            number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
+        )
+    samples = trajectory.sample(TICK)
+    along = directions(samples, run.arm, run.drive.q)
+    return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
+
+
+def _trajectory(
+    run: ExecutionState, number: int, operation: Move, via: list[Pose], X_WT: Pose
+) -> Trajectory | Unreachable:
+    """The planned trajectory if the world is where the plan thought, else one adjusted to it."""
+    knots = np.array(run.plan.motions[number].knots)
+    as_planned = np.abs(knots[0] - run.drive.q).max() < PLAN_TOLERANCE
+    names, planned = (*operation.via, operation.goal), (*knots[2:-2], knots[-1])
+    for name, X, q in zip(names, (*via, X_WT), planned, strict=True):
+        off = X - forward(run.arm, q)
+        if np.abs(off).max() >= PLAN_TOLERANCE:
+            as_planned = False
+            run.emit(Adjusted(time=run.time, goal=name, shift=vector(off[:3, 3])))
+    if as_planned:
+        return four_three_four(knots, np.array(run.plan.motions[number].times))
+    return move_trajectory(run.arm, run.drive.q, via, X_WT, operation, run.plan.speed)
+
+
+def change(run: ExecutionState, operation: Change) -> Fault | None:
+    """Go straight from where the hand is, stopping on a force or torque, pressing if asked to."""
+    start = run.drive.hand()[:3, 3]
+    displacement = np.array(operation.displacement)
+    distance = float(np.linalg.norm(displacement))
+    guard = _guard(operation.stop)
+    if not complies(operation):
+        samples = change_samples(run.arm, run.drive.q, operation)
+        if isinstance(samples, IKResult):
+            return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
+        outcome = run.drive.follow(samples, guard, displacement / distance)
+    else:
+        outcome = run.drive.comply(_course(operation), guard)
+    run.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
+    return _finish(run, outcome, operation.stop)
+
+
+def _course(operation: Change) -> Course:
+    displacement = np.array(operation.displacement)
+    distance = float(np.linalg.norm(displacement))
+    return Course(
+        direction=displacement / distance,
+        distance=distance,
+        speed=change_speed(operation),
+        force=None if operation.press is None else float(np.linalg.norm(operation.press)),
+        free=_axes(operation.free),
+        moment=np.zeros(3) if operation.moment is None else np.array(operation.moment),
+        spin=_axes(operation.spin),
+    )
+
+
+def _axes(wanted: Vector | None) -> Array:
+    """1 for each axis that is wanted, else 0."""
+    return np.zeros(3) if wanted is None else (np.array(wanted) != 0).astype(float)
+
+
+def turn(run: ExecutionState, operation: Turn) -> Fault | None:
+    """Go round the vertical through a position."""
+    samples = turn_samples(run.arm, run.drive.q, run.world.position(operation.centre), operation)
+    if isinstance(samples, IKResult):
+        return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
+    along = directions(samples, run.arm, run.drive.q)
+    return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
+
+
+def _finish(run: ExecutionState, outcome: Outcome, stop: Stop | None) -> Fault | None:
+    """Turn a motion's outcome into the language's convention: no trip where one was expected is an error."""
+    if outcome.error is not None:
+        return Fault(number=outcome.error, detail=outcome.detail)
+    if outcome.trip is not None:
+        trip = outcome.trip
+        run.emit(
+            GuardTripped(time=run.time, guard=trip.guard, value=round(trip.value, 6), limit=round(trip.limit, 6))
+        )  # fmt: skip
+        return None
+    if stop is None:
+        return None
+    return Fault(number=unmet(stop), detail="or the moment" if stop.moment is not None else "")
+
+
+def _guard(stop: Stop | None) -> Guard | None:
+    if stop is None:
+        return None
+    guards: list[Guard] = []
+    if stop.force is not None:
+        guards.append(ForceGuard(force=np.array(stop.force)))
+    if stop.against is not None:
+        guards.append(AgainstGuard(limit=stop.against))
+    if stop.moment is not None:
+        guards.append(MomentGuard(moment=np.array(stop.moment)))
+    if stop.torque is not None:
+        guards.append(TorqueGuard(limit=stop.torque))
+    if stop.touch is not None:
+        guards.append(TouchGuard(mask=stop.touch))
+    return guards[0] if len(guards) == 1 else AnyGuard(guards=tuple(guards))
+
+
+def open_hand(run: ExecutionState, operation: Open) -> Fault | None:
+    """Drive the fingers to a gap."""
+    _to_gap(run, operation.gap)
+    run.drive.hold(GRASP_TICKS)
+    return None
+
+
+def _to_gap(run: ExecutionState, goal: float) -> None:
+    drive = run.drive
+    start = drive.gap = drive.sensed.gap
+    ticks = max(1, round(abs(goal - start) / (HAND_SPEED * TICK)))
+    for i in range(1, ticks + 1):
+        drive.gap = start + (goal - start) * i / ticks
+        drive.hold(1)
+
+
+def close(run: ExecutionState, operation: Close) -> Fault | None:
+    """Close until both switches fire or the gap falls below the minimum, then see what is held."""
+    drive = run.drive
+    drive.gap = drive.sensed.gap
+    floor = min(operation.minimum, drive.gap)
+    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.gap > -0.02:
+        drive.gap -= HAND_SPEED * TICK
+        drive.hold(1)
+    drive.gap = -0.02
+    drive.hold(GRASP_TICKS)
+    return _held(drive.sensed.gap, operation.minimum, operation.maximum)
+
+
+def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
+    if not at_least(gap, minimum):
+        detail = f"the gap is {gap / INCH:.2f} in, the minimum {minimum / INCH:.2f} in"
+        return Fault(number=errors.NOTHING_HELD, detail=detail)
+    if maximum is not None and not within(gap, minimum, maximum):
+        detail = f"the gap is {gap / INCH:.2f} in, the maximum {maximum / INCH:.2f} in"
+        return Fault(number=errors.WRONG_THICKNESS, detail=detail)
+    return None
+
+
+def center(run: ExecutionState, operation: Center) -> Fault | None:
+    """Close on an object, moving the arm so that the object stays where it is."""
+    drive = run.drive
+    X_WT = forward(run.arm, drive.q)
+    line = X_WT[:3, 1]
+    here = drive.dynamics()
+    drive.gap = drive.sensed.gap
+    centring = Centring(minimum=operation.minimum, speed=CENTRE_SPEED)
+    while not centring.done:
+        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=TICK)
+        drive.gap += step.gap
+        X_WT = translated(X_WT, step.hand * line)
+        outcome = drive.shift(here, X_WT)
+        if outcome.error is not None:
+            return Fault(number=outcome.error, detail=outcome.detail)
+    drive.hold(GRASP_TICKS // 2)
+    if centring.error:
+        detail = f"the fingers do not both touch anything; the gap is {drive.sensed.gap / INCH:.2f} in"
+        return Fault(number=centring.error, detail=detail)
+    run.finger_line = line
+    return _held(drive.sensed.gap, operation.minimum, None)
+
+
+def travel(run: ExecutionState, operation: Travel) -> Fault | None:
+    """See how far the last straight motion went."""
+    if operation.minimum <= run.travel <= operation.maximum:
+        return None
+    allowed = f"{operation.minimum / INCH:.2f} to {operation.maximum / INCH:.2f} in"
+    return Fault(
+        number=errors.WRONG_TRAVEL, detail=f"it went {run.travel / INCH:.2f} in; {allowed} are right"
+    )

@@ -1,0 +1,166 @@
+"""What a change in a script did: to its stages and steps, to positions and parts, to the motions of the arm."""
+
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from handeye.arm.stanford import STANFORD
+from handeye.inspection.alignment import Pair, aligned, does, leads_alike
+from handeye.inspection.place_changes import PlaceChange, place_changes
+from handeye.inspection.wording import conditions, one_line
+from handeye.planfile.plan import Motion, Plan
+from handeye.program.program import Countdown, Record, Step, Test
+
+_ALIKE = 1e-9
+"""m, rad or s: below this, two motions differ by rounding."""
+
+
+class MotionChange(Record, frozen=True, kw_only=True):
+    """A motion that comes out otherwise."""
+
+    before: float | None
+    """Planned duration, s; None if there was no motion."""
+    after: float | None
+    joint: int | None = None
+    """The joint that ends farthest from where it did, measured by the time it needs; from 1. None: all end alike."""
+    moved: float = 0.0
+    """How far that joint ends from where it did, rad or m."""
+
+
+class StepChange(Record, frozen=True, kw_only=True):
+    """A step that is new, gone, or does something else."""
+
+    kind: Literal["added", "removed", "changed", "replanned"]
+    """Replanned: the step is as it was, and its motion is not."""
+    before: int | None
+    after: int | None
+    stage: str
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
+    line: int
+    text: str
+    changes: tuple[tuple[str, str, str], ...] = ()
+    """What, as it was, as it is."""
+    motion: MotionChange | None = None
+
+
+class Difference(Record, frozen=True, kw_only=True):
+    """All that differs between two plans; nothing if they do the same."""
+
+    heads: tuple[tuple[str, str, str], ...]
+    """Arm, speed and the like: what, as it was, as it is."""
+    stages_removed: tuple[str, ...]
+    stages_added: tuple[str, ...]
+    places: tuple[PlaceChange, ...]
+    steps: tuple[StepChange, ...]
+    seconds: tuple[float, float]
+    """Planned motion before and after, each step counted once."""
+
+    @property
+    def same(self) -> bool:
+        """Both plans do the same, whatever their comments say."""
+        return not (self.heads or self.stages_removed or self.stages_added or self.places or self.steps)
+
+
+def difference(before: Plan, after: Plan) -> Difference:
+    """What differs between two plans."""
+    pairs = aligned(before.program.steps, after.program.steps)
+    steps = (_step(before, after, pair, pairs) for pair in pairs)
+    old, new = before.program.stages, after.program.stages
+    heads = [
+        (what, f"{a}", f"{b}")
+        for what in ("arm", "arm_digest", "speed")
+        if (a := getattr(before, what)) != (b := getattr(after, what))
+    ]
+    common = [[n for n in names if n in others] for names, others in ((old, new), (new, old))]
+    if common[0] != common[1]:
+        heads.append(("order of stages", ", ".join(common[0]), ", ".join(common[1])))
+    return Difference(
+        heads=tuple(heads),
+        stages_removed=tuple(name for name in old if name not in new),
+        stages_added=tuple(name for name in new if name not in old),
+        places=tuple(place_changes(before.program, after.program)),
+        steps=tuple(change for change in steps if change is not None),
+        seconds=(_seconds(before), _seconds(after)),
+    )
+
+
+def _seconds(plan: Plan) -> float:
+    return round(sum(sum(motion.times) for motion in plan.motions.values()), 6)
+
+
+def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChange | None:
+    old, new = pair
+    if old is None or new is None:
+        plan, number = (after, new) if old is None else (before, old)
+        assert number is not None
+        kind: Literal["added", "removed"] = "added" if old is None else "removed"
+        return _change(kind, plan, number, pair)
+    one, other = before.program.steps[old], after.program.steps[new]
+    changes = list(_changes(one, other))
+    ways = [("then", one.next, other.next)]
+    if isinstance(one.operation, Test) and isinstance(other.operation, Test):
+        ways.append((f"if error {other.operation.number}", one.operation.raised, other.operation.raised))
+    if isinstance(one.operation, Countdown) and isinstance(other.operation, Countdown):
+        still = f"while {other.operation.counter} is positive"
+        ways.append((still, one.operation.positive, other.operation.positive))
+    for what, was, now in ways:
+        follows = (was, now) == (old + 1, new + 1)
+        if not follows and not leads_alike(pairs, was, now):
+            changes.append((what, _place(was), _place(now)))
+    stages = before.program.stages[one.stage], after.program.stages[other.stage]
+    if stages[0] != stages[1] and {*stages} <= {*before.program.stages} & {*after.program.stages}:
+        changes.append(("stage", *stages))
+    motion = _motion(before.motions.get(old), after.motions.get(new))
+    if not changes and motion is None:
+        return None
+    return _change("changed" if changes else "replanned", after, new, pair, tuple(changes), motion)
+
+
+def _change(
+    kind: Literal["added", "removed", "changed", "replanned"], plan: Plan, number: int, pair: Pair,
+    changes: tuple[tuple[str, str, str], ...] = (), motion: MotionChange | None = None,
+) -> StepChange:  # fmt: skip
+    step = plan.program.steps[number]
+    return StepChange(
+        kind=kind, before=pair[0], after=pair[1], stage=plan.program.stages[step.stage], file=step.file,
+        line=step.line, text=one_line(step.text), changes=changes, motion=motion,
+    )  # fmt: skip
+
+
+def _changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
+    """How two steps differ in what they say and do: what, as it was, as it is."""
+    texts, guards = [one_line(s.text) for s in (one, other)], [_guards(s) for s in (one, other)]
+    if texts[0] != texts[1]:
+        yield "statement", texts[0], texts[1]
+    if guards[0] != guards[1]:
+        yield "guard", guards[0], guards[1]
+    if texts[0] == texts[1] and guards[0] == guards[1]:
+        was, now = does(one), does(other)
+        yield from ((key, f"{was.get(key)}", f"{now[key]}") for key in now if was.get(key) != now[key])
+
+
+def _guards(step: Step) -> str:
+    return "; ".join(conditions(step.operation)) or "none"
+
+
+def _place(target: int | None) -> str:
+    return "the end" if target is None else f"step {target}"
+
+
+def _motion(one: Motion | None, other: Motion | None) -> MotionChange | None:
+    before, after = (None if m is None else round(sum(m.times), 6) for m in (one, other))
+    if one is None or other is None:
+        return None if one is other else MotionChange(before=before, after=after)
+    if len(one.knots) == len(other.knots) and np.allclose(one.knots, other.knots, rtol=0, atol=_ALIKE):
+        return (
+            None
+            if np.allclose(one.times, other.times, rtol=0, atol=_ALIKE)
+            else MotionChange(before=before, after=after)
+        )
+    moved = np.array(other.knots[-1]) - np.array(one.knots[-1])
+    if (np.abs(moved) < _ALIKE).all():
+        return MotionChange(before=before, after=after)
+    joint = int(np.argmax(np.abs(moved) / [j.speed for j in STANFORD.joints]))
+    return MotionChange(before=before, after=after, joint=joint + 1, moved=float(moved[joint]))

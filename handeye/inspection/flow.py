@@ -1,0 +1,112 @@
+"""The flow of a plan as a graph: steps, and the ways from one to the next, by themselves or on an error."""
+
+import json
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.inspection.wording import conditions, one_line
+from handeye.planfile.plan import Plan
+from handeye.program import program as op
+
+KINDS: Final[dict[str, tuple[type[op.AnyOperation], ...]]] = {
+    "motion": (op.Move, op.Change, op.Turn),
+    "hand": (op.Open, op.Close, op.Center, op.Tool),
+    "sight": (op.Lens, op.Aim, op.Look, op.General, op.Specific, op.Inspect),
+    "test": (op.Test, op.Travel),
+    "search": (op.Search, op.Advance, op.Save),
+}
+"""Kinds of steps, and the operations that are of each; the rest is `other`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Node:
+    """A step."""
+
+    step: int
+    stage: int
+    """Index of its stage."""
+    line: str
+    """As people are told: `12`, or `pins.al:12`."""
+    text: str
+    notes: tuple[str, ...]
+    """What guards it."""
+    seconds: float | None
+    kind: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Edge:
+    """A way from one step to another."""
+
+    start: int
+    end: int | None
+    """None: the program ends."""
+    error: int | None = None
+    """It is gone when this error was raised."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flow:
+    """The graph of a plan, or of one of its stages; ways that leave that stage are there, their ends are not."""
+
+    name: str
+    stages: tuple[str, ...]
+    """Of the whole plan."""
+    nodes: tuple[Node, ...]
+    """In the order of the text."""
+    edges: tuple[Edge, ...]
+    outside: dict[int, str]
+    """Steps that ways lead to and that are not shown, with their stages."""
+
+
+def flow(plan: Plan, stage: int | None = None) -> Flow:
+    """The graph of a plan, or of one stage, by its number from 1."""
+    steps = plan.program.steps
+    shown = [n for n, step in enumerate(steps) if stage in (None, step.stage + 1)]
+    edges = [edge for number in shown for edge in _ways(number, steps[number])]
+    ends = {edge.end for edge in edges if edge.end is not None} - {*shown}
+    return Flow(
+        name=one_line(plan.program.name), stages=tuple(map(one_line, plan.program.stages)),
+        nodes=tuple(_node(plan, number) for number in shown), edges=tuple(edges),
+        outside={end: one_line(plan.program.stages[steps[end].stage]) for end in sorted(ends)},
+    )  # fmt: skip
+
+
+def flow_dot(graph: Flow) -> str:
+    """The graph in the DOT language of Graphviz."""
+    lines = [f"digraph {_quoted(graph.name)} {{", '  node [shape=box, style=rounded, fontname="monospace"]']
+    for index in dict.fromkeys(node.stage for node in graph.nodes):
+        lines += [f"  subgraph cluster_{index} {{", f"    label={_quoted(graph.stages[index])}"]
+        for node in graph.nodes:
+            if node.stage == index:
+                label = "\n".join((f"{node.line}  {node.text}", *node.notes))
+                lines.append(f"    {node.step} [label={_quoted(label)}]")
+        lines.append("  }")
+    lines += [f"  {end} [label={_quoted(name)}, shape=plaintext]" for end, name in graph.outside.items()]
+    if any(edge.end is None for edge in graph.edges):
+        lines.append('  end [label="end", shape=oval]')
+    for edge in graph.edges:
+        look = "" if edge.error is None else f' [label="{edge.error}", color=red, fontcolor=red]'
+        lines.append(f"  {edge.start} -> {'end' if edge.end is None else edge.end}{look}")
+    return "\n".join([*lines, "}"]) + "\n"
+
+
+def _node(plan: Plan, number: int) -> Node:
+    step, motion = plan.program.steps[number], plan.motions.get(number)
+    kinds = (kind for kind, operations in KINDS.items() if isinstance(step.operation, operations))
+    return Node(
+        step=number, stage=step.stage, line=step.place, text=one_line(step.text),
+        notes=conditions(step.operation), kind=next(kinds, "other"),
+        seconds=None if motion is None else sum(motion.times),
+    )  # fmt: skip
+
+
+def _ways(number: int, step: op.Step) -> list[Edge]:
+    if isinstance(step.operation, op.Test):
+        tested = Edge(start=number, end=step.operation.raised, error=step.operation.number)
+        return [Edge(start=number, end=step.next), tested]
+    return [Edge(start=number, end=end) for end in dict.fromkeys(step.ways)]
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)

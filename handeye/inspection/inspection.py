@@ -1,0 +1,145 @@
+"""A plan laid open: its stages and steps, how long they take, what guards them, and what they depend on."""
+
+from handeye.inspection.dependence import Dependence, dependences
+from handeye.inspection.wording import conditions, counted, one_line
+from handeye.planfile.plan import Plan
+from handeye.program import program as op
+from handeye.source import line_name
+
+
+class InspectedStep(op.Record, frozen=True, kw_only=True):
+    """A step, by its number in the plan."""
+
+    step: int
+    file: str = ""
+    """The required file its line is in; empty: the script itself."""
+    line: int
+    text: str
+    operation: str
+    """What it is called on disk."""
+    seconds: float | None
+    """Planned duration of its motion; None if it has none."""
+    stop: op.Stop | None
+    """Force or torque that ends it, SI."""
+    press: op.Vector | None
+    """Force it exerts, N, table coordinates."""
+    conditions: tuple[str, ...]
+    """What guards it, in words and units of the language."""
+    depends: tuple[Dependence, ...]
+    error: int | None
+    """The error it tests for."""
+    raised: int | None
+    """The step that follows if that error was raised."""
+    counter: str | None = None
+    """The counter it counts down."""
+    positive: int | None = None
+    """The step that follows while that is still positive."""
+    next: int | None
+    """The step that follows otherwise; None ends the program."""
+
+
+class InspectedStage(op.Record, frozen=True, kw_only=True):
+    """A stage, by its number from 1."""
+
+    number: int
+    name: str
+    seconds: float
+    """Planned motion, each step counted once."""
+    steps: tuple[InspectedStep, ...]
+
+
+class Inspection(op.Record, frozen=True, kw_only=True):
+    """A plan laid open."""
+
+    name: str
+    version: int
+    arm: str
+    speed: float
+    """Speed of free motions as a share of the arm's limits."""
+    motions: int
+    seconds: float
+    """Planned motion, each step counted once: a search that fails takes longer."""
+    stages: tuple[InspectedStage, ...]
+
+
+def inspection(plan: Plan) -> Inspection:
+    """A plan laid open."""
+    depends = dependences(plan.program)
+    steps = [_step(plan, number, depends[number]) for number in range(len(plan.program.steps))]
+    stages = []
+    for index, name in enumerate(plan.program.stages):
+        own = tuple(steps[n] for n, step in enumerate(plan.program.steps) if step.stage == index)
+        stages.append(InspectedStage(number=index + 1, name=name, seconds=_seconds(own), steps=own))
+    return Inspection(
+        name=plan.program.name, version=plan.version, arm=plan.arm, speed=plan.speed,
+        motions=len(plan.motions), seconds=_seconds(tuple(steps)), stages=tuple(stages),
+    )  # fmt: skip
+
+
+def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
+    """A plan laid open, as lines of text; of one stage, by its number from 1, if it is given."""
+    count = counted(sum(len(s.steps) for s in found.stages), "step")
+    out = [
+        f"{one_line(found.name)}, planned for the {found.arm} arm at {found.speed:g} of its speed: "
+        f"{counted(len(found.stages), 'stage')}, {count}, {counted(found.motions, 'motion')}, {found.seconds:.1f} s"
+    ]
+    shown = [s for s in found.stages if stage in (None, s.number)]
+    width = max((len(step.text) for s in shown for step in s.steps), default=0)
+    for one in shown:
+        out += ["", f"{one.number:3}  {one.name}: {counted(len(one.steps), 'step')}, {one.seconds:.1f} s"]
+        column = max([4, *(len(line_name(step.line, step.file)) for step in one.steps)])
+        out += [_line(step, width, column) for step in one.steps]
+    return out
+
+
+def depends_text(one: Dependence) -> str:
+    """What a step depends on, in words."""
+    lines = f"line{'' if len(one.lines) == 1 else 's'} {', '.join(map(str, one.lines))}"
+    if one.kind == "search":
+        return f"search of {lines}" if one.lines else "no search"
+    if one.kind == "part":
+        return f"{one.name} seen at {lines}" if one.lines else f"{one.name} as planned"
+    if one.kind == "position":
+        return f"{one.name} kept at {lines}" if one.lines else f"{one.name} as planned"
+    level = " level" if one.level else ""
+    return f"{one.name}{level} saved at {lines}" if one.lines else f"{one.name}{level}, never saved before"
+
+
+def _step(plan: Plan, number: int, depends: tuple[Dependence, ...]) -> InspectedStep:
+    step, motion = plan.program.steps[number], plan.motions.get(number)
+    operation = step.operation
+    test = operation if isinstance(operation, op.Test) else None
+    count = operation if isinstance(operation, op.Countdown) else None
+    return InspectedStep(
+        step=number, file=step.file, line=step.line, text=one_line(step.text),
+        operation=type(operation).__name__.lower(),
+        seconds=None if motion is None else round(sum(motion.times), 6),
+        stop=getattr(operation, "stop", None), press=getattr(operation, "press", None),
+        conditions=conditions(operation), depends=depends,
+        error=None if test is None else test.number, raised=None if test is None else test.raised,
+        counter=None if count is None else count.counter, positive=None if count is None else count.positive,
+        next=step.next,
+    )  # fmt: skip
+
+
+def _seconds(steps: tuple[InspectedStep, ...]) -> float:
+    return round(sum(step.seconds or 0.0 for step in steps), 6)
+
+
+def _line(step: InspectedStep, width: int, column: int) -> str:
+    time = "" if step.seconds is None else f"{step.seconds:.2f} s"
+    facts = [*step.conditions, *map(depends_text, step.depends)]
+    if step.error is not None:
+        facts.append(f"error {step.error}: to {_place(step.raised)}, else to {_place(step.next)}")
+    elif step.counter is not None:
+        facts.append(f"{step.counter} positive: to {_place(step.positive)}, else to {_place(step.next)}")
+    elif step.next != step.step + 1:
+        facts.append(f"to {_place(step.next)}")
+    place = line_name(step.line, step.file)
+    return (
+        f"{step.step:8}  line {place:{column}}  {step.text:{width}}  {time:>7}  {'; '.join(facts)}".rstrip()
+    )
+
+
+def _place(step: int | None) -> str:
+    return "the end" if step is None else str(step)

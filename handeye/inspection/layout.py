@@ -1,0 +1,169 @@
+"""Where the steps of a flow graph are drawn, and how the ways run between them. Pixels, y downwards.
+
+Stages stand side by side on shelves, their steps from top to bottom; a long one has several columns, broken where no
+loop is.
+Ways to the step below are short and straight. Those that go back run on the left of their column, those that skip
+something on its right, each in a lane of its own; what leads to another column goes round the top.
+"""
+
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import Final, Literal
+
+from handeye.inspection.columns import GAP, LANE, SIDE, WIDTH, Column, columns, height
+from handeye.inspection.flow import Edge, Flow, Node
+
+TOP: Final = 76
+"""Over the columns: names of the stages, and the ways round the top."""
+FOOT: Final = 28
+"""Below them."""
+FRAME: Final = 16
+"""Between two stages."""
+SHELF: Final = 3800
+"""A shelf holds stages up to this width."""
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """A step in its place; x, y is the upper left corner."""
+
+    node: Node
+    x: float
+    y: float
+    height: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Route:
+    """The line of a way, from corner to corner."""
+
+    edge: Edge
+    points: tuple[Point, ...]
+    kind: Literal["down", "back", "skip", "over", "out"]
+    """Down to the next, back, past some steps, to another column, or out of what is drawn."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Area:
+    """What a stage takes up; x, y is the upper left corner."""
+
+    stage: int
+    x: float
+    y: float
+    width: float
+    height: float
+    nodes: int
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Layout:
+    """A flow graph in its place."""
+
+    boxes: tuple[Box, ...]
+    routes: tuple[Route, ...]
+    areas: tuple[Area, ...]
+    width: float
+    height: float
+
+
+@dataclass(slots=True, kw_only=True)
+class _Shelves:
+    """Stages side by side, and below those before when there is no room."""
+
+    edges: tuple[Edge, ...]
+    boxes: dict[int, Box] = field(default_factory=dict)
+    areas: list[Area] = field(default_factory=list)
+    routes: list[Route] = field(default_factory=list)
+    borders: dict[int, tuple[float, float, float]] = field(default_factory=dict)
+    """Of the column a step is in: left and right, and the upper end of its shelf."""
+    x: float = FRAME
+    y: float = 0.0
+    width: float = 0.0
+    tallest: float = 0.0
+    """On the present shelf."""
+
+    def add(self, stage: int, nodes: list[Node]) -> None:
+        """Put a stage on the shelf, or on the next."""
+        parts = columns(nodes, self.edges)
+        width = sum(part.width for part in parts)
+        if self.x > FRAME and self.x + width > SHELF:
+            self.x, self.y, self.tallest = FRAME, self.y + self.tallest + FRAME, 0.0
+        tall = TOP + max(part.height for part in parts) + FOOT
+        seconds = sum(node.seconds or 0.0 for node in nodes)
+        self.areas.append(
+            Area(stage=stage, x=self.x, y=self.y, width=width, height=tall, nodes=len(nodes), seconds=seconds)
+        )
+        for part in parts:
+            self._fill(part)
+            self.x += part.width
+        self.x += FRAME
+        self.width, self.tallest = max(self.width, self.x), max(self.tallest, tall)
+
+    def _fill(self, column: Column) -> None:
+        y = self.y + TOP
+        for node in column.nodes:
+            self.boxes[node.step] = Box(node=node, x=self.x + column.before, y=y, height=height(node))
+            self.borders[node.step] = (self.x, self.x + column.width, self.y)
+            y += height(node) + GAP
+        self.routes += [_beside(edge, lane, "back", self.boxes) for edge, lane in column.back.items()]
+        self.routes += [_beside(edge, lane, "skip", self.boxes) for edge, lane in column.skip.items()]
+
+
+def layout(graph: Flow) -> Layout:
+    """Places for all steps and ways of a graph."""
+    shelves = _Shelves(edges=graph.edges)
+    for stage, run in groupby(graph.nodes, key=lambda node: node.stage):
+        shelves.add(stage, list(run))
+    boxes, beside = shelves.boxes, {route.edge for route in shelves.routes}
+    plain = [_plain(edge, boxes, shelves.borders) for edge in graph.edges if edge not in beside]
+    return Layout(
+        boxes=tuple(boxes.values()), routes=(*plain, *shelves.routes), areas=tuple(shelves.areas),
+        width=shelves.width, height=shelves.y + shelves.tallest + FRAME,
+    )  # fmt: skip
+
+
+def _beside(edge: Edge, lane: int, side: str, boxes: dict[int, Box]) -> Route:
+    assert edge.end is not None
+    one, other = boxes[edge.start], boxes[edge.end]
+    start, end = one.y + one.height * 0.62, other.y + other.height * 0.38
+    if side == "back":
+        x, edge_x = one.x - SIDE - lane * LANE, one.x
+    else:
+        x, edge_x = one.x + WIDTH + SIDE + lane * LANE, one.x + WIDTH
+    points = ((edge_x, start), (x, start), (x, end), (edge_x, end))
+    return Route(edge=edge, points=points, kind="back" if side == "back" else "skip")
+
+
+def _plain(edge: Edge, boxes: dict[int, Box], borders: dict[int, tuple[float, float, float]]) -> Route:
+    """The way down, to another column, or out."""
+    one, other = boxes[edge.start], None if edge.end is None else boxes.get(edge.end)
+    middle, bottom, y = one.x + WIDTH / 2, one.y + one.height, one.y + one.height * 0.62
+    right = one.x + WIDTH
+    if other is None and edge.error is None:
+        return Route(edge=edge, points=((middle, bottom), (middle, bottom + 16)), kind="out")
+    if other is None:
+        return Route(edge=edge, points=((right, y), (right + SIDE, y)), kind="out")
+    if other.x == one.x and other.y == bottom + GAP:
+        return Route(edge=edge, points=((middle, bottom), (middle, other.y)), kind="down")
+    border, (back, _, shelf) = borders[edge.start][1], borders[other.node.step]
+    over = shelf + TOP - 16.0
+    if (
+        one.node.step + 1 == other.node.step and other.y == shelf + TOP
+    ):  # from the foot of a column to the next
+        out, down, corner = border - 4, bottom + 12, other.x + WIDTH / 2
+        points = (
+            (middle, bottom),
+            (middle, down),
+            (out, down),
+            (out, over),
+            (corner, over),
+            (corner, other.y),
+        )
+        return Route(edge=edge, points=points, kind="over")
+    end = other.y + other.height * 0.38
+    out, back, over = border - 8, back + 8, over - 8
+    points = ((right, y), (out, y), (out, over), (back, over), (back, end), (other.x, end))
+    return Route(edge=edge, points=points, kind="over")

@@ -1,0 +1,1 @@
+"""The second waist: a plan, its format on disk, and what makes it sound."""

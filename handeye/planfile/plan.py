@@ -1,0 +1,38 @@
+"""The plan: a program joined with the motions of one arm. Versioned, in SI units, self-contained.
+
+This is the second waist of the system.
+"""
+
+from typing import Final
+
+from handeye.program.program import Program, Record
+
+VERSION: Final = 1
+"""Version of the format on disk."""
+
+Joints = tuple[float, float, float, float, float, float]
+
+
+class Motion(Record, frozen=True, kw_only=True):
+    """A planned motion: joint positions it passes (rad, joint 3 in m) and the seconds between them."""
+
+    knots: tuple[Joints, ...]
+    """Start, lift-off, what it passes, set-down and goal of a Move; start and goal of a straight motion or an arc."""
+    times: tuple[float, ...]
+    """Duration of each segment between knots, s."""
+
+
+class Plan(Record, frozen=True, kw_only=True):
+    """A program and the motions that one arm makes of it."""
+
+    format: str = "handeye plan"
+    version: int = VERSION
+    arm: str
+    """Name of the arm model."""
+    arm_digest: str
+    """Digest of the arm model's figures: a plan is not run on an arm it was not made for."""
+    speed: float
+    """Speed of free motions as a share of the arm's limits."""
+    program: Program
+    motions: dict[int, Motion]
+    """Planned motion of each step that moves the arm, by step number."""

@@ -1,0 +1,121 @@
+"""Plans on disk: JSON with one step, position or motion a line, so that a text diff shows what a change in the
+script did to the arm. What is read is checked before anything uses it.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any, Final
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.files import Kind, read_whole, write_over
+from handeye.planfile.migrations import migrated, oldest
+from handeye.planfile.plan import VERSION, Plan
+from handeye.planfile.soundness import faults
+
+PLAN: Final = Kind("plan", rb'\{\s*"format": "handeye plan"')
+_LATER: Final = frozenset({"via", "spin", "moment", "touch"})
+"""Fields that came after plans had been kept: written only where they say something, so that those plans, and their
+digests, stay as they are."""
+
+
+def encode(plan: Plan) -> str:
+    """The plan as canonical text."""
+    data = msgspec.to_builtins(plan, str_keys=True)
+    program = data.pop("program")
+    motions = data.pop("motions")
+    lines = ["{"]
+    lines += [f' "{key}": {_line(value)},' for key, value in data.items()]
+    lines.append(' "program": {')
+    for number, (key, value) in enumerate(program.items(), 1):
+        comma = "" if number == len(program) else ","
+        if isinstance(value, dict):
+            body = [f'   "{name}": {_line(item)}' for name, item in value.items()]
+            lines += [f'  "{key}": {{', *_separated(body), f"  }}{comma}"]
+        elif key == "steps":
+            body = [f"   {_line(_terse(item))}" for item in value]
+            lines += [f'  "{key}": [', *_separated(body), f"  ]{comma}"]
+        else:
+            lines.append(f'  "{key}": {_line(value)}{comma}')
+    lines += [" },", ' "motions": {']
+    lines += [
+        *_separated([f'  "{number}": {_line(motion)}' for number, motion in motions.items()]),
+        " }",
+        "}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _terse(value: Any) -> Any:
+    """Without what came later and says nothing."""
+    if not isinstance(value, dict):
+        return value
+    return {key: _terse(item) for key, item in value.items() if item or key not in _LATER}
+
+
+def _line(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _separated(lines: list[str]) -> list[str]:
+    return [f"{line}," for line in lines[:-1]] + lines[-1:]
+
+
+def decode(text: str | bytes, name: str) -> Plan:
+    """The plan in a text, brought to the present version if it is older.
+
+    Raises:
+        InvalidInput: not a plan, cut short, of a newer version, or not sound.
+    """
+    try:
+        head = msgspec.json.decode(text)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InvalidInput(f"{name} is not a plan, or is cut short: {error}") from None
+    if not isinstance(head, dict) or head.get("format") != "handeye plan":
+        raise InvalidInput(f'{name} is not a plan: it does not say "format": "handeye plan"')
+    version = head.get("version")
+    if not isinstance(version, int) or version < oldest():
+        raise InvalidInput(f"{name} does not say which version of the plan format it has")
+    if version > VERSION:
+        raise InvalidInput(
+            f"{name} has plan format version {version}; this handeye reads up to version {VERSION}"
+        )
+    try:
+        plan = (
+            msgspec.json.decode(text, type=Plan)
+            if version == VERSION
+            else msgspec.convert(migrated(head, version, name), Plan, str_keys=True)
+        )
+    except msgspec.DecodeError as error:
+        raise InvalidInput(f"{name} is not a sound plan: {error}") from None
+    for fault in faults(plan):
+        raise InvalidInput(f"{name}: {fault}")
+    return plan
+
+
+def read_plan(path: Path) -> Plan:
+    """The plan in a file.
+
+    Raises:
+        InvalidInput: as `decode`, or the file cannot be read.
+    """
+    data = read_whole(path)
+    if not data.lstrip().startswith((b"{", b"[")):
+        raise InvalidInput(f"{path} is not a plan; is it a script? `handeye plan {path}` makes the plan")
+    return decode(data, str(path))
+
+
+def write_plan(path: Path, plan: Plan) -> None:
+    """Write a plan, whole or not at all, over nothing but a plan.
+
+    Raises:
+        InvalidInput: it cannot be written there.
+    """
+    write_over(path, encode(plan).encode(), PLAN)
+
+
+def plan_digest(plan: Plan) -> str:
+    """Sixteen hexadecimal digits that stand for a plan: of the bytes that `write_plan` writes."""
+    return hashlib.sha256(encode(plan).encode()).hexdigest()[:16]

@@ -1,0 +1,46 @@
+"""What the hand does, as far as the text tells: how wide it is open, and what it holds."""
+
+from dataclasses import dataclass, field
+
+from handeye.arm.hand import hand_boxes
+from handeye.boxes import Box
+from handeye.program.program import Center, Close, Move, Open, Program, Step
+
+
+@dataclass(slots=True)
+class GraspState:
+    """The hand after the steps it has followed; at first closed and empty."""
+
+    program: Program
+    gap: float = 0.0
+    """m; after a grasp the least that the script says the thing is thick, for nothing tells more."""
+    held: str | None = None
+    taken: Step | None = None
+    """The grasp by which it is held."""
+    _goal: str = ""
+    _holds: dict[str, str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._holds = {at: name for name, held in self.program.held.items() for at in held.positions}
+
+    def follow(self, step: Step) -> None:
+        """What a step does to the hand, and to what is in it."""
+        operation = step.operation
+        if isinstance(operation, Move):
+            self._goal = operation.goal
+        elif isinstance(operation, Open):
+            self.gap, self.held, self.taken = operation.gap, None, None
+        elif isinstance(operation, Close | Center):
+            self.gap = operation.minimum
+            if self.held is None and self._goal in self._holds:
+                self.held, self.taken = self._holds[self._goal], step
+
+    @property
+    def fingers(self) -> tuple[Box, ...]:
+        """The hand, as boxes in T."""
+        return hand_boxes(self.gap)
+
+    @property
+    def load(self) -> tuple[Box, ...]:
+        """What it holds, as boxes in T."""
+        return () if self.held is None else self.program.held[self.held].boxes

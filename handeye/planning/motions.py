@@ -1,0 +1,94 @@
+"""How each kind of motion is made. One implementation, two callers: the planner at planned values, and the
+executor when the world is not where the plan thought."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.line import arc, straight
+from handeye.arm.model import ArmModel
+from handeye.arm.samples import Samples
+from handeye.arm.trajectory import Trajectory, move
+from handeye.pose import Array, Pose
+from handeye.program.program import Change, Move, Turn
+from handeye.units import DEGREE, INCH
+
+CLEARANCE: Final = 3.0 * INCH
+"""Departure and approach height; "a few inches" in 1972, three by recollection (reference D10)."""
+LEAST_CLEARANCE: Final = 0.5 * INCH
+"""Of motions to a place close by, which rise no higher than they go far."""
+GUARDED_SPEED: Final = 1.0 * INCH
+"""m/s of a straight motion that is to stop on a force. At 1 in/s a 50 oz stop overshoots by a few newtons."""
+FREE_SPEED: Final = 2.0 * INCH
+"""m/s of a straight motion that is not."""
+TURN_SPEED: Final = 30 * DEGREE
+"""rad/s of a motion on a circle."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unreachable:
+    """A position that a Move cannot go to, or by way of, and why."""
+
+    name: str
+    why: IKResult
+
+
+def move_trajectory(
+    arm: ArmModel, q: Array, via: Sequence[Pose], X_WT: Pose, operation: Move, speed: float
+) -> Trajectory | Unreachable:
+    """The trajectory of a Move from configuration `q` by way of hand poses `via` to `X_WT`, or why there is none."""
+    passed: list[Array] = []
+    for name, X_via in zip(operation.via, via, strict=True):
+        found = solve(arm, X_via, passed[-1] if passed else q)
+        if found.q is None:
+            return Unreachable(name=name, why=found)
+        passed.append(found.q)
+    places = [forward(arm, q), *via, X_WT]
+    departure, approach = (
+        0.0 if operation.direct else _clearance(one, other) for one, other in (places[:2], places[-2:])
+    )
+    made = move(arm, q, X_WT, via=passed, departure=departure, approach=approach, speed=speed)
+    return Unreachable(name=operation.goal, why=made) if isinstance(made, IKResult) else made
+
+
+def _clearance(X_from: Pose, X_to: Pose) -> float:
+    """How high to rise between two places."""
+    away = float(np.hypot(*(X_to[:2, 3] - X_from[:2, 3])))
+    return float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
+
+
+def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKResult:
+    """Set-points of a Change from configuration `q`, or why there are none."""
+    return straight(arm, q, np.array(operation.displacement), change_speed(operation))
+
+
+def complies(operation: Change) -> bool:
+    """Whether force or moment moves the hand on the way."""
+    ways = (operation.press, operation.free, operation.moment, operation.spin)
+    return any(way is not None for way in ways)
+
+
+def change_speed(operation: Change) -> float:
+    """Speed of a Change, m/s: as written, else by whether it feels its way."""
+    guarded = operation.stop is not None or operation.press is not None or operation.moment is not None
+    return operation.speed or (GUARDED_SPEED if guarded else FREE_SPEED)
+
+
+def turn_samples(arm: ArmModel, q: Array, centre: Pose, operation: Turn) -> Samples | IKResult:
+    """Set-points of a Turn about the vertical through `centre`, or why there are none."""
+    return arc(arm, q, centre[:2, 3], operation.angle, TURN_SPEED)
+
+
+def directions(samples: Samples, arm: ArmModel, q: Array) -> Array:
+    """Unit vectors of a motion at each of its set-points, shape (N, 3)."""
+    p = np.concatenate([forward(arm, q)[None, :3, 3], forward(arm, samples.q)[:, :3, 3]])
+    step = np.diff(p, axis=0)
+    size = np.linalg.norm(step, axis=1, keepdims=True)
+    moving = size[:, 0] > 1e-9
+    # a set-point at rest keeps the direction of the nearest one that moves
+    index = np.maximum.accumulate(np.where(moving, np.arange(len(step)), 0))
+    index[: int(np.argmax(moving))] = int(np.argmax(moving))
+    return np.asarray(step[index] / np.maximum(size[index], 1e-12))

@@ -1,0 +1,211 @@
+"""The planning phase: a program and an arm make a plan. No clock, no randomness, no simulator.
+
+The planner walks the program in the order of its text, each motion beginning where the one before was planned
+to end. What cannot be reached, held or pressed, or would go through the table or a fixture, is found here and not at
+run time.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import msgspec
+import numpy as np
+
+from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.model import ArmModel, digest
+from handeye.arm.samples import Samples
+from handeye.diagnostics import Diagnostic, arranged, has_errors
+from handeye.planfile.plan import Joints, Motion, Plan
+from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
+from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
+from handeye.planning.planning_findings import PlanningFindings
+from handeye.ports.ports import TICK
+from handeye.pose import Array
+from handeye.program.program import (
+    Center,
+    Change,
+    Close,
+    Here,
+    Move,
+    Open,
+    Program,
+    Step,
+    Stop,
+    Turn,
+)
+from handeye.program.world_model import WorldModel
+
+SPEED = 0.40
+"""Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
+invented acceleration limits it makes the whole job take about the four minutes of 1973 (layout study, section
+5); one datum, so no evidence of how slow the real arm was."""
+HOME = "PARK"
+"""The position a program starts from."""
+_LOOK = 2 * TICK
+"""s between the places of a free motion at which its surroundings are looked at; under .6 in at the pump's speeds."""
+
+
+def make_plan(
+    program: Program, arm: ArmModel, *, speed: float = SPEED, start: Array | None = None
+) -> tuple[Plan | None, list[Diagnostic]]:
+    """The plan of a program for an arm, and what there is to say about it. There is none if any of that is an error.
+
+    A position that only a `HERE` defines is in the plan where the hand is planned to be then.
+
+    Args:
+        start: where the arm stands when the program begins, shape (6,), rad and m; by default at `HOME`, or at
+            the first goal of a program that has none.
+    """
+    objections = PlanningFindings(arm=arm, whole=program.whole, positions=program.positions)
+    walk = _Walk(
+        program=program, arm=arm, speed=speed, world=WorldModel.of(program), objections=objections,
+        checks=Checks(arm, program, objections),
+    )  # fmt: skip
+    walk.go(start)
+    found = arranged(objections.found)
+    if has_errors(found):
+        return None, found
+    positions = {**walk.world.moved, **program.positions}
+    plan = Plan(
+        arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
+        program=msgspec.structs.replace(program, positions=positions),
+    )  # fmt: skip
+    return plan, found
+
+
+@dataclass(slots=True, kw_only=True)
+class _Walk:
+    program: Program
+    arm: ArmModel
+    speed: float
+    world: WorldModel
+    """Nothing in it is measured; what has moved in it, a `HERE` has defined."""
+    objections: PlanningFindings
+    checks: Checks
+    q: Array = field(init=False)
+    known: bool = True
+    """Whether the arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
+    motions: dict[int, Motion] = field(default_factory=dict)
+
+    def go(self, start: Array | None) -> None:
+        if start is None:
+            self._start()
+        else:
+            self.q = start
+        ahead = {0}
+        for number, step in enumerate(self.program.steps):
+            if number not in ahead:
+                self.known = False
+                self.checks.forget()
+            if isinstance(step.operation, _PLACES_THE_ARM):
+                ahead = set()
+            ahead.update(_ways(step))
+            self._step(number, step)
+            self.checks.follow(step)
+
+    def _step(self, number: int, step: Step) -> None:
+        operation = step.operation
+        if isinstance(operation, Move):
+            self._move(number, step, operation)
+        elif isinstance(operation, Change):
+            samples = change_samples(self.arm, self.q, operation)
+            feels = operation.stop is not None or operation.press is not None or operation.moment is not None
+            demands = [*to_stop(_facing(operation)), *to_press(operation)]
+            self._sampled(number, step, samples, feels, demands)
+        elif isinstance(operation, Turn):
+            centre = self.world.position(operation.centre)
+            samples = turn_samples(self.arm, self.q, centre, operation)
+            self._sampled(number, step, samples, operation.stop is not None, to_stop(operation.stop))
+        elif isinstance(operation, Here):
+            self._define(operation.position)
+
+    def _define(self, name: str) -> None:
+        known = self.program.positions.get(name)
+        of = None if known is None else known.of
+        self.world.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
+
+    def _start(self) -> None:
+        """Begin at the rest position, or at the first goal of a program that has none."""
+        known = self.program.positions
+        moves = [s.operation for s in self.program.steps if isinstance(s.operation, Move)]
+        goals = [move.goal for move in moves if move.goal in known]
+        first = HOME if HOME in known else (goals[0] if goals else None)
+        self.q = (self.arm.lower + self.arm.upper) / 2
+        if first is None:
+            self.known = False
+            return
+        start = solve(self.arm, self.world.position(first), self.q)
+        if start.q is not None:
+            self.q = start.q
+            return
+        self.known = False
+        if first not in goals:
+            self.objections.unreachable(self.program.steps[0], first, start)
+
+    def _move(self, number: int, step: Step, operation: Move) -> None:
+        places = (*operation.via, operation.goal)
+        *via, X_WT = (self.world.position(name) for name in places)
+        for name, X in zip(places, (*via, X_WT), strict=True):
+            if X[2, 3] < 0:
+                self.known = False
+                self.objections.below_table(step, name, -float(X[2, 3]))
+                return
+        trajectory = move_trajectory(self.arm, self.q, via, X_WT, operation, self.speed)
+        if isinstance(trajectory, Unreachable):
+            self.known = False
+            self.objections.unreachable(step, trajectory.name, trajectory.why)
+            return
+        knots = tuple(_joints(q) for q in trajectory.knots)
+        self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
+        begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is always that one
+        count = 2 + int((trajectory.duration - begin) / _LOOK)
+        q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
+        if operation.stop is None:
+            self.checks.clear(step, q)
+        self.checks.strong(step, q, to_stop(operation.stop))
+        self.q, self.known = np.array(knots[-1]), True
+
+    def _sampled(
+        self, number: int, step: Step, samples: Samples | IKResult, guarded: bool, demands: Sequence[Demand]
+    ) -> None:
+        """A motion of which every set-point is there; a guarded one is meant to meet something."""
+        if isinstance(samples, IKResult):
+            if self.known:
+                self.objections.unreachable(step, step.text.split()[0], samples)
+            self.known = False
+            return
+        q = np.vstack([self.q, samples.q])
+        if self.known:
+            if not guarded:
+                self.checks.clear(step, q)
+            self.checks.strong(step, q, demands)
+        self.motions[number] = Motion(knots=(_joints(self.q), _joints(q[-1])), times=(len(samples.q) * TICK,))
+        self.q = q[-1]
+
+
+_PLACES_THE_ARM = (Move, Change, Turn, Open, Close, Center)
+"""Operations after which the arm, or its hand, stands otherwise than before."""
+
+
+def _ways(step: Step) -> Iterator[int]:
+    """The steps that may follow a step."""
+    operation = step.operation
+    for way in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
+        if way is not None:
+            yield way
+
+
+def _facing(operation: Change) -> Stop | None:
+    """The stop of a straight motion as a force along a vector, if it is one: a stop on whatever opposes it, too."""
+    stop = operation.stop
+    if stop is None or stop.against is None:
+        return stop
+    x, y, z = operation.displacement
+    scale = stop.against / math.hypot(x, y, z)
+    return Stop(force=(x * scale, y * scale, z * scale), moment=stop.moment)
+
+
+def _joints(q: Array) -> Joints:
+    a, b, c, d, e, f = (float(x) for x in q)
+    return a, b, c, d, e, f

@@ -1,0 +1,155 @@
+"""How positions, parts, fixtures and what is held are written as TOML tables: inches, degrees, corners of boxes."""
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Final, TypeVar
+
+import msgspec
+
+from handeye.boxes import Box
+from handeye.diagnostics import quoted
+from handeye.program.program import Fixture, Held, Hole, Part, Position
+from handeye.units import DEGREE, INCH
+
+
+class PositionTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[positions.NAME]`"""
+
+    at: tuple[float, float, float, float, float, float]
+    of: str | None = None
+
+    def si(self) -> Position:
+        x, y, z, o, a, t = self.at
+        return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE), of=self.of)
+
+
+Circle = tuple[float, float, float]
+
+
+class PartTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[parts.NAME]`"""
+
+    at: tuple[float, float, float, float]
+    face: float = 0.0
+    holes: tuple[Circle, ...] = ()
+    screw_holes: tuple[Circle, ...] = ()
+    region: tuple[float, float] | None = None
+    outline: tuple[float, float, float, float] | None = None
+
+    def si(self) -> Part:
+        x, y, z, yaw = self.at
+        box = self.outline
+        return Part(
+            at=(x * INCH, y * INCH, z * INCH, yaw * DEGREE),
+            face=self.face * INCH,
+            holes=_holes(self.holes),
+            screw_holes=_holes(self.screw_holes),
+            region=None if self.region is None else (self.region[0] * INCH, self.region[1] * INCH),
+            outline=None if box is None else (box[0] * INCH, box[1] * INCH, box[2] * INCH, box[3] * INCH),
+        )
+
+
+class FixtureTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[fixtures.NAME]`"""
+
+    boxes: tuple[Box, ...]
+    at: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+
+    def si(self) -> Fixture:
+        x, y, z, yaw = self.at
+        return Fixture(at=(x * INCH, y * INCH, z * INCH, yaw * DEGREE), boxes=_boxes(self.boxes))
+
+
+class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
+    """`[held.NAME]`"""
+
+    positions: tuple[str, ...]
+    boxes: tuple[Box, ...]
+
+    def si(self) -> Held:
+        return Held(positions=self.positions, boxes=_boxes(self.boxes))
+
+
+Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
+
+
+class Fault(Exception):
+    """What is wrong with an entry; `key` is `positions.NAME`."""
+
+    def __init__(self, key: str, said: str) -> None:
+        super().__init__(said)
+        self.key = key
+
+
+def read_tables(
+    kind: str, tables: dict[str, dict[str, object]], type: type[Entry]
+) -> Iterator[tuple[str, Entry]]:
+    """The tables of a kind by name, as they are written.
+
+    Raises:
+        Fault: what is in one cannot be used.
+    """
+    for name, table in tables.items():
+        if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
+            said = "a name consists of letters, digits and _, and starts with no digit"
+            raise Fault(f"{kind}.{name}", said)
+        yield name, _read(f"{kind}.{name}", table, type)
+
+
+def _read(key: str, table: dict[str, object], kind: type[Entry]) -> Entry:
+    try:
+        entry: Entry = msgspec.convert(table, kind)
+    except msgspec.ValidationError as error:
+        raise Fault(key, unfit(error)) from None
+    for name in kind.__struct_fields__:
+        if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, name))):
+            raise Fault(key, f"{name} has a number that is not below a million")
+    if isinstance(entry, PartTable):
+        for x, y, diameter in (*entry.holes, *entry.screw_holes):
+            if diameter <= 0:
+                raise Fault(key, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
+    if isinstance(entry, FixtureTable | HeldTable):
+        for box in entry.boxes:
+            if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
+                corners = " to ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in (box[:3], box[3:]))
+                raise Fault(key, f"the box from {corners} has no inside")
+    return entry
+
+
+def _numbers(value: object) -> Iterable[float]:
+    if isinstance(value, tuple):
+        for item in value:
+            yield from _numbers(item)
+    elif isinstance(value, float):
+        yield value
+
+
+def _holes(circles: Iterable[Circle]) -> tuple[Hole, ...]:
+    return tuple(Hole(x=x * INCH, y=y * INCH, diameter=d * INCH) for x, y, d in circles)
+
+
+def _boxes(boxes: Iterable[Box]) -> tuple[Box, ...]:
+    return tuple((a * INCH, b * INCH, c * INCH, d * INCH, e * INCH, f * INCH) for a, b, c, d, e, f in boxes)
+
+
+_KINDS: Final = {
+    "array": "a list", "object": "a table", "str": "a text", "float": "a number", "int": "a whole number",
+    "bool": "true or false", "null": "nothing",
+}  # fmt: skip
+
+
+def unfit(error: msgspec.ValidationError) -> str:
+    """What does not fit, and where, as the rest of a sentence."""
+    said, _, where = str(error).partition(" - at `$")
+    where = where.rstrip("`").lstrip(".")
+    about = f"{where}: " if where else ""
+    if size := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", said):
+        return f"{about}{size[2]} entries, and {size[1]} are wanted"
+    if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
+        wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
+        return f"{about}{got} stands where {wanted} is wanted"
+    if key := re.fullmatch(r"Object (contains unknown|missing required) field `(.*)`", said, re.DOTALL):
+        return (
+            f"{about}{quoted(key[2])} {'is missing' if key[1].startswith('missing') else 'is no key of it'}"
+        )
+    return f"{about}{said[:1].lower()}{said[1:]}"

@@ -1,0 +1,107 @@
+"""A taught position put into the text of its file, in which nothing else changes: no comment, order or key.
+
+It understands what people and the teacher write: `A = { at = [...] }` under `[positions]`, on a line of its own, and
+`at = [...]` under `[positions.A]`. The new text is read again before it is taken; what would change
+anything else is refused.
+"""
+
+import re
+import tomllib
+from typing import Any, Final
+
+from handeye.errors import InvalidInput
+from handeye.program.program import Position
+from handeye.units import DEGREE, INCH
+
+_HEADER: Final = re.compile(r"^[ \t]*\[\s*positions\s*\][ \t]*(?:#.*)?\r?$", re.MULTILINE)
+_NEXT: Final = re.compile(r"^[ \t]*\[", re.MULTILINE)
+_AT: Final = r"\bat\s*=\s*\[[^\]#\n]*\]"
+_OF: Final = r"\bof\s*=\s*(?:\"[^\"\n]*\"|'[^'\n]*')"
+_OF_ALONE: Final = rf"[ \t]*,[ \t]*{_OF}|{_OF}[ \t]*,[ \t]*|{_OF}"
+"""With the comma that goes when it goes."""
+
+
+def with_position(text: str, name: str, position: Position) -> str:
+    """The text of a file of taught positions with one more, or with one taught anew.
+
+    Raises:
+        InvalidInput: it is written in a way that cannot be edited without touching something else.
+    """
+    before = tomllib.loads(text)
+    wanted = {**before, "positions": {**before.get("positions", {}), name: _entry(position)}}
+    edited = (
+        _replaced(text, name, position)
+        if name in before.get("positions", {})
+        else _added(text, name, position)
+    )
+    try:
+        after = tomllib.loads(edited)
+    except tomllib.TOMLDecodeError:
+        after = None
+    if after != wanted:
+        raise InvalidInput(
+            f"{name} cannot be put into the file without changing more; put in: {_line(name, position)}"
+        )
+    return edited
+
+
+def _entry(position: Position) -> dict[str, Any]:
+    return {"at": _figures(position), **({} if position.of is None else {"of": position.of})}
+
+
+def _figures(position: Position) -> list[float]:
+    """x, y, z (in) to a thousandth, O, A, T (degrees) to a hundredth."""
+    lengths = [round(value / INCH, 3) + 0.0 for value in position.at[:3]]
+    return [*lengths, *(round(value / DEGREE, 2) + 0.0 for value in position.at[3:])]
+
+
+def _fields(position: Position) -> tuple[str, str]:
+    at = f"at = [{', '.join(map(repr, _figures(position)))}]"
+    return at, "" if position.of is None else f'of = "{position.of}"'
+
+
+def _line(name: str, position: Position) -> str:
+    return f"{name} = {{ {', '.join(filter(None, _fields(position)))} }}"
+
+
+def _added(text: str, name: str, position: Position) -> str:
+    """A line behind the last entry of the table, or behind everything."""
+    header, line_end = _HEADER.search(text), "\r\n" if "\r\n" in text else "\n"
+    if header is None:
+        gap = "" if not text else line_end if text.endswith("\n") else 2 * line_end
+        return f"{text}{gap}[positions]{line_end}{_line(name, position)}{line_end}"
+    following = _NEXT.search(text, header.end())
+    end = len(text) if following is None else following.start()
+    lines = text[:end].splitlines(keepends=True)
+    while not lines[-1].strip() or lines[-1].lstrip().startswith("#"):
+        lines.pop()  # remarks before the next table are about that
+    place = len("".join(lines))
+    gap = "" if text[:place].endswith("\n") else line_end
+    return f"{text[:place]}{gap}{_line(name, position)}{line_end}{text[place:]}"
+
+
+def _replaced(text: str, name: str, position: Position) -> str:
+    """The line, or table, of a name with other figures; what else stands there stays."""
+    key = rf"[\"']?{re.escape(name)}[\"']?"
+    line = re.compile(rf"^[ \t]*(?:positions\s*\.\s*)?{key}[ \t]*=[ \t]*\{{.*$", re.MULTILINE)
+    table = re.compile(rf"^[ \t]*\[\s*positions\s*\.\s*{key}\s*\].*(?:\n(?![ \t]*\[).*)*", re.MULTILINE)
+    for pattern, between in ((table, "\n"), (line, ", ")):
+        found = pattern.search(text)
+        if found is not None:
+            return text[: found.start()] + _with_fields(found[0], position, between) + text[found.end() :]
+    return text
+
+
+def _with_fields(entry: str, position: Position, between: str) -> str:
+    at, of = _fields(position)
+    if of and _outside_remarks(_OF).search(entry):
+        return _put(_AT, at, _put(_OF, of, entry))
+    return _put(_AT, between.join(filter(None, (at, of))), _put(_OF_ALONE, "", entry))
+
+
+def _put(pattern: str, fields: str, entry: str) -> str:
+    return _outside_remarks(pattern).sub(lambda found: found[1] + fields, entry, count=1)
+
+
+def _outside_remarks(pattern: str) -> re.Pattern[str]:
+    return re.compile(rf"^([^#\n]*?)(?:{pattern})", re.MULTILINE)

@@ -1,0 +1,61 @@
+"""The world as the program believes it: for each part a planned pose and, once seen or felt, a measured one."""
+
+from dataclasses import dataclass, field
+
+from handeye.errors import InvalidInput
+from handeye.pose import Pose, hand, hand_angles, inverse, planar
+from handeye.program.program import Part, Position, Program
+
+
+def planned_pose(part: Part) -> Pose:
+    """`X_WP` as the drawing has it."""
+    return planar(*part.at)
+
+
+def place(X: Pose) -> tuple[float, float, float, float, float, float]:
+    """x, y, z (m) and the angles O, A, T (rad) of a hand, to a millionth of each."""
+    x, y, z, o, a, t = (round(float(value), 6) + 0.0 for value in (*X[:3, 3], *hand_angles(X)))
+    return x, y, z, o, a, t
+
+
+@dataclass(slots=True, kw_only=True)
+class WorldModel:
+    """The one mutable picture of the cell; only the executor writes to it."""
+
+    parts: dict[str, Part]
+    positions: dict[str, Position]
+    measured: dict[str, Pose] = field(default_factory=dict)
+    moved: dict[str, Position] = field(default_factory=dict)
+    """Positions that `HERE`, or somebody for an experiment, has put elsewhere."""
+
+    @classmethod
+    def of(cls, program: Program) -> "WorldModel":
+        """The world as planned, nothing measured yet."""
+        return cls(parts=program.parts, positions=program.positions)
+
+    def measure(self, part: str, X_WP: Pose) -> None:
+        """A part has been seen or felt at this pose."""
+        if part not in self.parts:
+            raise InvalidInput(f"no part {part}; there are {', '.join(self.parts)}")
+        self.measured[part] = X_WP
+
+    def part(self, name: str) -> Pose:
+        """`X_WP`, measured if it has been, else planned."""
+        measured = self.measured.get(name)
+        return planned_pose(self.parts[name]) if measured is None else measured
+
+    def position(self, name: str) -> Pose:
+        """`X_WT` of a hand position, by the measured pose of the part it belongs to."""
+        position = self.moved.get(name) or self.positions[name]
+        X_PT = hand(*position.at)
+        return X_PT if position.of is None else self.part(position.of) @ X_PT
+
+    def seen_from(self, part: str | None, X_WT: Pose) -> Position:
+        """The hand position `X_WT`, relative to a part where that is now, or in table coordinates."""
+        return Position(at=place(X_WT if part is None else inverse(self.part(part)) @ X_WT), of=part)
+
+    def planned_position(self, name: str) -> Pose:
+        """`X_WT` of a hand position, by planned poses alone."""
+        position = self.positions[name]
+        X_PT = hand(*position.at)
+        return X_PT if position.of is None else planned_pose(self.parts[position.of]) @ X_PT

@@ -1,0 +1,210 @@
+"""Checkpoints on disk: one line that says what it is, one of JSON for people, then the compressed state.
+
+The first line carries a digest of all that follows it, so that a file that is cut short, or in which any bit is
+wrong, is refused before anything in it is used.
+"""
+
+import hashlib
+import re
+import zlib
+from pathlib import Path
+from typing import Annotated, Any, Final
+
+import msgspec
+import numpy as np
+
+from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted
+from handeye.files import Kind, read_whole, write_whole
+from handeye.planfile.store import decode as decode_plan
+from handeye.planfile.store import encode as encode_plan
+from handeye.planfile.store import plan_digest
+from handeye.program.program import Record
+from handeye.runs.snapshot import Checkpoint, Setup, Snapshot, arm_of
+from handeye.versions import versions
+from handeye.vision.calibration import Calibration
+
+MAGIC: Final = "handeye-checkpoint"
+VERSION: Final = 1
+ENDING: Final = ".checkpoint"
+CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
+LARGEST: Final = 1 << 28
+"""Bytes of a state, decompressed: a hundred times what a run of the water pump needs."""
+_KINDS: Final = ("<f8", "|u1")
+"""Arrays of a state: figures and pictures."""
+
+
+class Head(Record, frozen=True, kw_only=True):
+    """What a checkpoint is of, for people and for finding the right one."""
+
+    program: str
+    plan: str
+    """Digest of the plan."""
+    arm: str
+    arm_digest: str
+    seed: Annotated[int, msgspec.Meta(ge=0)]
+    camera: str
+    versions: dict[str, str]
+    position: int
+    """Steps done; -1: not begun."""
+    stage: str | None
+    between_stages: bool
+    """The next step begins the stage."""
+    time: float | None
+    """s on the cell's clock."""
+    touched: bool
+    """Somebody had interfered with the run: it is not what the plan alone makes of it."""
+    judged: bool = False
+    """The referee is to look at what came out."""
+
+
+class _Body(Record, frozen=True, kw_only=True):
+    plan: str
+    calibration: Calibration | None
+    snapshot: Snapshot | None
+    events: tuple[AnyEvent, ...]
+
+
+def head_of(checkpoint: Checkpoint) -> Head:
+    """What there is to say about a checkpoint in a line."""
+    setup, snapshot = checkpoint.setup, checkpoint.snapshot
+    return Head(
+        program=setup.plan.program.name,
+        plan=plan_digest(setup.plan),
+        arm=setup.plan.arm,
+        arm_digest=setup.plan.arm_digest,
+        seed=setup.seed,
+        camera=setup.camera,
+        versions=versions(),
+        position=checkpoint.position,
+        stage=checkpoint.stage,
+        between_stages=checkpoint.between_stages,
+        time=None if snapshot is None else round(snapshot.cell.sensed.time, 6),
+        touched=checkpoint.touched,
+        judged=setup.judged,
+    )
+
+
+def encode(checkpoint: Checkpoint) -> bytes:
+    """A checkpoint as bytes."""
+    body = _Body(
+        plan=encode_plan(checkpoint.setup.plan),
+        calibration=checkpoint.calibration,
+        snapshot=checkpoint.snapshot,
+        events=checkpoint.events,
+    )
+    head = msgspec.json.encode(head_of(checkpoint))
+    packed = zlib.compress(msgspec.msgpack.encode(body, enc_hook=_plain), 1)
+    rest = head + b"\n" + packed
+    return f"{MAGIC} {VERSION} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
+
+
+def decode(data: bytes, name: str) -> Checkpoint:
+    """The checkpoint in some bytes.
+
+    Raises:
+        InvalidInput: not a checkpoint, not whole, of a newer version, or for another arm.
+    """
+    head, packed = _opened(data, name)
+    try:
+        body = msgspec.msgpack.decode(_inflated(packed), type=_Body, dec_hook=_array)
+    except (zlib.error, msgspec.DecodeError, ValueError, TypeError) as error:
+        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+    plan = decode_plan(body.plan, f"the plan in {name}")
+    try:
+        arm_of(plan)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name} cannot be used: {error}") from None
+    if body.snapshot is not None and (
+        body.snapshot.happened != len(body.events)
+        or not isinstance(next(iter(body.events), None), RunStarted)
+    ):
+        raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
+    checkpoint = Checkpoint(
+        setup=Setup(plan=plan, seed=head.seed, camera=head.camera, judged=head.judged),
+        calibration=body.calibration,
+        snapshot=body.snapshot,
+        events=body.events,
+    )
+    begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
+    if not begun <= set(plan.program.stages):
+        raise InvalidInput(f"{name} is not a sound checkpoint: it tells of stages that its plan has not")
+    told = (head.program, head.plan, head.position, head.touched)
+    if told != (plan.program.name, plan_digest(plan), checkpoint.position, checkpoint.touched):
+        raise InvalidInput(f"{name} is not a sound checkpoint: its head does not tell of what is in it")
+    return checkpoint
+
+
+def decode_head(data: bytes, name: str) -> Head:
+    """What a checkpoint is of; all of it is checked for damage.
+
+    Raises:
+        InvalidInput: as `decode`.
+    """
+    return _opened(data, name)[0]
+
+
+def read_checkpoint(path: Path) -> Checkpoint:
+    """The checkpoint in a file.
+
+    Raises:
+        InvalidInput: as `decode`, or the file cannot be read.
+    """
+    return decode(read_whole(path), str(path))
+
+
+def read_head(path: Path) -> Head:
+    """What the checkpoint in a file is of.
+
+    Raises:
+        InvalidInput: as `decode`, or the file cannot be read.
+    """
+    return decode_head(read_whole(path), str(path))
+
+
+def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
+    """Write a checkpoint, whole or not at all."""
+    write_whole(path, encode(checkpoint))
+
+
+def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
+    """The head and the packed body, if they are undamaged."""
+    first, _, rest = data.partition(b"\n")
+    words = first.decode("ascii", errors="replace").split(" ")
+    if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):
+        raise InvalidInput(f"{name} is not a checkpoint of handeye")
+    if int(words[1]) > VERSION:
+        raise InvalidInput(
+            f"{name} has checkpoint format version {words[1]}; this handeye reads up to version {VERSION}"
+        )
+    if words[2] != hashlib.sha256(rest).hexdigest():
+        raise InvalidInput(f"{name} is damaged or cut short: its checksum is wrong")
+    line, _, packed = rest.partition(b"\n")
+    try:
+        return msgspec.json.decode(line, type=Head), packed
+    except msgspec.DecodeError as error:
+        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+
+
+def _inflated(packed: bytes) -> bytes:
+    """Raises ValueError for what would fill the memory."""
+    inflater = zlib.decompressobj()
+    data = inflater.decompress(packed, LARGEST)
+    if inflater.unconsumed_tail or not inflater.eof:
+        raise ValueError("its state is too large, or not whole")
+    return data
+
+
+def _plain(value: Any) -> Any:
+    """An array as something MessagePack knows."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.str, value.shape, value.tobytes()
+    raise TypeError(f"no {type(value).__name__} belongs in a checkpoint")
+
+
+def _array(kind: type, value: Any) -> Any:
+    """The array that `_plain` made plain."""
+    dtype, shape, data = value
+    if dtype not in _KINDS:
+        raise ValueError(f"no array of {dtype!r} belongs in a checkpoint")
+    return np.frombuffer(data, dtype).reshape(shape)

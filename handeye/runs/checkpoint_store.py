@@ -1,0 +1,173 @@
+"""Checkpoints of one run in a folder: found, written, and removed when the run goes back behind them."""
+
+import re
+from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
+
+from handeye.errors import InvalidInput
+from handeye.files import write_whole
+from handeye.planfile.store import plan_digest
+from handeye.runs.checkpoint_file import (
+    ENDING,
+    Head,
+    encode,
+    read_checkpoint,
+    read_head,
+    write_checkpoint,
+)
+from handeye.runs.snapshot import Checkpoint, Setup
+
+
+class CheckpointStore:
+    """The checkpoints in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def save(self, checkpoint: Checkpoint) -> Path:
+        """Write a checkpoint under a name that sorts by how far the run had come.
+
+        Raises:
+            InvalidInput: the folder cannot be written to.
+        """
+        path = self.folder / file_name(checkpoint)
+        write_checkpoint(path, checkpoint)
+        for other in self.folder.glob(f"{checkpoint.position:04}-*{ENDING}"):
+            if other != path:  # as many steps done, but before the operator's answer
+                other.unlink(missing_ok=True)
+        return path
+
+    def heads(self) -> Iterator[tuple[Path, Head]]:
+        """Sound checkpoints, the newest first."""
+        for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
+            try:
+                yield path, read_head(path)
+            except InvalidInput:
+                continue
+
+    def moved(self) -> Iterator[Path]:
+        """Those, sound or not, of a run that had begun."""
+        return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
+
+    def damaged(self) -> list[str]:
+        """What is wrong with those that are not sound, a sentence each."""
+        faults = []
+        for path in sorted(self.folder.glob(f"*{ENDING}")):
+            try:
+                read_head(path)
+            except InvalidInput as fault:
+                faults.append(str(fault))
+        return faults
+
+    def check(self, setup: Setup) -> None:
+        """Make sure that checkpoints of a run with this setup belong here.
+
+        Raises:
+            InvalidInput: there are those of another run.
+        """
+        for path, head in self.heads():
+            if head.plan != plan_digest(setup.plan):
+                raise InvalidInput(f"{path} is of another plan ({head.program}, {head.plan})")
+            if (head.seed, head.camera) != (setup.seed, setup.camera):
+                raise InvalidInput(
+                    f"{path} is of another run (seed {head.seed}, camera {head.camera}); choose another folder"
+                )
+
+    def claim(self, setup: Setup) -> None:
+        """Make sure that nothing is lost when a run with this setup keeps its states here.
+
+        Raises:
+            InvalidInput: what is here is of another run, cannot be read, or would not come out again the same.
+        """
+        self.check(setup)
+        for fault in self.damaged():
+            raise InvalidInput(f"{self.folder} holds what cannot be read ({fault}); choose another folder")
+        if any(head.touched for path, head in self.heads() if _position(path) >= 0):
+            raise InvalidInput(
+                f"{self.folder} is of a run that somebody took a hand in, which would be lost; choose another folder"
+            )
+
+    def newest(self) -> Checkpoint | None:
+        """The sound checkpoint that is farthest on."""
+        for path, _ in self.heads():
+            try:
+                return read_checkpoint(path)
+            except InvalidInput:
+                continue
+        return None
+
+    def at_or_before(self, position: int) -> Checkpoint | None:
+        """The newest of those that `save` has written that is not farther on than `position` steps.
+
+        The one from before the run does not count.
+        """
+        for path, head in self.heads():
+            if head.position >= 0 and 0 <= _position(path) <= position:
+                return read_checkpoint(path)
+        return None
+
+    def for_stage(self, setup: Setup, number: int) -> Checkpoint | None:
+        """The checkpoint from which the fewest steps lead to a stage (by number) of a run with this setup.
+
+        Checkpoints from after somebody interfered do not count.
+
+        Raises:
+            InvalidInput: the checkpoints here are of another run.
+        """
+        self.check(setup)
+        stages = setup.plan.program.stages
+        for path, head in self.heads():
+            if head.touched or head.stage is None or not head.between_stages:
+                continue
+            if head.stage in stages and stages.index(head.stage) <= number:
+                return read_checkpoint(path)
+        return None
+
+    def drop_after(self, position: int) -> None:
+        """Remove those that are farther on than `position` steps."""
+        for path in self.folder.glob(f"*{ENDING}"):
+            if _position(path) > position:
+                path.unlink(missing_ok=True)
+
+
+def _position(path: Path) -> int:
+    """Steps done, by the name of a checkpoint's file; -1 for the one from before the run."""
+    number = re.match(r"(\d+)-", path.name)
+    return -1 if number is None else int(number[1])
+
+
+def file_name(checkpoint: Checkpoint) -> str:
+    """`0036-insert-the-aligning-pins.checkpoint`: steps done, and the stage under way or to come."""
+    if checkpoint.snapshot is None:
+        return f"start{ENDING}"
+    words = re.sub(r"[^a-z0-9]+", "-", (checkpoint.stage or "end").lower()).strip("-")
+    return f"{checkpoint.position:04}-{words}{ENDING}"
+
+
+def leave(folder: Path, checkpoint: Checkpoint) -> Path:
+    """Write a checkpoint under a name of its own, never over another state; where it now is.
+
+    Raises:
+        InvalidInput: the folder cannot be written to.
+    """
+    state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
+    if _holds(folder / name, state):
+        return folder / name
+    program = re.sub(r"[^A-Za-z0-9_.-]+", "-", setup.plan.program.name).lstrip(".")
+    stem = f"{program}-{setup.seed}-{name.removesuffix(ENDING)}"
+    names = (stem if number == 1 else f"{stem}-{number}" for number in count(1))
+    path = next(path for path in (folder / f"{name}{ENDING}" for name in names) if _free(path, state))
+    write_whole(path, state)
+    return path
+
+
+def _free(path: Path, state: bytes) -> bool:
+    return not (path.exists() or path.is_symlink()) or _holds(path, state)
+
+
+def _holds(path: Path, state: bytes) -> bool:
+    try:
+        return path.read_bytes() == state
+    except OSError:
+        return False

@@ -1,0 +1,228 @@
+"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result.
+
+It is an observer: it writes down what happens and changes nothing.
+"""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.events import AnyEvent
+from handeye.files import write_whole
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import encode, plan_digest, read_plan
+from handeye.ports.ports import Picture, Sensed
+from handeye.pose import Array
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.journal import Journal
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.trace.frames import Frames
+from handeye.trace.recorder import Recorder
+
+PLAN: Final = "plan.json"
+EVENTS: Final = "events.jsonl"
+TRACE: Final = "trace.mcap"
+RESULT: Final = "result.json"
+CHECKPOINTS: Final = "checkpoints"
+PICTURES: Final = "pictures"
+
+
+class RunFolder(Observer):
+    """Keeps a run in a folder."""
+
+    def __init__(self, path: Path, made: list[Path]) -> None:
+        """Use `open_new` or `open_again`; `made` are the folders that are new, the innermost first."""
+        self.path = path
+        self.kept = CheckpointStore(path / CHECKPOINTS)
+        self._made = made
+        self._begun = False
+        self._runner: Runner | None = None
+        self._journal: Journal | None = None
+        self._recorder: Recorder | None = None
+
+    def watch(self, runner: Runner, start: Checkpoint, *, again: bool) -> "RunFolder":
+        """Look at a run that begins, or with `again` goes on, from `start`.
+
+        Raises:
+            InvalidInput: the folder cannot be written to.
+        """
+        self._runner = runner
+        self._journal = Journal(self.path / EVENTS, start.events, again=again)
+        if not again:
+            self.begin(start)
+        (self.path / RESULT).unlink(missing_ok=True)  # it is not over yet
+        self._recorder = self._recording(start.events)
+        if again:
+            self._journal.undone(len(start.events), runner.run.time, "resumed")
+        return self
+
+    def begin(self, start: Checkpoint) -> None:
+        """Let this run take the place of the one that was here.
+
+        Raises:
+            InvalidInput: the folder cannot be written to.
+        """
+        self._begun = True
+        self.kept.drop_after(-1)
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT)]
+        for file in (*left, *(self.path / PICTURES).glob("*.png")):
+            file.unlink(missing_ok=True)
+        write_whole(self.path / PLAN, encode(start.setup.plan).encode())
+        self.kept.save(start)
+
+    def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
+        """A recorder that goes on behind these events."""
+        assert self._runner is not None
+        plan = encode(self._runner.setup.plan).encode()
+        frames = Frames(self._runner.cell.truth)
+        return Recorder.resumed(self.path / TRACE, frames, self._picture, plan, len(events), events)
+
+    def _picture(self, name: str) -> Picture:
+        assert self._runner is not None
+        return self._runner.run.shots[name].picture
+
+    # -- looking on -----------------------------------------------------------------------------------
+
+    def event(self, event: AnyEvent) -> None:
+        assert self._journal is not None
+        assert self._recorder is not None
+        self.check_traced()
+        self._journal.append(event)
+        self._recorder.event(event)
+
+    def tick(self, sensed: Sensed, effort: Array) -> None:
+        assert self._recorder is not None
+        self._recorder.tick(sensed, effort)
+
+    def undone(self, events: int) -> None:
+        assert self._journal is not None
+        assert self._recorder is not None
+        assert self._runner is not None
+        self.kept.drop_after(self._runner.position)
+        try:
+            self._recorder.cut(events)
+        finally:  # none of the three must go on as if nothing was undone
+            self._journal.undone(events, self._runner.run.time, "back")
+
+    def checkpoint(self, checkpoint: Checkpoint) -> None:
+        assert self._recorder is not None
+        if self._recorder.broken:
+            return
+        self._recorder.flush()  # first: a checkpoint must not be ahead of the trace that leads to it
+        self.kept.save(checkpoint)
+
+    def check_traced(self) -> None:
+        """Make sure that what happens next can be told.
+
+        Raises:
+            InvalidInput: the trace was broken off, so that nothing may happen behind it.
+        """
+        if self._recorder is not None and self._recorder.broken:
+            raise InvalidInput(
+                f"the trace in {self.path} was broken off; make room, and `handeye resume {self.path}` goes on "
+                "from the last checkpoint"
+            )
+
+    def close(self) -> None:
+        if self._journal is not None:
+            self._journal.close()
+        if self._recorder is not None:
+            self._recorder.close()
+
+    def discard(self) -> None:
+        """Remove what `open_new` has made, if the run has not begun."""
+        if self._runner is not None or not self._begun:
+            return
+        for path in (self.path / PLAN, self.path / CHECKPOINTS / "start.checkpoint"):
+            path.unlink(missing_ok=True)
+        for folder in self._made:
+            if not any(folder.iterdir()):
+                folder.rmdir()
+
+
+def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFolder:
+    """A folder for a run that begins at `start`.
+
+    Args:
+        overwrite: the run that is in the folder, if any, is replaced once this one moves.
+
+    Raises:
+        InvalidInput: the folder cannot be had, or holds something that would be lost.
+    """
+    _refuse_others(path)
+    if not overwrite:
+        _refuse_run(path)
+        CheckpointStore(path / CHECKPOINTS).claim(start.setup)
+        _check_plan(path, start.setup.plan)
+    inner = [path / CHECKPOINTS, path / PICTURES]
+    made = [place for place in (*inner, path, *path.parents) if not place.exists()]
+    try:
+        for place in inner:
+            place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidInput(f"{path} cannot be made: {error.strerror}") from None
+    if not all(os.access(place, os.W_OK) for place in (path, *inner)):
+        raise InvalidInput(f"{path} cannot be written to")
+    folder = RunFolder(path, made)
+    if not _holds_run(path):
+        folder.begin(start)
+    return folder
+
+
+def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
+    """The folder of a run that was broken off, and its newest sound checkpoint.
+
+    Raises:
+        InvalidInput: there is none, or it is not of the plan in the folder.
+    """
+    folder = RunFolder(path, [])
+    if not folder.kept.folder.is_dir():
+        if any(CheckpointStore(path).heads()):
+            raise InvalidInput(f"{path} is a folder of checkpoints, and not that of a run; name one of them")
+        raise InvalidInput(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
+    checkpoint = folder.kept.newest()
+    if checkpoint is None:
+        faults = folder.kept.damaged()
+        raise InvalidInput(faults[-1] if faults else f"there is no checkpoint in {folder.kept.folder}")
+    _check_plan(path, checkpoint.setup.plan)
+    return folder, checkpoint
+
+
+def _check_plan(path: Path, plan: Plan) -> None:
+    beside = path / PLAN
+    if beside.exists() and plan_digest(read_plan(beside)) != plan_digest(plan):
+        raise InvalidInput(f"the runs in {path} are of another plan than this one, by {beside}")
+
+
+def _holds_run(path: Path) -> bool:
+    """Whether a run has left a record in a folder: it has moved, and not only been set up."""
+    records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
+    return records or any(CheckpointStore(path / CHECKPOINTS).moved())
+
+
+def _refuse_run(path: Path) -> None:
+    """Raises InvalidInput if a folder holds a run."""
+    if _holds_run(path):
+        raise InvalidInput(
+            f"{path} holds a run: `handeye resume {path}` goes on with it, --overwrite replaces it, "
+            "and another folder leaves it alone"
+        )
+
+
+def _refuse_others(path: Path) -> None:
+    """Raises InvalidInput if a folder holds what no run has left."""
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES}
+    if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
+        ours.remove(PICTURES)
+    others = (
+        sorted(inside.name for inside in path.iterdir() if inside.name not in ours) if path.is_dir() else []
+    )
+    if others:
+        raise InvalidInput(
+            f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
+        )

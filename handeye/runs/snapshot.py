@@ -1,0 +1,99 @@
+"""The complete state of a run between two steps, and what a run begins with."""
+
+from collections.abc import Iterable
+from typing import Annotated, Final
+
+import msgspec
+
+from handeye.arm.model import ArmModel, digest
+from handeye.arm.stanford import STANFORD
+from handeye.cell.state import CellState
+from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
+from handeye.execution.memory import Memory
+from handeye.planfile.plan import Plan
+from handeye.program.program import Record
+from handeye.vision.calibration import Calibration
+
+ARMS: Final = {STANFORD.name: STANFORD}
+
+
+class Setup(Record, frozen=True, kw_only=True):
+    """What decides a run, as long as nobody interferes."""
+
+    plan: Plan
+    seed: Annotated[int, msgspec.Meta(ge=0)]
+    camera: str
+    """How to make pictures: `auto`, `gl` or `ray`."""
+    judged: bool = False
+    """The referee is to look at what came out. It decides nothing of the run."""
+
+
+class Snapshot(Record, frozen=True, kw_only=True):
+    """The state of a run between two steps."""
+
+    position: Annotated[int, msgspec.Meta(ge=0)]
+    """Steps done since the run began."""
+    happened: Annotated[int, msgspec.Meta(ge=0)]
+    """Events until then, undone ones not counted."""
+    cell: CellState
+    memory: Memory
+
+
+class Checkpoint(Record, frozen=True, kw_only=True):
+    """All that is needed to take up a run: here, on another day, on another computer."""
+
+    setup: Setup
+    calibration: Calibration | None = None
+    """Of the camera; None if the plan takes no pictures, or the run has not begun."""
+    snapshot: Snapshot | None = None
+    """None: the run has not begun."""
+    events: tuple[AnyEvent, ...] = ()
+    """Everything that has happened and was not undone."""
+
+    @property
+    def position(self) -> int:
+        """Steps done; -1 if the run has not begun."""
+        return -1 if self.snapshot is None else self.snapshot.position
+
+    @property
+    def touched(self) -> bool:
+        """Somebody has interfered: an experiment, or an answer of the operator."""
+        return interfered(self.events)
+
+    @property
+    def between_stages(self) -> bool:
+        """The next step begins a stage."""
+        if self.snapshot is None:
+            return False
+        memory = self.snapshot.memory
+        return memory.at is not None and memory.stage is None
+
+    @property
+    def stage(self) -> str | None:
+        """The stage under way, or the one to come; None if the run has not begun or has ended."""
+        if self.snapshot is None:
+            return None
+        memory, program = self.snapshot.memory, self.setup.plan.program
+        if memory.stage is not None:
+            return program.stages[memory.stage]
+        return None if memory.at is None else program.stages[program.steps[memory.at].stage]
+
+
+def interfered(events: Iterable[AnyEvent]) -> bool:
+    """Whether somebody has taken a hand in what happened."""
+    return any(isinstance(event, ExperimentMade | OperatorAnswered) for event in events)
+
+
+def arm_of(plan: Plan) -> ArmModel:
+    """The arm that a plan was made for.
+
+    Raises:
+        InvalidInput: there is none such here.
+    """
+    arm = ARMS.get(plan.arm)
+    if arm is None or digest(arm) != plan.arm_digest:
+        raise InvalidInput(
+            f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
+        )
+    return arm

@@ -1,0 +1,63 @@
+"""Whether a recorded run comes out the same when it is carried out again."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from handeye.errors import InvalidInput
+from handeye.events import (
+    AnyEvent,
+    PanicStopped,
+    RunStarted,
+    StepFinished,
+    StepStarted,
+)
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import decode
+from handeye.runs.folder import TRACE, open_new
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.trace.compare import first_difference
+from handeye.trace.reading import Trace, read_trace
+
+RAYS: Final = "ray casting"
+"""How `RunStarted` names a camera that uses no OpenGL."""
+
+
+def setup_of(begun: RunStarted, plan: Plan) -> Setup:
+    """What a recorded run began with; its pictures are made in the way they were.
+
+    Raises:
+        InvalidInput: there is no such world.
+    """
+    if begun.seed < 0:
+        raise InvalidInput(f"the run was begun in the world of seed {begun.seed}, which there is not")
+    return Setup(plan=plan, seed=begun.seed, camera="ray" if begun.camera == RAYS else "gl")
+
+
+def settled(events: Sequence[AnyEvent]) -> int:
+    """How many of a run's events do not depend on when somebody hit the panic button."""
+    if not events or not isinstance(events[-1], PanicStopped):
+        return len(events)
+    steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]
+    ended = [n for n, event in enumerate(events) if isinstance(event, StepFinished)]
+    broken = len(steps) > len(ended)
+    return steps[-1] if broken else len(events) - 1
+
+
+def difference(trace: Trace, folder: Path) -> str | None:
+    """Carry out a run again, keeping it in `folder`; the first thing in which it differs, in a sentence.
+
+    Raises:
+        InvalidInput: it cannot be carried out here.
+    """
+    wanted = trace.events[: settled(trace.events)]
+    start = Checkpoint(setup=setup_of(trace.head, decode(trace.plan, f"the plan in {trace.name}")))
+    keeping = open_new(folder, start)
+    try:
+        runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])
+        runner.repeat(wanted)
+    finally:
+        keeping.close()
+    again = read_trace(folder / TRACE)
+    return first_difference(trace, again, events=len(wanted), unseen=trace.unseen)

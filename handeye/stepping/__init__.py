@@ -1,1 +1,0 @@
-"""Runs that can be stepped, stopped, kept, taken up again and put back in time."""

@@ -1,0 +1,1 @@
+"""The assembly of an automobile water pump: its scene, its errors, its referee."""

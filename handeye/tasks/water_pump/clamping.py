@@ -1,0 +1,73 @@
+"""Parts at rest cost nothing, and parts clamped together move as one.
+
+*Sleep.* MuJoCo puts an island of trees to sleep once all of it has stood still, and wakes it at the first
+contact with something awake, so the working phase cannot tell. By default it never lets a tree with a motor
+sleep, which would keep the driver awake, and the base too, since the driver's motor can turn the thread
+carriers in it. Here they may sleep: the motor turns a carrier only while the bit is on its head, and that
+contact wakes the base; a driver whose motor is switched on is woken by hand.
+
+*Clamping.* Two seated screws press gasket and top on the base with a friction that nothing in the cell can
+overcome. From then on welds hold them where they are, and the contacts between them, most of the cost of the
+stack, are left out. Fewer than two, and the contacts are back.
+"""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.pose import inverse, pose
+from handeye.tasks.water_pump.threads import Thread
+
+SCREWS: Final = 2
+CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways and no hand lifts them. Chosen.
+
+_MOTORED: Final = ("base", "driver")
+_LAYERS: Final = ("gasket", "top")
+_LANDS: Final = (64, 128)  # contact bits of the lands of gasket and top; scenes/water_pump/workcell.xml
+
+
+class Resting:
+    """Sleep and clamping for one cell."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, *, allowed: bool) -> None:
+        """With `allowed` false everything stays awake and apart: the same physics, slower."""
+        self._model, self._data, self._allowed = model, data, allowed
+        self._base = model.body("base").id
+        self._layers = [model.body(name).id for name in _LAYERS]
+        self._welds = [model.equality(f"merge_{name}").id for name in _LAYERS]
+        self._lands = np.flatnonzero(np.isin(model.geom_contype, _LANDS))
+        self._bits = model.geom_contype[self._lands].copy(), model.geom_conaffinity[self._lands].copy()
+        self.clamped = False
+        """Whether the layers are held by welds at present."""
+        if allowed:
+            trees = [model.body_treeid[model.body(name).id] for name in _MOTORED]
+            model.tree_sleep_policy[trees] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
+        else:
+            model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+
+    def before(self, threads: tuple[Thread, ...]) -> None:
+        """The events at the start of a tick."""
+        clamped = self._allowed and sum(hole.clamp > CLAMP for hole in threads) >= SCREWS
+        if clamped and not self.clamped:
+            self._join()
+        elif self.clamped and not clamped:
+            self.part(self._model, self._data)
+        self.clamped = clamped
+
+    def _join(self) -> None:
+        model, data = self._model, self._data
+        X_WB = pose(data.xmat[self._base].reshape(3, 3), data.xpos[self._base])
+        for weld, body in zip(self._welds, self._layers, strict=True):
+            X_BP = inverse(X_WB) @ pose(data.xmat[body].reshape(3, 3), data.xpos[body])
+            model.eq_data[weld, :3] = 0.0
+            model.eq_data[weld, 3:6] = X_BP[:3, 3]
+            mujoco.mju_mat2Quat(model.eq_data[weld, 6:10], X_BP[:3, :3].ravel())
+            data.eq_active[weld] = 1
+        model.geom_contype[self._lands] = 0
+        model.geom_conaffinity[self._lands] = 0
+
+    def part(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Give the layers their contacts back, in this model or a copy of it."""
+        data.eq_active[self._welds] = 0
+        model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits

@@ -1,0 +1,68 @@
+"""The water-pump work cell as a MuJoCo model, for a given imperfect world."""
+
+import math
+
+import mujoco
+
+from handeye.arm.stanford import STANFORD
+from handeye.pose import yaw
+from handeye.resources import scenes
+from handeye.tasks.water_pump.scene.base import add_base
+from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
+from handeye.tasks.water_pump.scene.fasteners import add_pins, add_screws
+from handeye.tasks.water_pump.scene.fixtures import add_blocks
+from handeye.tasks.water_pump.scene.room import add_room
+from handeye.tasks.water_pump.scene.shapes import Shaper
+from handeye.tasks.water_pump.scene.textures import add_textures
+from handeye.tasks.water_pump.scene.tool import add_driver
+from handeye.tasks.water_pump.variation import World
+
+ARM = "stanford/"
+"""Prefix of all names of the arm."""
+
+
+def specification(world: World) -> mujoco.MjSpec:
+    """The scene before compilation, to add to or to save.
+
+    Bodies: base (with carrier0..), gasket, top (with rotor), pin0, pin1, screw0.., driver (with bit), the
+    fixtures, and the arm's under `stanford/`. World frame: the table's.
+    """
+    spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
+    _add_arm(spec, world)  # first: free bodies before it would shift its joints
+    shaper = Shaper(spec=spec)
+    for style in ("solid", "bore", "face", "shank", "nose", "head", "base_land", "gasket_land", "top_land"):
+        friction = shaper.style(style).geom.friction
+        friction[0] *= world.friction["part"]  # a contact has the greater friction of the two
+    add_room(shaper, world)
+    add_blocks(shaper, world)
+    add_base(shaper, world)
+    add_gasket(shaper, world)
+    add_top(shaper, world)
+    add_pins(shaper, world)
+    add_screws(shaper, world)
+    add_driver(shaper, world)
+    add_merging(spec)
+    add_textures(spec)
+    return spec
+
+
+def build(world: World) -> mujoco.MjModel:
+    """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
+    return specification(world).compile()
+
+
+def _add_arm(spec: mujoco.MjSpec, world: World) -> None:
+    """The arm on its riser, with the world's true masses, joint friction and pad friction."""
+    arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
+    for number, (mass, friction) in enumerate(zip(world.arm.link_mass, world.arm.friction, strict=True), 1):
+        link = arm.body(f"link{number}")
+        link.mass *= mass
+        link.inertia *= mass
+        arm.joint(f"j{number}").frictionloss = friction
+    for pad in (arm.geom("pad_a"), arm.geom("pad_b")):
+        pad.friction[0] *= world.friction["pad"]
+    turn = yaw(STANFORD.X_WB)
+    frame = spec.worldbody.add_frame(
+        pos=STANFORD.X_WB[:3, 3].tolist(), quat=[math.cos(turn / 2), 0.0, 0.0, math.sin(turn / 2)]
+    )
+    spec.attach(arm, frame=frame, prefix=ARM)

@@ -1,0 +1,146 @@
+"""The pump base: plate and casting, two large holes, six tapped holes with their threads."""
+
+import math
+from collections.abc import Sequence
+from functools import partial
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.pose import Array
+from handeye.tasks.water_pump.scene import solids
+from handeye.tasks.water_pump.scene.dimensions import Dimensions, dimensions
+from handeye.tasks.water_pump.scene.drawing import Point, base_top, screw_holes
+from handeye.tasks.water_pump.scene.fasteners import screw_look
+from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia, box_moments
+from handeye.tasks.water_pump.variation import World
+
+_WEDGES = 24  # around the large holes; 15 degrees each
+
+
+def add_base(shaper: Shaper, world: World) -> None:
+    """The base on the belt, a free body; its threads are bodies inside it."""
+    d = dimensions()
+    body = shaper.spec.worldbody.add_body(
+        name="base",
+        pos=[world.base.x, world.base.y, d("belt.height")],
+        quat=[math.cos(world.base.yaw / 2), 0.0, 0.0, math.sin(world.base.yaw / 2)],
+    )
+    body.add_freejoint(name="base")
+    mass = (d("base.casting.mass") + d("base.plate.mass")) * world.part_mass
+    size = (d("base.plate.length"), d("base.plate.width"), base_top())
+    body_inertia(body, mass, d.all("base.casting.mass_centre"), box_moments(mass, size))
+    screws = len(world.holes)
+    holes = [(x + dx, y + dy) for (x, y), (dx, dy) in zip(screw_holes(screws), world.holes, strict=True)]
+    _add_plate(shaper, body, d)
+    _add_casting(shaper, body, d, holes)
+    _add_looks(shaper, body, screws)
+    for number, (x, y) in enumerate(holes):
+        _add_tapped_hole(shaper, body, d, number, (x, y))
+
+
+def _add_plate(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions) -> None:
+    x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
+    low, high = (x - length / 2, -width / 2, 0.0), (x + length / 2, width / 2, d("base.plate.thickness"))
+    shaper.box(body, "solid", low, high, name="plate")
+
+
+def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: list[Point]) -> None:
+    """Walls of solid metal around the large holes; wedges with a tapped hole in them stop only the hand."""
+    floor, top = d("base.plate.thickness"), base_top()
+    bores = (
+        ("wall_1", 0.0, d("base.large_hole_1.diameter"), d("base.casting.chamber_diameter")),
+        (
+            "wall_2",
+            d("base.large_hole_2.x"),
+            d("base.large_hole_2.diameter"),
+            d("base.casting.inlet_diameter"),
+        ),
+    )
+    reach = d("base.screw_holes.radius") + d("base.screw_holes.chamfer")
+    for mesh, x, inner, outer in bores:
+        wall = Bore(radius=inner / 2, outer=outer / 2, height=top - floor, sectors=_WEDGES)
+
+        def style(angle: float, x: float = x) -> str:
+            return "wall" if any(_in_wedge(angle, hx - x, hy, reach) for hx, hy in holes) else "face"
+
+        shaper.ring(body, mesh, wall, (x, 0.0, floor), style)
+    depth = top - d("base.large_hole_1.depth")
+    shaper.cylinder(body, "face", bores[0][2] * 0.51, (0, 0, floor), (0, 0, depth), name="floor_1")
+    x0, y0, x1, y1 = d.all("base.casting.spout")
+    shaper.box(body, "wall", (x0, y0, floor), (x1, y1, top), name="spout")
+
+
+def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
+    """Whether a hole at (x, y) from the ring's axis, open to `reach`, cuts into the wedge there."""
+    away = abs(math.remainder(math.atan2(y, x) - angle, 2 * math.pi))
+    return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
+
+
+def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
+    for colour, surface in solids.painted(
+        solids.casting(screws), partial(_colour, screw_holes(screws))
+    ).items():
+        shaper.look(body, f"casting_{colour}", colour, surface)
+    shaper.look(body, "base_plate", "plate", solids.surface(solids.plate()))
+    d = dimensions()  # the floor of the through hole is as oily as its wall
+    x, radius, floor = (
+        d("base.large_hole_2.x"),
+        d("base.large_hole_2.diameter") / 2,
+        d("base.plate.thickness"),
+    )
+    shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole")
+
+
+def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:
+    """The face is machined; holes are dark inside, as cast and oily; the rest is cast."""
+    d = dimensions()
+    x2 = d("base.large_hole_2.x")
+    rims = [(0.0, 0.0, d("base.large_hole_1.diameter") / 2), (x2, 0.0, d("base.large_hole_2.diameter") / 2)]
+    tap = d("base.screw_holes.radius") + d("base.screw_holes.chamfer")
+    rims += [(x, y, tap) for x, y in holes]
+    inside = np.zeros(len(middles), bool)
+    for x, y, radius in rims:
+        inside |= np.hypot(middles[:, 0] - x, middles[:, 1] - y) < radius + 1e-6
+    up = (normals[:, 2] > 0.99) & (middles[:, 2] > base_top() - 1e-6)
+    return np.where(inside, "hole", np.where(up, "machined", "cast"))
+
+
+def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
+    """The bore, the land the gasket and top rest on, and the thread.
+
+    A thread is a carrier with the frame of the screw that is in it, origin at the screw's point: its slide is
+    tied to its turn by the pitch. Its head meets nothing until the cell engages a screw, but is compiled with
+    the widest contact bits: narrowing them at run time works, widening does not.
+    """
+    top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
+    tap = Bore(
+        radius=d("base.screw_holes.radius"), outer=d("base.screw_holes.land"), height=depth,
+        above=d("base.screw_holes.chamfer"),
+    )  # fmt: skip
+    shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "bore")
+    shaper.box(body, "base_land", (x - 0.008, y - 0.008, top - 0.010), (x + 0.008, y + 0.008, top))
+    carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
+    carrier.gravcomp = (
+        1.0  # an empty thread has nothing that could sink, and would keep the base from resting
+    )
+    body_inertia(carrier, 0.005, (0.0, 0.0, 0.0), (1e-7, 1e-7, 1e-7))
+    carrier.add_joint(shaper.style("thread_slide"), name=f"thread_slide{number}")
+    carrier.add_joint(shaper.style("thread_turn"), name=f"thread_turn{number}")
+    carrier.add_site(name=f"thread{number}", group=5)
+    length, height = d("screw.length"), d("screw.head_height")
+    head = shaper.cylinder(
+        carrier, "head", d("screw.head_radius"), (0, 0, length), (0, 0, length + height), name=f"head{number}"
+    )
+    head.density = 0.0
+    head.rgba[3] = 0.0  # its looks are other geoms
+    for geom in screw_look(shaper, carrier):
+        geom.group = 4  # hidden until a screw is engaged
+    equality = shaper.spec.add_equality(
+        name=f"thread{number}", type=mujoco.mjtEq.mjEQ_JOINT,
+        name1=f"thread_slide{number}", name2=f"thread_turn{number}", solref=[0.004, 1.0],
+    )  # fmt: skip
+    # measured: with MuJoCo's own impedance a screw turns twice more under load and sinks no deeper
+    equality.solimp[:3] = [0.999, 0.9999, 0.0001]
+    equality.data[:5] = [0.0, d("screw.pitch") / (2 * math.pi), 0.0, 0.0, 0.0]

@@ -1,0 +1,96 @@
+"""What goes on the base: the gasket, and the top with its rotor."""
+
+import math
+
+import mujoco
+
+from handeye.tasks.water_pump.scene import solids
+from handeye.tasks.water_pump.scene.dimensions import Dimensions, dimensions
+from handeye.tasks.water_pump.scene.drawing import screw_holes, web_centre
+from handeye.tasks.water_pump.scene.fixtures import add_gasket_stand, add_top_stand
+from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
+from handeye.tasks.water_pump.variation import World
+
+
+def add_gasket(shaper: Shaper, world: World) -> None:
+    """The gasket on its stand: a rigid sheet that rests on a land at every screw."""
+    d = dimensions()
+    (x, y), turn, thick = d.all("gasket_stand.grasp"), d("standard.yaw"), d("gasket.thickness")
+    fixture = add_gasket_stand(shaper, world)
+    body = fixture.stand(shaper, "gasket", x + web_centre(), y, d("gasket_stand.height"), turn)
+    # The moments are those of the mass that the contacts need, spread over the outline.
+    body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
+    hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
+    for px, py in screw_holes(len(world.holes)):
+        shaper.ring(body, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
+        shaper.box(body, "gasket_land", (px - 0.005, py - 0.005, 0.0), (px + 0.005, py + 0.005, thick))
+    half = d("gasket.web") / 2
+    low, high = (web_centre() - half, -0.011, 0.0), (web_centre() + half, 0.011, thick)
+    shaper.box(body, "wall", low, high, name="gasket_web")
+    shaper.look(body, "gasket", "gasket", solids.surface(solids.gasket(len(world.holes))))
+
+
+def add_top(shaper: Shaper, world: World) -> None:
+    """The top on its stand: a flange with clearance holes, a hub with two flats to hold it by, the rotor."""
+    d = dimensions()
+    (x, y), turn, flange = d.all("top_stand.grasp"), d("standard.yaw"), d("top.flange")
+    fixture = add_top_stand(shaper, world)
+    body = fixture.stand(shaper, "top", x, y, d("top_stand.height"), turn)
+    moments = [world.part_mass * value for value in (1e-3, 1.6e-3, 2.3e-3)]
+    body_inertia(body, d("top.mass") * world.part_mass, d.all("top.mass_centre"), moments)
+    _add_flange(shaper, body, d, len(world.holes))
+    hub, across, height = d("top.hub_length") / 2, d("top.hub_flats") / 2, d("top.hub_height")
+    shaper.box(body, "wall", (-hub, -across, flange), (hub, across, flange + height), name="hub")
+    round_hub = solids.extruded(
+        solids.disc(0.036) ^ solids.rectangle(-0.05, -across, 0.05, across), flange, flange + height
+    )
+    shaper.look(body, "flange", "top", solids.surface(solids.flange(len(world.holes))))
+    shaper.look(body, "hub", "top", solids.surface(round_hub))
+    _add_rotor(shaper, body, d)
+
+
+def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, screws: int) -> None:
+    flange = d("top.flange")
+    hole = Bore(
+        radius=d("top.screw_hole_radius"), outer=0.0095, height=flange,
+        above=d("top.chamfer_above"), below=d("top.chamfer_below"),
+    )  # fmt: skip
+    for x, y in screw_holes(screws):
+        shaper.ring(body, "top_hole", hole, (x, y, 0.0), lambda _: "bore")
+        shaper.box(body, "seat", (x - 0.007, y - 0.007, 0.0), (x + 0.007, y + 0.007, flange))
+        shaper.box(body, "top_land", (x - 0.008, y - 0.008, 0.0), (x + 0.008, y + 0.008, 0.006))
+    x2 = d("base.large_hole_2.x")
+    shaper.cylinder(body, "wall", d("base.casting.chamber_diameter") / 2, (0, 0, 0), (0, 0, flange))
+    shaper.cylinder(body, "wall", d("base.casting.inlet_diameter") / 2, (x2, 0, 0), (x2, 0, flange))
+
+
+def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
+    """The rotor on the hub: shaft, crank arm, crank pin, which starts away from all holes."""
+    body = top.add_body(name="rotor", pos=[0.0, 0.0, d("top.flange") + d("top.hub_height")])
+    body_inertia(body, d("rotor.mass"), (0.0, 0.0, 0.01), (5e-5, 5e-5, 5e-5))
+    body.add_joint(
+        name="rotor", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 0, 1], armature=2e-4, damping=1e-3,
+        frictionloss=d("rotor.friction"), solref_friction=[0.004, 1.0],
+        solimp_friction=[0.99, 0.999, 0.001, 0.5, 2.0],
+    )  # fmt: skip
+    radius, arm = d("rotor.crank_radius"), d("rotor.arm_height")
+    pin = d("rotor.crank_diameter") / 2
+    end = arm + d("rotor.crank_height")
+    shaper.cylinder(body, "crank", pin, (-radius, 0, arm), (-radius, 0, end), name="crank")
+    bar = solids.hull(solids.disc(0.011), solids.disc(0.0075, -radius))
+    shaper.look(body, "crank_bar", "steel", solids.surface(solids.extruded(bar, arm - 0.006, arm)))
+    shaper.cylinder(body, "look", pin, (-radius, 0, arm), (-radius, 0, end), "brass")
+    shaper.cylinder(body, "look", 0.0063, (0, 0, 0), (0, 0, arm + 0.004), "steel")
+    collar = math.hypot(0.010, 0.004)
+    shaper.cylinder(body, "look", collar, (0, 0, 0), (0, 0, 0.006), "brass")
+
+
+def add_merging(spec: mujoco.MjSpec) -> None:
+    """Bonds that the cell closes when parts have come to rest together, for speed; open at first."""
+    for part in ("top", "gasket"):
+        weld = spec.add_equality(
+            name=f"merge_{part}", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,
+            name1="base", name2=part, active=False,
+            solref=[0.004, 1.0], solimp=[0.99, 0.999, 0.0001, 0.5, 2.0],
+        )  # fmt: skip
+        weld.data[10] = 1.0

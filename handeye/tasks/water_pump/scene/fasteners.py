@@ -1,0 +1,102 @@
+"""Aligning pins in their holder and screws in their dispenser."""
+
+import math
+
+import mujoco
+import numpy as np
+from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but no marker
+from numpy.typing import NDArray
+
+from handeye.pose import Array
+from handeye.tasks.water_pump.scene import solids
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import dispenser_places, pin_seat
+from handeye.tasks.water_pump.scene.fixtures import add_fixture
+from handeye.tasks.water_pump.scene.shapes import MESH, Bore, Shaper
+from handeye.tasks.water_pump.variation import World
+
+
+def add_pins(shaper: Shaper, world: World) -> None:
+    """The holder, and a free stepped pin in each of its holes; a pin's origin is in its shoulder's plane."""
+    d = dimensions()
+    x0, y0, x1, y1 = d.all("pin_holder.places")
+    radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
+    hole = Bore(radius=radius, outer=0.0125, height=0.021, above=chamfer)
+    fixture = add_fixture(shaper, world, "pin_holder", ((x0 + x1) / 2, (y0 + y1) / 2))
+    block = solids.extruded(solids.rectangle(x0 - 0.02, y0 - 0.02, x1 + 0.02, y1 + 0.02, 0.004), 0.0, height)
+    for number, (x, y) in enumerate([(x0, y0), (x1, y1)]):
+        shaper.ring(fixture.body, "holder", hole, (x, y, height - hole.height), lambda _: "bore")
+        block -= solids.bore(radius, height - hole.height, height, above=chamfer).translate((x, y, 0.0))
+        _add_pin(shaper, fixture.stand(shaper, f"pin{number}", x, y, height + pin_seat(chamfer, radius)))
+    low, high = (x0 - 0.02, y0 - 0.02, 0.0), (x1 + 0.02, y1 + 0.02, height - hole.height - 0.0005)
+    shaper.box(fixture.body, "solid", low, high)
+    shaper.look(fixture.body, "pin_holder", "enamel", solids.surface(block))
+
+
+def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
+    d = dimensions()
+    r, length, bevel = d("pin.nose_radius"), d("pin.nose_length"), d("pin.nose_bevel")
+    nose = [(0.0, -length), (r - bevel, -length), (r, bevel - length), (r, 0.0), (0.0, 0.0)]
+    r, length, bevel = d("pin.body_radius"), d("pin.body_length"), d("pin.body_bevel")
+    shank = [(0.0, 0.0), (r, 0.0), (r, length - bevel), (r - bevel, length), (0.0, length)]
+    for name, style, profile in (("pin_nose", "nose", nose), ("pin_body", "shank", shank)):
+        if shaper.spec.mesh(name) is None:
+            shaper.convex(name, solids.surface(solids.revolved(profile, 16))[0])
+        geom = body.add_geom(shaper.style(style), type=MESH, meshname=name, group=2)
+        geom.material = "pin"
+
+
+def add_screws(shaper: Shaper, world: World) -> None:
+    """The dispenser, and a free screw for each hole, hanging by its head in it; its origin is at its point."""
+    d = dimensions()
+    height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
+    hole = Bore(radius=0.0034, outer=0.0095, height=0.010, above=0.0015)
+    fixture = add_fixture(shaper, world, "dispenser", (x, y))
+    beyond = (len(world.holes) - 6) * d("dispenser.pitch")
+    low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064 + beyond)
+    block = solids.extruded(solids.rectangle(*low, *high, 0.004), 0.0, height)
+    for number, (px, py) in enumerate(dispenser_places(len(world.holes))):
+        shaper.ring(fixture.body, "dispenser", hole, (px, py, height - hole.height), lambda _: "bore")
+        shaper.box(
+            fixture.body, "seat", (px - 0.008, py - 0.008, height - 0.010), (px + 0.008, py + 0.008, height)
+        )
+        block -= solids.bore(hole.radius, height - 0.02, height, above=hole.above).translate((px, py, 0.0))
+        _add_screw(shaper, fixture.stand(shaper, f"screw{number}", px, py, height - length), number)
+    shaper.box(fixture.body, "solid", (*low, 0.0), (*high, height - length - 0.002))
+    shaper.look(fixture.body, "screw_dispenser", "enamel", solids.surface(block))
+
+
+def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
+    d = dimensions()
+    length, height, tip = d("screw.length"), d("screw.head_height"), d("screw.point_length")
+    shaper.cylinder(body, "shank", d("screw.shank_radius"), (0, 0, tip), (0, 0, length))
+    shaper.cylinder(body, "shank", d("screw.point_radius"), (0, 0, 0), (0, 0, tip))
+    head = f"screw_head{number}"
+    shaper.cylinder(body, "head", d("screw.head_radius"), (0, 0, length), (0, 0, length + height), name=head)
+    screw_look(shaper, body)
+
+
+def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
+    """Adds what a screw looks like: threaded shank, slotted head. Origin at its point."""
+    top = dimensions()("screw.length") + dimensions()("screw.head_height")
+
+    def colour(middles: Array, normals: Array) -> NDArray[np.str_]:
+        slot = (abs(middles[:, 1]) < 0.00071) & (abs(middles[:, 2] - top + 0.0006) < 0.00061)
+        return np.where(slot, "slot", "screw")
+
+    parts = solids.painted(_screw(), colour)
+    return [shaper.look(body, f"screw_{name}", name, part) for name, part in parts.items()]
+
+
+def _screw() -> Manifold:
+    d = dimensions()
+    length, height, tip = d("screw.length"), d("screw.head_height"), d("screw.point_length")
+    crest, head, pitch = d("screw.shank_radius"), d("screw.head_radius"), d("screw.pitch")
+    root, bevel, top = crest - 0.0006, 0.0006, length + height
+    thread = [(0.0, 0.0), (d("screw.point_radius"), 0.0), (d("screw.point_radius"), tip)]
+    for k in range(math.floor((length - tip) / pitch)):
+        thread += [(root, tip + k * pitch), (crest, tip + (k + 0.5) * pitch)]
+    thread += [(root, length), (0.0, length)]
+    cap = [(0.0, length), (head, length), (head, top - bevel), (head - bevel, top), (0.0, top)]
+    slot = solids.extruded(solids.rectangle(-0.01, -0.0007, 0.01, 0.0007), top - 0.0012, top + 0.001)
+    return solids.revolved(thread, 20) + (solids.revolved(cap) - slot)

@@ -1,0 +1,102 @@
+"""Fixtures on the table, each off its nominal place by the world's error: blocks, stands, rack."""
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+
+from handeye.pose import Pose, inverse, planar, yaw
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import Point
+from handeye.tasks.water_pump.scene.shapes import Shaper
+from handeye.tasks.water_pump.variation import World
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fixture:
+    """A fixed body in whose frame a thing stands where the *nominal* table frame says."""
+
+    body: mujoco.MjsBody
+    X_WF: Pose
+    """Nearly the identity: the error of place, about the fixture's middle."""
+
+    def place(self, x: float, y: float, z: float = 0.0, turn: float = 0.0) -> Pose:
+        """The true pose of what nominally stands at (x, y, z) with yaw `turn` (m, rad)."""
+        return self.X_WF @ planar(x, y, z, turn)
+
+    def stand(
+        self, shaper: Shaper, name: str, x: float, y: float, z: float, turn: float = 0.0
+    ) -> mujoco.MjsBody:
+        """A free body that starts on this fixture, at a nominal place."""
+        X = self.place(x, y, z, turn)
+        body = shaper.spec.worldbody.add_body(name=name, pos=X[:3, 3].tolist(), quat=upright(yaw(X)))
+        body.add_freejoint(name=name)
+        return body
+
+
+def upright(angle: float) -> list[float]:
+    """Quaternion of a turn about the vertical."""
+    return [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
+
+
+def add_fixture(shaper: Shaper, world: World, name: str, middle: Point) -> Fixture:
+    """An empty fixture; `name` is one of the world's fixtures, `middle` (m) what its error turns about."""
+    error = world.fixtures[name]
+    X = planar(middle[0] + error.x, middle[1] + error.y, 0.0, error.yaw) @ inverse(planar(*middle, 0.0, 0.0))
+    body = shaper.spec.worldbody.add_body(name=name, pos=X[:3, 3].tolist(), quat=upright(yaw(X)))
+    return Fixture(body=body, X_WF=X)
+
+
+def add_blocks(shaper: Shaper, world: World) -> None:
+    """The two aligning blocks: the base is pushed against the far one (+y), then the left one (-x)."""
+    d = dimensions()
+    far, left, height = d.all("blocks.far"), d.all("blocks.left"), d("blocks.height")
+    fixture = add_fixture(shaper, world, "blocks", (left[2], far[1]))
+    for name, (x0, y0, x1, y1) in (("block_far", far), ("block_left", left)):
+        block = shaper.box(fixture.body, "solid", (x0, y0, 0.0), (x1, y1, height), "block", name)
+        block.group = 2
+        for x, y in _bolts(x0, y0, x1, y1):
+            shaper.cylinder(fixture.body, "look", 0.004, (x, y, height), (x, y, height + 0.003), "steel")
+
+
+def _bolts(x0: float, y0: float, x1: float, y1: float) -> list[Point]:
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+    long = max(x1 - x0, y1 - y0) * 0.38
+    return [(x - long, y), (x + long, y)] if x1 - x0 > y1 - y0 else [(x, y - long), (x, y + long)]
+
+
+def add_gasket_stand(shaper: Shaper, world: World) -> Fixture:
+    """Two rails under the gasket's rims, open in the middle for the fingers."""
+    d = dimensions()
+    (x, y), height = d.all("gasket_stand.grasp"), d("gasket_stand.height")
+    fixture = add_fixture(shaper, world, "gasket_stand", (x, y))
+    for side in (-1, 1):
+        low, high = sorted((y + side * 0.0165, y + side * 0.0365))
+        rail = shaper.box(
+            fixture.body, "solid", (x - 0.045, low, height - 0.008), (x + 0.077, high, height), "enamel"
+        )
+        rail.group = 2
+        for px in (x - 0.035, x + 0.067):
+            post = (px, y + side * 0.0265)
+            shaper.cylinder(fixture.body, "look", 0.006, (*post, 0.006), (*post, height - 0.008), "steel")
+    shaper.box(fixture.body, "look", (x - 0.05, y - 0.045, 0.0), (x + 0.082, y + 0.045, 0.006), "enamel")
+    return fixture
+
+
+def add_top_stand(shaper: Shaper, world: World) -> Fixture:
+    """A table for the pump's top."""
+    d = dimensions()
+    (x, y), height = d.all("top_stand.grasp"), d("top_stand.height")
+    fixture = add_fixture(shaper, world, "top_stand", (x, y))
+    plate = shaper.box(
+        fixture.body,
+        "solid",
+        (x - 0.090, y - 0.045, height - 0.008),
+        (x + 0.045, y + 0.045, height),
+        "enamel",
+    )
+    plate.group = 2
+    for px in (x - 0.08, x + 0.035):
+        for py in (y - 0.035, y + 0.035):
+            shaper.cylinder(fixture.body, "look", 0.006, (px, py, 0), (px, py, height - 0.008), "steel")
+    return fixture

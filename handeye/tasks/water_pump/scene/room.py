@@ -1,0 +1,168 @@
+"""Where it happens: table, belt, floor and walls, lights, cameras."""
+
+import math
+
+import mujoco
+import numpy as np
+
+from handeye.pose import Array
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.shapes import Shaper
+from handeye.tasks.water_pump.variation import World
+
+TRAY = -2.0
+"""Height (m) of a tray under the floor, out of every sight, for screws that have become part of a thread."""
+
+
+def add_room(shaper: Shaper, world: World) -> None:
+    """Everything that stands still, apart from the fixtures."""
+    _add_table(shaper, world)
+    _add_belt(shaper, world)
+    _add_building(shaper, len(world.holes))
+    _add_computer(shaper)
+    _add_tripod(shaper)
+    _add_light(shaper.spec, world)
+    _add_cameras(shaper.spec)
+
+
+def _friction(world: World) -> list[float]:
+    return [0.25 * world.friction["table"], 0.002, 0.0001]  # assembly study
+
+
+def _add_table(shaper: Shaper, world: World) -> None:
+    d = dimensions()
+    body, (width, depth), thick = shaper.spec.worldbody, d.all("table.size"), d("table.thickness")
+    table = shaper.box(body, "solid", (0, 0, -thick), (width, depth, 0), "table", "table")
+    table.group, table.friction[:] = 2, _friction(world)
+    floor, edge, leg = -d("table.height"), 0.012, 0.045
+    for x in (0.05, width - 0.05 - 2 * leg):
+        for y in (0.05, depth - 0.05 - 2 * leg):
+            shaper.box(body, "look", (x, y, floor), (x + 2 * leg, y + 2 * leg, -thick), "wood")
+    shaper.box(body, "look", (-edge, -edge, -thick - 0.06), (width + edge, 0, -0.004), "wood")
+    shaper.box(body, "look", (-edge, depth, -thick - 0.06), (width + edge, depth + edge, -0.004), "wood")
+    shaper.box(body, "look", (-edge, 0, -thick - 0.06), (0, depth, -0.004), "wood")
+    shaper.box(body, "look", (width, 0, -thick - 0.06), (width + edge, depth, -0.004), "wood")
+    shaper.box(body, "look", (0.388, 0.134, 0.0), (0.628, 0.374, 0.1524), "iron")  # riser under the arm
+
+
+def _add_belt(shaper: Shaper, world: World) -> None:
+    """The belt with its end rollers, between side rails that stay below its surface."""
+    d = dimensions()
+    body, depth = shaper.spec.worldbody, d.all("table.size")[1]
+    (x0, x1), top = d.all("belt.x"), d("belt.height")
+    radius = top / 2
+    belt = shaper.box(body, "solid", (x0, radius, 0), (x1, depth - radius, top), "belt", "belt")
+    belt.group, belt.friction[:] = 2, _friction(world)
+    for y in (radius, depth - radius):
+        shaper.cylinder(body, "look", radius, (x0, y, radius), (x1, y, radius), "belt")
+    for x in (x0 - 0.008, x1):
+        shaper.box(body, "look", (x, 0.004, 0.0), (x + 0.008, depth - 0.004, top - 0.002), "rail")
+        for y in np.linspace(0.1, depth - 0.1, 6):
+            shaper.cylinder(body, "look", 0.004, (x - 0.0015, y, radius), (x + 0.0095, y, radius), "black")
+
+
+def _add_building(shaper: Shaper, screws: int) -> None:
+    d = dimensions()
+    body, floor = shaper.spec.worldbody, -d("table.height")
+    left, back, right, front = -2.4, -2.0, 6.0, 6.0
+    shaper.box(body, "look", (left, back, floor - 0.02), (right, front, floor), "floor")
+    shaper.box(body, "scenery", (left, back - 0.05, floor), (right, back, 3.0), "plaster")
+    shaper.box(body, "scenery", (left - 0.05, back, floor), (left, front, 3.0), "plaster")
+    shaper.box(body, "scenery", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron")
+    shaper.box(body, "scenery", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron")
+    shaper.box(body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.3, 0.3, TRAY), name="tray")
+    for k in range(screws):
+        body.add_site(name=f"park{k}", pos=[0.05 * k, 0.0, TRAY], group=5)
+
+
+def _add_computer(shaper: Shaper) -> None:
+    """Three cabinets against the far wall, with their rows of indicator lamps."""
+    body, floor = shaper.spec.worldbody, -dimensions()("table.height")
+    back, front, top = -1.95, -1.35, floor + 1.75
+    for k in range(3):
+        left, right = -0.85 + 0.57 * k, -0.30 + 0.57 * k
+        shaper.box(body, "scenery", (left, back, floor + 0.06), (right, front, top), "cabinet")
+        shaper.box(
+            body,
+            "scenery",
+            (left + 0.03, front, top - 0.10),
+            (right - 0.03, front + 0.004, top - 0.03),
+            "red",
+        )
+        for z in (0.35, 0.62, 0.89):
+            panel = (left + 0.03, front, floor + z), (right - 0.03, front + 0.006, floor + z + 0.22)
+            shaper.box(body, "scenery", *panel, "black")
+        for row in range(3):
+            for column in range(18):
+                x, z = left + 0.06 + 0.025 * column, top - 0.20 - 0.05 * row
+                lit = (7 * column + 5 * row + 3 * k) % 5 < 2
+                shaper.box(
+                    body,
+                    "scenery",
+                    (x, front, z),
+                    (x + 0.009, front + 0.006, z + 0.009),
+                    "lit" if lit else "black",
+                )
+
+
+def _add_tripod(shaper: Shaper) -> None:
+    """The television camera's body, behind its mount so that it never stands in its own picture."""
+    d = dimensions()
+    body, floor = shaper.spec.worldbody, -d("table.height")
+    x, y, z = d.all("camera.mount")
+    head = body.add_body(
+        name="television_camera", pos=[x, y, z], quat=_towards(np.array([-0.2, -0.75, -1.35]))
+    )
+    shaper.box(head, "scenery", (-0.055, -0.065, 0.07), (0.055, 0.065, 0.36), "enamel")
+    shaper.cylinder(head, "scenery", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
+    for side in (-1, 1):
+        shaper.cylinder(head, "scenery", 0.016, (side * 0.022, 0, 0.04), (side * 0.022, 0, 0.055), "steel")
+    shaper.cylinder(body, "scenery", 0.02, (x, y + 0.16, 0.35), (x, y + 0.16, z + 0.20), "steel")
+    for angle in (0.5, 2.6, 4.7):
+        foot = (x + 0.42 * math.cos(angle), y + 0.30 + 0.30 * math.sin(angle), floor)
+        shaper.cylinder(body, "scenery", 0.014, foot, (x, y + 0.16, 0.55), "black")
+
+
+def _towards(view: Array) -> list[float]:
+    """Quaternion of a frame whose -z axis points along `view`, x level."""
+    z = -view / np.linalg.norm(view)
+    x = np.cross((0.0, 0.0, 1.0), z)
+    x /= np.linalg.norm(x)
+    quat = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, np.column_stack([x, np.cross(z, x), z]).ravel())
+    return [float(value) for value in quat]
+
+
+def _add_light(spec: mujoco.MjSpec, world: World) -> None:
+    """One lamp that throws shadows, as far from the work as in the vision study, and the room's own light."""
+    d, light = dimensions(), world.light
+    target, distance = np.array(d.all("camera.light_target")), d("camera.light_distance")
+    sine, cosine = math.sin(light.zenith), math.cos(light.zenith)
+    towards = np.array([sine * math.cos(light.azimuth), sine * math.sin(light.azimuth), cosine])
+    spec.worldbody.add_light(
+        name="key", type=mujoco.mjtLightType.mjLIGHT_SPOT, pos=(target + distance * towards).tolist(),
+        dir=(-towards).tolist(), castshadow=True, cutoff=40.0, exponent=0.0, attenuation=[1, 0, 0],
+        diffuse=[light.strength] * 3, specular=[0.4] * 3, ambient=[0, 0, 0],
+    )  # fmt: skip
+    spec.visual.headlight.ambient[:] = [light.ambient] * 3
+
+
+def _add_cameras(spec: mujoco.MjSpec) -> None:
+    """The television camera `tv` looks at the standard position; the cell turns it. Others are for people."""
+    d = dimensions()
+    focal = d.all("camera.focal_length")[0]
+    tv = _camera(spec, "tv", np.array(d.all("camera.mount")), np.array([*d.all("standard.place"), 0.04]))
+    tv.resolution[:] = [333, 256]
+    tv.sensor_size[:] = d.all("camera.raster")
+    tv.focal_length[:] = [focal, focal]
+    for name, eye, at, fovy in (
+        ("studio", (2.75, 1.95, 1.35), (0.62, 0.66, 0.20), 37.0),
+        ("pump", (1.02, 1.42, 0.42), (0.61, 0.965, 0.035), 25.0),
+        ("belt", (1.62, 1.35, 0.75), (1.13, 0.75, 0.03), 32.0),
+    ):
+        _camera(spec, name, np.array(eye), np.array(at)).fovy = fovy
+
+
+def _camera(spec: mujoco.MjSpec, name: str, eye: Array, at: Array) -> mujoco.MjsCamera:
+    """A camera at `eye` that looks at `at`, upright (m)."""
+    return spec.worldbody.add_camera(name=name, pos=eye.tolist(), quat=_towards(at - eye))

@@ -1,0 +1,138 @@
+"""Exact solids of the pump's parts, for looks and for clearances: manifold3d, from the dimensions."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from manifold3d import CrossSection, Manifold  # type: ignore[import-not-found]  # stubs, but no marker
+from numpy.typing import NDArray
+
+from handeye.pose import Array
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, web_centre
+
+Surface = tuple[Array, NDArray[np.int32]]
+"""Vertices, shape (n, 3), m, and triangles, shape (m, 3)."""
+
+_ROUND = 96
+
+
+def disc(radius: float, x: float = 0.0, y: float = 0.0, segments: int = _ROUND) -> CrossSection:
+    """A round section, m."""
+    return CrossSection.circle(radius, segments).translate((x, y))
+
+
+def rectangle(x0: float, y0: float, x1: float, y1: float, corner: float = 0.0) -> CrossSection:
+    """A section with rounded corners, m."""
+    if corner == 0.0:
+        return CrossSection.square((x1 - x0, y1 - y0)).translate((x0, y0))
+    centres = [(x, y) for x in (x0 + corner, x1 - corner) for y in (y0 + corner, y1 - corner)]
+    return CrossSection.batch_hull([disc(corner, x, y, 32) for x, y in centres])
+
+
+def hull(*sections: CrossSection) -> CrossSection:
+    """The convex hull of sections."""
+    return CrossSection.batch_hull(list(sections))
+
+
+def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
+    """The solid over a section between two heights, m."""
+    return Manifold.extrude(section, z1 - z0).translate((0.0, 0.0, z0))
+
+
+def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: float = 0.0) -> Manifold:
+    """What to take away for a hole from z0 to z1 with 45 degree chamfers, m."""
+    hole = Manifold.cylinder(z1 - z0 + 2e-4, radius, radius, _ROUND).translate((0.0, 0.0, z0 - 1e-4))
+    if above:
+        hole += Manifold.cylinder(above, radius, radius + above, _ROUND).translate((0.0, 0.0, z1 - above))
+    if below:
+        hole += Manifold.cylinder(below, radius + below, radius, _ROUND).translate((0.0, 0.0, z0))
+    return hole
+
+
+def outline() -> CrossSection:
+    """The irregular outline that casting, gasket and top share, in part coordinates."""
+    d = dimensions()
+    chamber, inlet = d("base.casting.chamber_diameter") / 2, d("base.casting.inlet_diameter") / 2
+    direction, reach = d("base.casting.ear_direction"), d("base.casting.ear_radius")
+    ear = disc(d("base.casting.ear_diameter") / 2, reach * math.cos(direction), reach * math.sin(direction))
+    x0, y0, x1, y1 = d.all("base.casting.spout")
+    body = CrossSection.batch_hull([disc(chamber), disc(inlet, d("base.large_hole_2.x"))])
+    return body + rectangle(x0, y0, x1, y1, 0.004) + ear
+
+
+def casting(screws: int) -> Manifold:
+    """The base's casting, over its plate, with so many screw holes."""
+    d = dimensions()
+    top, floor = base_top(), d("base.plate.thickness")
+    solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
+    solid -= bore(d("base.large_hole_1.diameter") / 2, top - d("base.large_hole_1.depth"), top + 1e-5)
+    second = bore(d("base.large_hole_2.diameter") / 2, floor, top + 1e-5)
+    solid -= second.translate((d("base.large_hole_2.x"), 0.0, 0.0))
+    radius, chamfer = d("base.screw_holes.radius"), d("base.screw_holes.chamfer")
+    tap = bore(radius, top - d("base.screw_holes.depth"), top, above=chamfer)
+    for x, y in screw_holes(screws):
+        solid -= tap.translate((x, y, 0.0))
+    return solid
+
+
+def plate() -> Manifold:
+    """The base's plate."""
+    d = dimensions()
+    x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
+    box = rectangle(x - length / 2, -width / 2, x + length / 2, width / 2, 0.004)
+    return extruded(box, 0.0, d("base.plate.thickness"))
+
+
+def gasket(screws: int) -> Manifold:
+    """The gasket: large holes a little wider than the base's, with flats for the fingers that carry it."""
+    d = dimensions()
+    over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
+    first = disc(d("base.large_hole_1.diameter") / 2 + over)
+    second = disc(d("base.large_hole_2.diameter") / 2 + over, d("base.large_hole_2.x"))
+    web = rectangle(web_centre() - half, -1.0, web_centre() + half, 1.0)
+    section = outline() - (first + second - web)
+    for x, y in screw_holes(screws):
+        section -= disc(d("gasket.screw_hole_radius"), x, y, 32)
+    return extruded(section, 0.0, d("gasket.thickness"))
+
+
+def flange(screws: int) -> Manifold:
+    """The top's flange with so many clearance holes."""
+    d = dimensions()
+    thick = d("top.flange")
+    solid = extruded(outline().offset(-0.0008), 0.0, thick) + extruded(outline(), 0.0, thick - 0.001)
+    above, below = d("top.chamfer_above"), d("top.chamfer_below")
+    hole = bore(d("top.screw_hole_radius"), 0.0, thick, above=above, below=below)
+    for x, y in screw_holes(screws):
+        solid -= hole.translate((x, y, 0.0))
+    return solid
+
+
+def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold:
+    """A solid of revolution about z from (radius, z) corners, in order, m."""
+    return Manifold.revolve(CrossSection([profile]), segments)
+
+
+def surface(solid: Manifold) -> Surface:
+    """The whole surface of a solid."""
+    mesh = solid.to_mesh()
+    return np.asarray(mesh.vert_properties, np.float64)[:, :3], np.asarray(mesh.tri_verts, np.int32)
+
+
+def painted(solid: Manifold, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
+    """The surface of a solid, parted by colour.
+
+    Args:
+        colour: names of colours, shape (m,), from the triangles' middles and unit normals, shape (m, 3).
+    """
+    vertices, triangles = surface(solid)
+    corners = vertices[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-18)
+    names = colour(corners.mean(axis=1), normals)
+    parts: dict[str, Surface] = {}
+    for name in np.unique(names):
+        used, renumbered = np.unique(triangles[names == name], return_inverse=True)
+        parts[str(name)] = (vertices[used], renumbered.reshape(-1, 3).astype(np.int32))
+    return parts

@@ -1,0 +1,92 @@
+"""The powered screwdriver in its rack, with its magnetic socket."""
+
+import mujoco
+
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
+from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
+from handeye.tasks.water_pump.variation import World
+
+
+def add_driver(shaper: Shaper, world: World) -> None:
+    """The rack, and the screwdriver hanging in it: a square grip block with a spindle below."""
+    d = dimensions()
+    x, y = d.all("rack.place")
+    fixture = add_fixture(shaper, world, "rack", (x, y))
+    _add_rack(shaper, fixture)
+    half, high = d("driver.width") / 2, d("driver.height") / 2
+    body = fixture.stand(shaper, "driver", x, y, d("rack.height") + high)
+    body_inertia(body, d("driver.mass"), (0.0, 0.0, 0.0), (3e-4, 3e-4, 8e-5))
+    shaper.box(body, "solid", (-half, -half, -high), (half, half, high), "red", "driver").group = 2
+    for z in (-high * 0.93, high * 0.93):
+        out = half + 2e-4
+        shaper.box(body, "look", (-out, -out, z - 0.002), (out, out, z + 0.002), "black")
+    shaper.cylinder(body, "look", 0.004, (0, 0, high), (0, 0, high + 0.018), "black")
+    body.add_site(name="driver", group=5)
+    _add_spindle(shaper, body)
+    _add_drives(shaper.spec)
+
+
+def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
+    """The bit: a flat face that drives, in a ring that keeps the head from sliding off."""
+    d = dimensions()
+    length = d("driver.bit")
+    body = driver.add_body(name="bit", pos=[0.0, 0.0, -d("driver.height") / 2 - length])
+    body_inertia(body, 0.03, (0.0, 0.0, 0.02), (4e-6, 4e-6, 1e-6))
+    body.add_joint(
+        name="spindle", type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 0, 1], armature=2e-4, damping=1e-4
+    )
+    body.add_site(name="bit", group=5)
+    shaper.cylinder(body, "bit", 0.0065, (0, 0, 0), (0, 0, 0.008), name="bit")
+    ring = Bore(radius=d("screw.head_radius") + 0.0003, outer=0.0085, height=0.003, below=0.002, sectors=8)
+    brass = body.add_body(
+        name="socket"
+    )  # a body of its own: the magnet holds by the bit's face, not by the ring
+    shaper.ring(brass, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
+    shaper.cylinder(body, "look", 0.006, (0, 0, 0.012), (0, 0, length), "steel")
+    shaper.cylinder(body, "look", 0.0085, (0, 0, 0), (0, 0, 0.014), "brass")
+
+
+def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
+    """Two rails that the grip block stands on, the spindle hanging between, in a square guide with a lead-in."""
+    d = dimensions()
+    (x, y), height = d.all("rack.place"), d("rack.height")
+    for side in (-1, 1):
+        low, high = sorted((y + side * 0.0090, y + side * 0.0134))
+        shaper.box(
+            fixture.body, "solid", (x - 0.02, low, 0.006), (x + 0.02, high, height), "enamel"
+        ).group = 2
+    near, lead = d("driver.width") / 2 + d("rack.play"), d("rack.lead")
+    guide = Bore(radius=near, outer=near + lead + 0.002, height=0.028, above=lead, sectors=4)
+    for wedge in shaper.ring(fixture.body, "guide", guide, (x, y, height - 0.02), lambda _: "solid"):
+        wedge.group, wedge.material = 2, "enamel"
+    shaper.box(fixture.body, "look", (x - 0.04, y - 0.04, 0.0), (x + 0.04, y + 0.04, 0.006), "enamel")
+
+
+def _add_drives(spec: mujoco.MjSpec) -> None:
+    """Spindle motor, thread drive and magnet.
+
+    `drive` turns a thread's carrier and reacts on the driver: the moments of a joint equality would cancel
+    inside the driver, and the arm would feel nothing. The cell points it at the carrier of the engaged screw
+    and sets its gains.
+    """
+    d = dimensions()
+    torque = d("driver.torque")
+    spin = spec.add_actuator(name="spindle", trntype=mujoco.mjtTrn.mjTRN_JOINT, target="spindle")
+    spin.set_to_velocity(kv=0.02)
+    spin.forcelimited = True
+    spin.forcerange[:] = [-0.05, 0.05]  # for the spindle alone: the thread has a drive of its own
+    drive = spec.add_actuator(
+        name="drive",
+        trntype=mujoco.mjtTrn.mjTRN_SITE,
+        target="thread0",
+        refsite="driver",
+        gear=[0, 0, 0, 0, 0, 1],
+    )
+    drive.set_to_velocity(kv=0.0)
+    drive.forcelimited = True
+    drive.forcerange[:] = [-torque, torque]
+    magnet = spec.add_actuator(name="magnet", trntype=mujoco.mjtTrn.mjTRN_BODY, target="bit")
+    magnet.set_to_adhesion(gain=d("driver.magnet"))
+    magnet.ctrllimited = True
+    magnet.ctrlrange[:] = [0.0, 1.0]

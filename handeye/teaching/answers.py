@@ -1,0 +1,128 @@
+"""What is answered to a line that somebody typed, and its two faces: text for people, JSON for programs."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import msgspec
+from msgspec import UNSET, UnsetType
+
+from handeye.debugger.formatting import shown_lines, summary_lines
+from handeye.debugger.step_summary import StepSummary
+from handeye.debugger.view_records import Shown
+from handeye.diagnostics import Diagnostic, as_json, has_errors, render
+from handeye.program.program import Record
+from handeye.runs.advance import Pause
+from handeye.source import Source
+
+
+class CommandResult(Record, frozen=True, kw_only=True):
+    """What a line came to; what there is nothing to say of is left out."""
+
+    said: str | UnsetType = UNSET
+    """A sentence or more."""
+    did: tuple[StepSummary, ...] | UnsetType = UNSET
+    """What was done, in words."""
+    pause: Pause | UnsetType = UNSET
+    """Why the arm stands still, if it went."""
+    show: Shown | UnsetType = UNSET
+    lines: tuple[str, ...] | UnsetType = UNSET
+    """What is collected, or listed."""
+    file: str | UnsetType = UNSET
+    """What was written."""
+    error: str | UnsetType = UNSET
+    """Why the line was not carried out."""
+
+
+NOTHING: Final = CommandResult()
+NO_TEXT: Final = Source(name="", text="")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """The answer to a line."""
+
+    time: float
+    """s on the cell's clock."""
+    typed: str = ""
+    said: CommandResult = NOTHING
+    source: Source = NO_TEXT
+    diagnostics: Sequence[Diagnostic] = ()
+    """Of the source."""
+
+    @property
+    def refused(self) -> bool:
+        """The line was not carried out."""
+        return self.said.error is not UNSET or has_errors(self.diagnostics)
+
+    @property
+    def stopped(self) -> str | None:
+        """Why the arm stands still before what was wanted is done; None if it is done, or did not go."""
+        pause = self.said.pause
+        return None if pause is UNSET or pause.kind == "end" else pause.kind
+
+
+def json_line(answer: Answer) -> str:
+    """The answer as a JSON object on one line."""
+    found = [as_json(diagnostic, answer.source) for diagnostic in answer.diagnostics]
+    told = msgspec.to_builtins(answer.said)
+    fields = {"typed": answer.typed, "time": answer.time, **({"diagnostics": found} if found else {}), **told}
+    return msgspec.json.encode(fields).decode()
+
+
+def text(answer: Answer) -> str:
+    """The answer for people, without the end of its last line; empty if there is nothing to say."""
+    said = answer.said
+    lines = [render(diagnostic, answer.source) for diagnostic in answer.diagnostics]
+    lines += [] if said.did is UNSET else summary_lines(said.did)
+    lines += [] if said.show is UNSET else shown_lines(said.show)
+    lines += [] if said.lines is UNSET else said.lines
+    if said.pause is not UNSET and answer.stopped in ("panic", "trouble"):
+        lines.append(said.pause.sentence)
+    lines += [sentence for sentence in (said.said, said.error) if isinstance(sentence, str)]
+    return "\n".join(lines)
+
+
+class Listener(Protocol):
+    """Something one can talk to, a line at a time."""
+
+    @property
+    def over(self) -> bool:
+        """It wants to hear no more."""
+
+    def hear(self, line: str) -> Answer:
+        """Carry out a line; one that is wrong changes nothing."""
+
+
+def converse(
+    listener: Listener,
+    lines: Iterator[str],
+    write: Callable[[str], None],
+    *,
+    json: bool = False,
+    strict: bool = False,
+) -> Answer | None:
+    """Hear a line after the other, to the last or until the listener has heard enough.
+
+    Args:
+        write: puts out lines of text; the end of the last one is not in them.
+        json: answer each line with one JSON object on one line.
+        strict: hear no more behind a line that was refused, or whose work was stopped.
+
+    Returns:
+        The answer to the first line that was refused, or whose work was stopped; None if there was none.
+    """
+    failed = None
+    while not listener.over:
+        line = next(lines, None)
+        if line is None:
+            break
+        answer = listener.hear(line)
+        said = json_line(answer) if json else text(answer)
+        if said:
+            write(said)
+        if failed is None and (answer.refused or answer.stopped is not None):
+            failed = answer
+        if strict and failed is not None:
+            break
+    return failed

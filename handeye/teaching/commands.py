@@ -1,0 +1,172 @@
+"""What can be said to the arm program besides functions, as a table from which reading and help derive."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from msgspec import UNSET
+
+from handeye.al.includes import read_script
+from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
+from handeye.al.parser import parse
+from handeye.debugger.views import show
+from handeye.diagnostics import quoted, suggestion
+from handeye.errors import HandeyeError, InvalidInput
+from handeye.execution.executor import Choice
+from handeye.files import beside, write_whole
+from handeye.teaching.answers import Answer, CommandResult
+from handeye.teaching.functions import lasting
+from handeye.teaching.plan_and_run import answer
+from handeye.teaching.repl import Repl
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """Something that can be said."""
+
+    usage: str
+    act: Callable[[Repl, str], Answer]
+    help: str
+
+    @property
+    def name(self) -> str:
+        """Its word."""
+        return self.usage.partition(" ")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class ReplSession:
+    """Understands lines: commands, and functions to be collected."""
+
+    repl: Repl
+
+    @property
+    def over(self) -> bool:
+        """Somebody has left."""
+        return self.repl.over
+
+    def hear(self, line: str) -> Answer:
+        """Carry out a command, or collect a function."""
+        try:
+            given = self._given(line)
+        except HandeyeError as error:
+            given = answer(self.repl.workplace, CommandResult(error=str(error)))
+        return replace(given, typed=line.strip())
+
+    def _given(self, line: str) -> Answer:
+        word, rest = [*line.split(maxsplit=1), "", ""][:2]
+        command = COMMANDS.get(word.upper())
+        if command is None:
+            return self.repl.collect(line)
+        if rest and command.usage == command.name:
+            raise InvalidInput(f"`{command.name}` takes nothing behind it; {quoted(rest)} is too much")
+        return command.act(self.repl, rest.strip())
+
+
+def _do(repl: Repl, rest: str) -> Answer:
+    """Carry out what is collected, or a function, macro or program now."""
+    if not rest:
+        if not any(map(str.strip, repl.functions)):
+            raise InvalidInput(
+                "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"
+            )
+        return repl.carry_out(repl.typed("\n".join(repl.functions)))
+    definitions = lasting(repl.functions)
+    name = rest.split(";")[0].strip()
+    text = "\n".join([rest, "", *definitions])
+    macros = parse("\n".join(definitions))[0].macros
+    if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII) or name.upper() in (*INSTRUCTIONS, *macros):
+        return repl.carry_out(repl.typed(text), alone=True)
+    file = repl.folder / f"{name}.al"
+    if not file.is_file():
+        known = suggestion(name, [*INSTRUCTIONS, *macros, *_programs(repl.folder)])
+        help = f"; {known}" if known is not None else ""
+        raise InvalidInput(f"there is no instruction, macro or program {quoted(name)}{help}")
+    return repl.carry_out(read_script(file))
+
+
+def _programs(folder: Path) -> list[str]:
+    return sorted(file.stem for file in folder.glob("*.al"))
+
+
+def _list(repl: Repl, _: str) -> Answer:
+    lines = tuple(f"{number:3}  {line}" for number, line in enumerate(repl.functions, 1))
+    return answer(repl.workplace, CommandResult(lines=lines, said=UNSET if lines else "nothing is collected"))
+
+
+def _drop(repl: Repl, _: str) -> Answer:
+    if not repl.functions:
+        raise InvalidInput("nothing is collected")
+    return answer(repl.workplace, CommandResult(said=f"dropped: {repl.functions.pop().strip()}"))
+
+
+def _clear(repl: Repl, _: str) -> Answer:
+    repl.functions.clear()
+    return answer(repl.workplace, CommandResult(said="nothing is collected"))
+
+
+def _write(repl: Repl, rest: str) -> Answer:
+    if not rest:
+        raise InvalidInput("`WRITE` takes the name of a file")
+    path = beside(Path(rest), ".al")
+    if path.exists():
+        raise InvalidInput(f"{path} is there already; it is left alone")
+    write_whole(path, ("\n".join(repl.functions) + "\n").encode())
+    return answer(repl.workplace, CommandResult(file=str(path), said=f"written to {path}"))
+
+
+def _show(repl: Repl, rest: str) -> Answer:
+    return answer(repl.workplace, CommandResult(show=show(repl.workplace.runner, rest)))
+
+
+def _back(repl: Repl, _: str) -> Answer:
+    repl.workplace.back()
+    return answer(repl.workplace, CommandResult(said="the last `DO` is undone"))
+
+
+def _answer(choice: Choice) -> Callable[[Repl, str], Answer]:
+    return lambda repl, _: repl.go_on(choice)
+
+
+def _quit(repl: Repl, _: str) -> Answer:
+    repl.over = True
+    return answer(repl.workplace)
+
+
+def _help(repl: Repl, rest: str) -> Answer:
+    if rest:
+        definition = EXPLAINED.get(rest.upper())
+        if definition is None:
+            known = suggestion(rest, EXPLAINED)
+            raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
+        return answer(repl.workplace, CommandResult(said=f"{definition.usage}: {definition.help}"))
+    width = max(len(command.usage) for command in _TABLE)
+    lines = (
+        "A line is a function of the arm language, and is collected, or one of",
+        *(f"  {command.usage:{width}}  {command.help}" for command in _TABLE),
+        "What is collected stays until CLEAR. `HELP MOVE` says what an instruction does.",
+    )
+    return answer(repl.workplace, CommandResult(lines=lines))
+
+
+_TABLE: Final = (
+    Command(usage="DO", act=_do, help="carry out what is collected"),
+    Command(usage="DO FUNCTION", act=_do, help="plan one function and carry it out now: DO OPEN 3"),
+    Command(usage="DO NAME", act=_do, help="carry out a macro, or the program in the file NAME.al"),
+    Command(usage="LIST", act=_list, help="tell what is collected"),
+    Command(usage="DROP", act=_drop, help="drop the last line collected"),
+    Command(usage="CLEAR", act=_clear, help="drop all of them"),
+    Command(usage="WRITE FILE", act=_write, help="write them to a new file, as a script"),
+    Command(usage="SHOW [WHAT]", act=_show, help="see joints, hand, gap, saved differences, positions, ..."),
+    Command(usage="BACK", act=_back, help="undo the last DO: arm, parts and memory are as they were"),
+    Command(usage="PROCEED", act=_answer("proceed"), help="go on behind what called the operator"),
+    Command(usage="RETRY", act=_answer("retry"), help="go on with the first function of the stage"),
+    Command(usage="SKIP", act=_answer("skip"), help="leave out the rest of the stage"),
+    Command(usage="HELP [INSTRUCTION]", act=_help, help="say this, or what an instruction does"),
+    Command(usage="QUIT", act=_quit, help="leave"),
+    Command(usage="EXIT", act=_quit, help="leave, too"),
+)
+COMMANDS: Final = {command.name: command for command in _TABLE}
+"""By their words."""

@@ -1,0 +1,105 @@
+"""Functions typed in: text to a plan that begins where the arm stands."""
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.al import compile_text
+from handeye.arm.stanford import STANFORD
+from handeye.diagnostics import Diagnostic
+from handeye.planfile.plan import Plan
+from handeye.planning.planner import make_plan
+from handeye.pose import Array
+from handeye.program.taught import Taught
+from handeye.source import Source
+
+TYPED: Final = "typed"
+"""What typed functions are called where a file would have a name."""
+OPEN: Final = frozenset(
+    {"modifier-without-motion", "unknown-label", "skip-at-end", "unterminated-macro", "empty-program"}
+)
+"""Mistakes of a text whose next line may put them right."""
+_ALONE: Final = frozenset(
+    {
+        "aoj-without-search", "search-without-aoj", "save-without-move", "travel-without-change",
+        "specific-without-general", "torque-without-tool", "unused-label", "unused-macro",
+        "unused-position", "unused-vector", "compared-without-hold",
+    }
+)  # fmt: skip
+"""Warnings about what is not in the text; it may have been done before, or be done afterwards."""
+_LASTING: Final = ("TRANS", "VECT")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Planned:
+    """What the planning phase has made of a text."""
+
+    source: Source
+    plan: Plan | None
+    diagnostics: tuple[Diagnostic, ...]
+
+
+def planned(
+    source: Source, taught: Taught, start: Array, *, saved: Collection[str] = (), alone: bool = False
+) -> Planned:
+    """Plan a text.
+
+    Args:
+        start: where the arm stands, shape (6,), rad and m.
+        saved: differences that have been saved before.
+        alone: the text is only a part of what is done, and need not make sense by itself.
+    """
+    program, found = compile_text(source, taught)
+    plan = None
+    if program is not None:
+        plan, problems = make_plan(program, STANFORD, start=start)
+        found = [*found, *problems]
+    told = [d for d in found if not (alone and d.code in _ALONE) and not _known(d, source, saved)]
+    return Planned(source=source, plan=plan, diagnostics=tuple(told))
+
+
+def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bool:
+    """Whether it misses a saved difference that there is."""
+    span = diagnostic.primary.span
+    text, start = source.find(span.start)
+    name = text.text[start : start + span.end - span.start]
+    return diagnostic.code == "never-saved" and name in saved
+
+
+def mistakes(checked: Planned, line: int) -> list[Diagnostic]:
+    """What is wrong with a line of a text that is still being typed, or with what it requires, as far as the next
+    line cannot put it right."""
+    found = []
+    for diagnostic in checked.diagnostics:
+        text, offset = checked.source.find(diagnostic.primary.span.start)
+        if diagnostic.code not in OPEN | _ALONE and (text.key or text.position(offset)[0] == line):
+            found.append(diagnostic)
+    return found
+
+
+def lasting(lines: Sequence[str]) -> list[str]:
+    """The definitions among lines: macros, positions, vectors. They hold for functions done alone, too."""
+    found: list[str] = []
+    for line, inside in _in_macros(lines):
+        if inside or _word(line) in _LASTING:
+            found.append(line)
+        elif not line.strip():
+            found.append("")  # the end of a macro
+    return [*found, "", ""]
+
+
+def is_open(lines: Sequence[str]) -> bool:
+    """Whether a macro is being defined, which a blank line ends."""
+    return any(inside for _, inside in list(_in_macros(lines))[-1:])
+
+
+def _in_macros(lines: Sequence[str]) -> Iterator[tuple[str, bool]]:
+    """Lines, and whether each belongs to a macro."""
+    inside = False
+    for line in lines:
+        inside = (inside or _word(line) == "DEFINE") and bool(line.strip())
+        yield line, inside
+
+
+def _word(line: str) -> str:
+    return (line.split(maxsplit=1) or [""])[0].upper()

@@ -1,0 +1,47 @@
+"""Texts planned and carried out in a workplace, and what is answered."""
+
+from collections.abc import Sequence
+
+from msgspec import UNSET
+
+from handeye.debugger.step_summary import step_summaries
+from handeye.diagnostics import Diagnostic
+from handeye.runs.advance import Pause
+from handeye.source import Source
+from handeye.teaching.answers import NOTHING, Answer, CommandResult
+from handeye.teaching.functions import Planned
+from handeye.teaching.workplace import Workplace
+
+
+def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> Answer:
+    """Plan a text, and carry the plan out if there is one.
+
+    Args:
+        alone: the text is only a part of what is done, and need not make sense by itself.
+
+    Raises:
+        InvalidInput: it looks, and the camera was not set up.
+    """
+    checked = workplace.plan(source, alone=alone)
+    said = NOTHING if checked.plan is None else done(workplace, workplace.carry_out(checked.plan))
+    return about(workplace, checked, checked.diagnostics, said)
+
+
+def done(workplace: Workplace, pause: Pause, happened: int = 0) -> CommandResult:
+    """What was done behind the first `happened` events of the plan under way."""
+    runner = workplace.runner
+    told = step_summaries(runner.events[happened:], runner.setup.plan.program)
+    did = tuple(deed for deed in told if deed.line is not None)
+    return CommandResult(did=did, pause=pause, said=UNSET if did else pause.sentence)
+
+
+def about(
+    workplace: Workplace, checked: Planned, found: Sequence[Diagnostic], said: CommandResult = NOTHING
+) -> Answer:
+    """An answer with what was found in a text."""
+    return Answer(time=workplace.runner.run.time, said=said, source=checked.source, diagnostics=tuple(found))
+
+
+def answer(workplace: Workplace, said: CommandResult = NOTHING) -> Answer:
+    """An answer that says so much."""
+    return Answer(time=workplace.runner.run.time, said=said)

@@ -1,0 +1,254 @@
+"""What can be said to the teacher, as a table from which reading and help derive."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from handeye.debugger.views import show
+from handeye.diagnostics import quoted, suggestion
+from handeye.errors import HandeyeError, InvalidInput
+from handeye.pose import Array
+from handeye.program.program import Position, Vector
+from handeye.teaching.answers import Answer, CommandResult
+from handeye.teaching.plan_and_run import answer
+from handeye.teaching.teacher import Teacher
+from handeye.units import DEGREE, INCH, OUNCE_FORCE
+
+AXES: Final = ("x", "y", "z")
+NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+LONGEST: Final = 60.0
+"""s that somebody pushes at most."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TeachCommand:
+    """Something that can be said to the teacher."""
+
+    usage: str
+    act: Callable[[Teacher, list[str]], Answer]
+    help: str
+
+    @property
+    def name(self) -> str:
+        """Its word."""
+        return self.usage.partition(" ")[0]
+
+
+@dataclass(slots=True)
+class TeachSession:
+    """Understands lines, and does with the arm what they say."""
+
+    teacher: Teacher
+    over: bool = False
+    warned: bool = False
+    """Somebody has been told that there is something to save."""
+
+    def hear(self, line: str) -> Answer:
+        """Carry out a line; one that is wrong changes nothing."""
+        try:
+            given = self._given(line.split())
+        except HandeyeError as error:
+            given = answer(self.teacher.workplace, CommandResult(error=str(error)))
+        return replace(given, typed=line.strip())
+
+    def _given(self, words: list[str]) -> Answer:
+        if not words:
+            return answer(self.teacher.workplace)
+        word, rest = words[0].lower(), words[1:]
+        if word in ("quit", "exit"):
+            return self._quit()
+        self.warned = False
+        if re.fullmatch(r"j[1-6]", word):
+            return _joint(self.teacher, [word[1:], *rest])
+        lesson = TEACH_COMMANDS.get(word)
+        if lesson is None:
+            known = suggestion(word, [*TEACH_COMMANDS, "quit"])
+            raise InvalidInput(
+                f"there is no command {quoted(word)}; " + (known or "`help` tells which there are")
+            )
+        return lesson.act(self.teacher, rest)
+
+    def _quit(self) -> Answer:
+        unsaved = self.teacher.unsaved
+        self.over = self.warned or not unsaved
+        self.warned = True
+        if self.over:
+            return answer(self.teacher.workplace)
+        raise InvalidInput(f"not saved: {', '.join(unsaved)}; `save` them, or `quit` again")
+
+
+# -- moving ---------------------------------------------------------------------------------------------
+
+
+def _joint(teacher: Teacher, words: list[str]) -> Answer:
+    number, amount = _exactly(words, 2, "j3 +1")
+    index = int(number) - 1
+    joint = teacher.workplace.runner.arm.joints[index]
+    value = _number(amount) * (INCH if joint.kind == "prismatic" else DEGREE)
+    relative = amount[0] in "+-"
+    teacher.joint(index, float(teacher.workplace.q[index]) + value if relative else value)
+    return _where(teacher, "hand joints")
+
+
+def _table(teacher: Teacher, words: list[str]) -> Answer:
+    return _jogged(teacher, words, np.eye(3), "table x +.5` or `table turn z 10")
+
+
+def _hand(teacher: Teacher, words: list[str]) -> Answer:
+    R_WT = teacher.workplace.runner.run.drive.hand()[:3, :3]
+    return _jogged(teacher, words, R_WT, "hand z -.2` or `hand turn y 5")
+
+
+def _jogged(teacher: Teacher, words: list[str], R: Array, example: str) -> Answer:
+    """Move the hand along an axis of a frame with rotation `R`, or turn it about one."""
+    turns = bool(words) and words[0].lower() == "turn"
+    axis, amount = _exactly(words[1:] if turns else words, 2, example)
+    x, y, z = R @ _along(axis, _number(amount) * (DEGREE if turns else INCH))
+    (teacher.turn if turns else teacher.straight)((float(x), float(y), float(z)))
+    return _where(teacher)
+
+
+def _function(word: str) -> Callable[[Teacher, list[str]], Answer]:
+    return lambda teacher, words: teacher.function(" ".join([word, *words]))
+
+
+def _float(teacher: Teacher, words: list[str]) -> Answer:
+    _exactly(words, 0, "float")
+    teacher.let_go()
+    return _where(teacher)
+
+
+def _push(teacher: Teacher, words: list[str]) -> Answer:
+    axis, force, seconds = _exactly(words, 3, "push x 5 2")
+    if not 0 < _number(seconds) <= LONGEST:
+        raise InvalidInput(f"somebody pushes for up to {LONGEST:g} s; {quoted(seconds)} cannot be")
+    if abs(_number(force)) > 200:
+        raise InvalidInput(f"somebody pushes with up to 200 oz; {quoted(force)} cannot be")
+    teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
+    told = _where(teacher).said.show
+    return answer(
+        teacher.workplace, CommandResult(show=told, said="that was a push from outside: no program can do it")
+    )
+
+
+# -- naming ---------------------------------------------------------------------------------------------
+
+
+def _here(teacher: Teacher, words: list[str]) -> Answer:
+    again = bool(words) and words[-1].lower() == "again"
+    words = words[:-1] if again else words
+    if len(words) not in (1, 3) or (len(words) == 3 and words[1].lower() != "of"):
+        raise InvalidInput("a place is named `here NAME`, `here NAME of PART`, `here NAME again`")
+    name, part = words[0], words[2] if len(words) == 3 else None
+    if not NAME.fullmatch(name):
+        raise InvalidInput(f"{quoted(name)} is no name: letters, digits and _, no digit first")
+    if again and part is None and name in teacher.workplace.taught.positions:
+        part = teacher.workplace.taught.positions[name].of
+    return answer(
+        teacher.workplace, CommandResult(said=f"{name} is {_written(teacher.name(name, part, again=again))}")
+    )
+
+
+def _written(position: Position) -> str:
+    lengths = [f"{round(value / INCH, 3) + 0.0:g}" for value in position.at[:3]]
+    angles = [f"{round(value / DEGREE, 2) + 0.0:g}" for value in position.at[3:]]
+    of = "" if position.of is None else f" of {position.of}"
+    return f"[{' '.join(lengths + angles)}]{of}"
+
+
+def _list(teacher: Teacher, words: list[str]) -> Answer:
+    _exactly(words, 0, "list")
+    known, unsaved = teacher.workplace.taught.positions, teacher.unsaved
+    width = max(map(len, known), default=0)
+    lines = [f"{n:{width}}  {_written(p)}{', not saved' if n in unsaved else ''}" for n, p in known.items()]
+    return answer(teacher.workplace, CommandResult(lines=tuple(lines or ["nothing is taught"])))
+
+
+def _save(teacher: Teacher, words: list[str]) -> Answer:
+    _exactly(words, 0, "save")
+    names = teacher.save()
+    if not names:
+        return answer(teacher.workplace, CommandResult(said="there is nothing new to save"))
+    said = f"{', '.join(names)} written to {teacher.file}"
+    return answer(teacher.workplace, CommandResult(said=said, file=str(teacher.file)))
+
+
+def _undo(teacher: Teacher, words: list[str]) -> Answer:
+    _exactly(words, 0, "undo")
+    return answer(teacher.workplace, CommandResult(said=teacher.undo()))
+
+
+def _look(teacher: Teacher, words: list[str]) -> Answer:
+    _exactly(words, 0, "where")
+    return _where(teacher, "joints hand gap")
+
+
+def _where(teacher: Teacher, what: str = "hand") -> Answer:
+    return answer(teacher.workplace, CommandResult(show=show(teacher.workplace.runner, what)))
+
+
+def _help(teacher: Teacher, _: list[str]) -> Answer:
+    width = max(len(lesson.usage) for lesson in TABLE)
+    lines = [f"  {lesson.usage:{width}}  {lesson.help}" for lesson in TABLE]
+    tail = "Inches and degrees, forces in ounces. `quit` leaves."
+    return answer(teacher.workplace, CommandResult(lines=(*lines, tail)))
+
+
+# -- reading --------------------------------------------------------------------------------------------
+
+
+def _exactly(words: list[str], count: int, example: str) -> list[str]:
+    if len(words) != count:
+        raise InvalidInput(f"this is said like `{example}`")
+    return words
+
+
+def _number(word: str) -> float:
+    if not re.fullmatch(r"[+-]?(\d{1,4}\.?\d{0,6}|\.\d{1,6})", word, re.ASCII):
+        raise InvalidInput(f"{quoted(word)} is no number")
+    return float(word)
+
+
+def _along(axis: str, size: float) -> Vector:
+    if axis.lower() not in AXES:
+        raise InvalidInput(f"{quoted(axis)} is no axis; there are x, y and z")
+    x, y, z = (size if axis.lower() == name else 0.0 for name in AXES)
+    return x, y, z
+
+
+TABLE: Final = (
+    TeachCommand(usage="j3 +1", act=_joint, help="move a joint by so much; without a sign, to there"),
+    TeachCommand(
+        usage="table x +.5",
+        act=_table,
+        help="move the hand along an axis of the table; or `table turn z 10`",
+    ),
+    TeachCommand(
+        usage="hand z -.2",
+        act=_hand,
+        help="move it along an axis of its own, z is where it points; or `hand turn y 5`",
+    ),
+    TeachCommand(usage="move NAME", act=_function("MOVE"), help="go to a position"),
+    TeachCommand(usage="open GAP", act=_function("OPEN"), help="open the hand"),
+    TeachCommand(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
+    TeachCommand(
+        usage="center [MIN]", act=_function("CENTER"), help="close it, the arm giving way to the thing"
+    ),
+    TeachCommand(usage="float", act=_float, help="take the brakes off; the arm goes where it is pushed"),
+    TeachCommand(usage="push x 5 2", act=_push, help="be the one who pushes it: along x with 5 oz for 2 s"),
+    TeachCommand(
+        usage="here NAME [of PART]", act=_here, help="name where the hand is; `here NAME again` anew"
+    ),
+    TeachCommand(usage="where", act=_look, help="tell where the arm is"),
+    TeachCommand(usage="list", act=_list, help="tell what is taught"),
+    TeachCommand(usage="undo", act=_undo, help="undo the last motion, or the last name"),
+    TeachCommand(
+        usage="save", act=_save, help="write what was named to the file; nothing else in it changes"
+    ),
+    TeachCommand(usage="help", act=_help, help="say this"),
+)
+TEACH_COMMANDS: Final = {lesson.name: lesson for lesson in TABLE[1:]}
+"""By their words; joints are read by themselves."""

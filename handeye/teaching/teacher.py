@@ -1,0 +1,206 @@
+"""Teaching: somebody moves the arm, by word or by hand, and names where it is."""
+
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from handeye.arm.jog import jog
+from handeye.arm.kinematics import IKResult
+from handeye.arm.line import pivot
+from handeye.arm.samples import Samples
+from handeye.cell.pushing import pushed
+from handeye.diagnostics import quoted
+from handeye.errors import ERRORS, InvalidInput
+from handeye.execution.drive import Halted, Outcome
+from handeye.files import write_whole
+from handeye.planning.motions import TURN_SPEED, change_samples
+from handeye.planning.planner import SPEED
+from handeye.ports.ports import TICK
+from handeye.program.program import Change, Position, Vector
+from handeye.program.taught import Taught
+from handeye.program.taught_text import with_position
+from handeye.source import Source, read_source
+from handeye.teaching.answers import Answer
+from handeye.teaching.functions import TYPED
+from handeye.teaching.plan_and_run import carry_out
+from handeye.teaching.workplace import Workplace
+
+REST = 0.5
+"""s that a floating arm is given to come to rest when it is let go."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    """What was taught before something was named."""
+
+    taught: Taught
+    text: str
+
+
+@dataclass(slots=True, kw_only=True)
+class Teacher:
+    """A cell, a file of taught positions, and what is to be written to it."""
+
+    workplace: Workplace
+    file: Path
+    saved: str
+    """The text of the file."""
+    text: str = field(init=False)
+    """The same with what has been named since."""
+    afloat: bool = False
+    """The brakes are off, and gravity is borne."""
+    _before: list[_Named | None] = field(default_factory=list)
+    """What `undo` puts back: names, or (None) the cell."""
+
+    def __post_init__(self) -> None:
+        self.text = self.saved
+
+    @property
+    def unsaved(self) -> list[str]:
+        """Names that the file has not, or has otherwise."""
+        now, then = (tomllib.loads(text).get("positions", {}) for text in (self.text, self.saved))
+        return [name for name in {**then, **now} if now.get(name) != then.get(name)]
+
+    # -- moving ---------------------------------------------------------------------------------------
+
+    def function(self, text: str) -> Answer:
+        """Carry out a function of the arm language."""
+        marks = len(self.workplace.before)
+        given = carry_out(self.workplace, Source(name=TYPED, text=text), alone=True)
+        if len(self.workplace.before) > marks:
+            self._before.append(None)
+        self.afloat = False
+        return given
+
+    def joint(self, index: int, goal: float) -> None:
+        """Move one joint to a place (rad, or m), the others held.
+
+        Raises:
+            InvalidInput: it cannot go there, or something is in the way.
+        """
+        arm = self.workplace.runner.arm
+        self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED, period=TICK))
+
+    def straight(self, displacement: Vector) -> None:
+        """Move the hand straight by a way (m, table coordinates), its angles kept.
+
+        Raises:
+            InvalidInput: it cannot go there, or something is in the way.
+        """
+        arm = self.workplace.runner.arm
+        self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
+
+    def turn(self, turn: Vector) -> None:
+        """Turn the hand on the spot by a rotation vector (rad, table coordinates).
+
+        Raises:
+            InvalidInput: it cannot be turned so, or something is in the way.
+        """
+        arm = self.workplace.runner.arm
+        self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
+
+    def _follow(self, samples: Samples | IKResult) -> None:
+        if isinstance(samples, IKResult):
+            raise InvalidInput(samples.message(self.workplace.runner.arm))
+        self.afloat = False
+        self._let(lambda: self.workplace.runner.run.drive.follow(samples))
+
+    def let_go(self) -> None:
+        """Take the brakes off: from now on the arm goes where it is pushed."""
+        self.afloat = True
+        self._let(lambda: self._float(REST))
+
+    def push(self, force: Vector, seconds: float) -> None:
+        """Somebody pushes the floating arm at its hand (N, table coordinates), and lets go of it.
+
+        Raises:
+            InvalidInput: the arm does not float.
+        """
+        if not self.afloat:
+            raise InvalidInput("the arm is held and cannot be pushed; `float` takes its brakes off")
+        self._let(lambda: self._pushed(force, seconds))
+
+    def _pushed(self, force: Vector, seconds: float) -> None:
+        with pushed(self.workplace.runner.cell, force):
+            self._float(seconds)
+        self._float(REST)
+
+    def _float(self, seconds: float) -> None:
+        self.workplace.runner.run.drive.float(seconds)
+
+    def _let(self, act: Callable[[], Outcome | None]) -> None:
+        """Let the arm go; Ctrl-C, or something in its way, sets the brakes."""
+        self.workplace.mark()
+        self._before.append(None)
+        try:
+            outcome = act()
+        except Halted:
+            self._brake()
+            raise InvalidInput("stopped by hand; the brakes are set") from None
+        if outcome is not None and outcome.error is not None:
+            self._brake()
+            raise InvalidInput(f"{ERRORS[outcome.error]} ({outcome.detail}); the brakes are set")
+
+    def _brake(self) -> None:
+        self.afloat = False
+        self.workplace.runner.run.drive.brake(0.1)
+
+    # -- naming ---------------------------------------------------------------------------------------
+
+    def name(self, name: str, part: str | None, *, again: bool = False) -> Position:
+        """Name where the hand is, in table coordinates or on a part.
+
+        Raises:
+            InvalidInput: the name is taken, there is no such part, or the file cannot be edited so.
+        """
+        taught = self.workplace.taught
+        if part is not None and part not in taught.parts:
+            known = ", ".join(taught.parts) or "none"
+            raise InvalidInput(f"there is no part {quoted(part)}; there are {known}")
+        if name in taught.positions and not again:
+            raise InvalidInput(f"{name} is taught already; `here {name} again` teaches it anew")
+        run = self.workplace.runner.run
+        position = run.world.seen_from(part, run.drive.hand())
+        text = with_position(self.text, name, position)
+        self._before.append(_Named(taught, self.text))
+        self.text = text
+        self.workplace.taught = replace(taught, positions={**taught.positions, name: position})
+        return position
+
+    def save(self) -> list[str]:
+        """Write the file; the names that were not in it, or otherwise.
+
+        Raises:
+            InvalidInput: somebody else has written it meanwhile, or it cannot be written.
+        """
+        names = self.unsaved
+        if names:
+            now = read_source(self.file).text if self.file.exists() else ""
+            if now != self.saved:
+                raise InvalidInput(
+                    f"{self.file} has been changed meanwhile, and is left alone; `list` tells what to put into it"
+                )
+            write_whole(self.file, self.text.encode())
+            self.saved = self.text
+        return names
+
+    # -- going back -----------------------------------------------------------------------------------
+
+    def undo(self) -> str:
+        """Undo the last motion or name, and say which; the file is as it was saved last.
+
+        Raises:
+            InvalidInput: there is none.
+        """
+        if not self._before:
+            raise InvalidInput("there is nothing to undo")
+        before = self._before.pop()
+        if before is None:
+            self.workplace.back()
+            self.afloat = False
+            return "the last motion is undone"
+        self.workplace.taught, self.text = before.taught, before.text
+        return "the last name is undone"

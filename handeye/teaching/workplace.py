@@ -1,0 +1,182 @@
+"""A cell in which plans are carried out one after the other; each begins with what those before it have left."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Final
+
+import msgspec
+
+from handeye.cell.simulated import PARK
+from handeye.errors import InvalidInput
+from handeye.events import RunStarted
+from handeye.execution.executor import Choice
+from handeye.execution.memory import Memory, remember
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import plan_digest
+from handeye.pose import Array
+from handeye.program.program import Look
+from handeye.program.taught import Taught
+from handeye.runs.advance import Pause, advance
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
+from handeye.source import Source
+from handeye.teaching.functions import TYPED, Planned, planned
+
+MOST: Final = 100
+"""States that can be gone back to."""
+_NOTHING: Final = "WHERE"
+_PICTURE: Final = "LOOK SETUP"
+"""Programs that a workplace has before it is given one; they are not carried out."""
+
+
+class Workplace:
+    """The cell, what is taught, and what the working phase remembers."""
+
+    def __init__(
+        self, *, seed: int, camera: str, taught: Taught, look: bool = False, halt: Callable[[], bool]
+    ) -> None:
+        """Build the cell of a world.
+
+        Args:
+            look: set the camera up, so that plans can look.
+            halt: the panic button, asked at every servo period.
+
+        Raises:
+            InvalidInput: the camera cannot work as asked.
+            Halted: the panic button was hit while the camera was set up.
+        """
+        self.taught, self.halt = taught, halt
+        start = _plan(_PICTURE if look else _NOTHING, taught)
+        self.runner = Runner(Checkpoint(setup=Setup(plan=start, seed=seed, camera=camera)), halt=halt)
+        if self.runner.trouble is not None:
+            raise InvalidInput(self.runner.trouble)
+        self.before: list[Checkpoint] = []
+        """States to go back to, the newest last."""
+
+    @classmethod
+    def at(cls, checkpoint: Checkpoint, taught: Taught | None, halt: Callable[[], bool]) -> "Workplace":
+        """The cell as a run has left it, with what that run knew; `taught` instead of what its plan was made with.
+
+        Raises:
+            InvalidInput: the checkpoint does not fit this scene.
+        """
+        program = checkpoint.setup.plan.program
+        made = cls.__new__(cls)
+        made.taught = taught or Taught(
+            positions=program.positions, parts=program.parts, fixtures=program.fixtures, held=program.held
+        )
+        made.halt, made.before = halt, []
+        made.runner = Runner(checkpoint, halt=halt)
+        return made
+
+    # -- knowing --------------------------------------------------------------------------------------
+
+    @property
+    def known(self) -> Taught:
+        """Positions and parts as they are now: taught, and defined since by `HERE`."""
+        positions = {**self.taught.positions, **self.runner.run.world.moved}
+        return replace(self.taught, positions=positions)
+
+    @property
+    def q(self) -> Array:
+        """Where the arm is held, shape (6,), rad and m."""
+        return self.runner.run.drive.q
+
+    def plan(self, source: Source, *, alone: bool = False) -> Planned:
+        """What the planning phase makes of a text here and now; `alone` as for `planned`."""
+        return planned(source, self.known, self.q, saved=self.runner.run.saved, alone=alone)
+
+    def checkpoint(self) -> Checkpoint:
+        """The present state, nothing that happened forgotten."""
+        runner = self.runner
+        snapshot = Snapshot(
+            position=runner.position,
+            happened=len(runner.events),
+            cell=runner.cell.capture(),
+            memory=remember(runner.executor),
+        )
+        return Checkpoint(
+            setup=runner.setup,
+            calibration=runner.calibration,
+            snapshot=snapshot,
+            events=tuple(runner.events),
+        )
+
+    # -- doing ----------------------------------------------------------------------------------------
+
+    def carry_out(self, plan: Plan) -> Pause:
+        """Carry out a plan.
+
+        Raises:
+            InvalidInput: it looks, and the camera was not set up.
+        """
+        if self.runner.calibration is None and any(isinstance(s.operation, Look) for s in plan.program.steps):
+            raise InvalidInput("the camera is not set up; begin with --look for a plan that takes pictures")
+        self.mark()
+        here = self.checkpoint()
+        assert here.snapshot is not None
+        memory = _onward(here.snapshot.memory, plan)
+        snapshot = Snapshot(position=0, happened=1, cell=here.snapshot.cell, memory=memory)
+        setup = Setup(plan=plan, seed=here.setup.seed, camera=here.setup.camera)
+        start = Checkpoint(
+            setup=setup, calibration=here.calibration, snapshot=snapshot, events=(self._started(plan),)
+        )  # fmt: skip
+        self.runner = Runner(start, halt=self.halt)
+        return self._go()
+
+    def _started(self, plan: Plan) -> RunStarted:
+        begun = self.runner.events[0]
+        assert isinstance(begun, RunStarted)
+        return msgspec.structs.replace(
+            begun, time=self.runner.run.time, plan=plan_digest(plan),
+            program=plan.program.name, steps=len(plan.program.steps),
+        )  # fmt: skip
+
+    def answer(self, choice: Choice) -> Pause:
+        """Go on after the operator was called.
+
+        Raises:
+            InvalidInput: nobody has called.
+        """
+        if not self.runner.called:
+            raise InvalidInput(f"`{choice}` is for when the operator is called, and nobody has called")
+        self.runner.answer(choice)
+        return self._go()
+
+    def _go(self) -> Pause:
+        pause = advance(self.runner)
+        if pause.kind == "panic":
+            self.runner.undo()
+        return pause
+
+    def mark(self) -> None:
+        """Keep this state to go back to."""
+        self.before = [*self.before, self.checkpoint()][-MOST:]
+
+    def back(self) -> None:
+        """Be again where the last plan had not been carried out.
+
+        Raises:
+            InvalidInput: none has been.
+        """
+        if not self.before:
+            raise InvalidInput("nothing has been done that could be undone")
+        self.runner = Runner(self.before.pop(), halt=self.halt)
+
+
+def _plan(text: str, taught: Taught) -> Plan:
+    plan = planned(Source(name=TYPED, text=text), taught, PARK).plan
+    assert plan is not None
+    return plan
+
+
+def _onward(memory: Memory, plan: Plan) -> Memory:
+    """What is remembered when another plan begins: all but where the last one was, and its pictures."""
+    program = plan.program
+    return msgspec.structs.replace(
+        memory,
+        at=0, pending=None, stage=None, stopped=None, onward=None, idle=0, clock=-1.0,
+        shots={}, general={}, found={},
+        measured={part: X for part, X in memory.measured.items() if part in program.parts},
+        moved={name: at for name, at in memory.moved.items() if name in program.positions},
+    )  # fmt: skip

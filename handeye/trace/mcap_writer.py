@@ -1,0 +1,153 @@
+"""An MCAP file while it grows: what is in it after a sync survives whatever happens to the program."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any, Final, cast
+
+import msgspec
+from mcap.writer import Writer
+
+from handeye import __version__
+from handeye.errors import InvalidInput
+from handeye.events import RunStarted
+from handeye.trace.channels import CHANNELS, EVENTS, FORMAT, METADATA, NUMBERS, PLAN, VERSION, nanoseconds
+
+CHUNK: Final = 1 << 20
+"""Bytes of messages after which a chunk is closed."""
+_BOUNDARIES: Final = (b'{"event":"RunStarted"', b'{"event":"StageFinished"')
+"""Events behind which a run may be taken up again."""
+
+
+@dataclass(slots=True)
+class _Sink:
+    """What the MCAP writer writes to: every byte at once, or an OSError; nothing is held back for later."""
+
+    handle: int
+    count: int = 0
+
+    def write(self, data: bytes) -> int:
+        view = memoryview(data)
+        while view:
+            view = view[os.write(self.handle, view) :]
+        self.count += len(data)
+        return len(data)
+
+    def tell(self) -> int:
+        return self.count
+
+    def flush(self) -> None:
+        """Nothing to do: there is no buffer."""
+
+
+class GrowingFile:
+    """A trace being written.
+
+    Where its chunks end depends on the messages alone: by `CHUNK`, behind the start of the run, and at the end of each
+    stage; so equal messages give equal bytes. Unless somebody syncs within a chunk, which makes the file `uneven`.
+    """
+
+    def __init__(self, file: Path) -> None:
+        """Make or empty a file.
+
+        Raises:
+            InvalidInput: it cannot be written.
+        """
+        self.file = file
+        self.uneven = False
+        """A chunk ends where it would not have ended by itself."""
+        self.broken = False
+        """Something could not be written; the file ends there."""
+        self.released = False
+        self._pending = 0  # bytes in the chunk in progress
+        with self._complaining():
+            self._sink = _Sink(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666))
+        self._writer = Writer(cast(IO[Any], self._sink), chunk_size=1 << 62, enable_data_crcs=True)
+
+    def begin(self, head: RunStarted, plan: bytes) -> None:
+        """Write what stands before all messages: what the file is, the plan, the channels."""
+        said = msgspec.to_builtins(head)
+        versions = said.pop("versions")
+        said |= {f"versions.{name}": value for name, value in sorted(versions.items())}
+        metadata = {"format": FORMAT, "version": VERSION, **said}
+        with self._complaining():
+            self._writer.start(library=f"handeye {__version__}")
+            self._writer.add_metadata(METADATA, {key: str(value) for key, value in metadata.items()})
+            self._writer.add_attachment(0, nanoseconds(head.time), PLAN, "application/json", plan)
+            for channel in CHANNELS:
+                schema = self._writer.register_schema(
+                    channel.schema_name, channel.schema_encoding, channel.schema
+                )
+                self._writer.register_channel(channel.topic, channel.encoding, schema)
+
+    def write(self, topic: str, time: int, data: bytes) -> None:
+        """Write a message; `time` in ns. Nothing is written any more once something could not be.
+
+        Raises:
+            InvalidInput: it cannot be written (said once).
+        """
+        if self.broken:
+            return
+        with self._complaining():
+            self._writer.add_message(NUMBERS[topic], time, data, time)
+            self._pending += len(data)
+            if self._pending >= CHUNK or (topic == EVENTS and data.startswith(_BOUNDARIES)):
+                self._end_chunk()
+
+    def sync(self) -> None:
+        """Put everything so far on the disk.
+
+        Raises:
+            InvalidInput: it cannot be written (said once).
+        """
+        if self.broken:
+            return
+        with self._complaining():
+            if self._pending:
+                self.uneven = True
+                self._end_chunk()
+            os.fsync(self._sink.handle)
+
+    def finish(self) -> None:
+        """Write the summary: the file is whole.
+
+        Raises:
+            InvalidInput: it cannot be written; what was in the file before stays readable.
+        """
+        with self._complaining():
+            self._writer.finish()
+            os.fsync(self._sink.handle)
+
+    def release(self) -> None:
+        """Close the file as it is."""
+        if not self.released:
+            os.close(self._sink.handle)
+        self.released = True
+
+    def move(self, file: Path) -> None:
+        """Give the file another name; what has that name already is replaced.
+
+        Raises:
+            InvalidInput: it cannot have it.
+        """
+        with self._complaining():
+            os.replace(self.file, file)
+        self.file = file
+
+    def _end_chunk(self) -> None:
+        self._pending = 0
+        self._writer.flush()
+
+    @contextmanager
+    def _complaining(self) -> Iterator[None]:
+        """Turn an error of the operating system into a sentence; nothing more is written then."""
+        try:
+            yield
+        except OSError as error:
+            self.broken = True
+            raise InvalidInput(f"{self.file} cannot be written: {error.strerror}") from None
+        except BaseException:  # Ctrl-C in the middle of a chunk: what is there may be half of it
+            self.broken = True
+            raise

@@ -1,0 +1,174 @@
+"""Reasons to stop, as users name them."""
+
+import pytest
+from short_runs import begin, plan_of
+from stepper_bench import AIR, reset
+
+from handeye.debugger.breakpoints import ToStage, UntilStep, breakpoint, stage_number, step_number
+from handeye.debugger.listing import labels
+from handeye.errors import InvalidInput
+from handeye.planfile.plan import Plan
+from handeye.runs.advance import Pause, Stop, advance
+from handeye.runs.runner import Runner
+
+MACRO = """\
+DEFINE TWICE
+LM:     OPEN    .5
+        OPEN    1
+
+        STAGE   "first half"
+        TWICE
+LX:     TWICE
+        STAGE   "second half"
+LY:
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] .1
+        SKIPE   23
+        OPEN    2
+        OPEN    1
+LZ:
+"""
+
+PLAN = plan_of(AIR)
+
+
+@pytest.fixture(scope="module")
+def built() -> Runner:
+    return Runner(begin(AIR))
+
+
+@pytest.fixture
+def runner(built: Runner) -> Runner:
+    return reset(built)
+
+
+@pytest.fixture(scope="module")
+def macro() -> Plan:
+    return plan_of(MACRO)
+
+
+def stopped(runner: Runner, *stops: Stop) -> tuple[str, int | None]:
+    """Why the run stops, and before which line."""
+    pause: Pause = advance(runner, stops)
+    return pause.sentence, None if runner.next is None else runner.next.line
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "sentence", "line"),
+    [
+        ("10", "break at line 10", 10),
+        ("9", "break at line 10", 10),
+        ("L1", "break at label L1", 8),
+        ("l3", "break at label L3", 15),
+        ("AOJ", "break at AOJ", 14),
+        ("skipe", "break at SKIPE", 11),
+        ("search in the air", "break at stage 2, search in the air", 7),
+        ("Search in", "break at stage 2, search in the air", 7),
+    ],
+)
+def test_a_run_stops_before_the_place_that_is_named(
+    runner: Runner, text: str, sentence: str, line: int
+) -> None:
+    assert stopped(runner, breakpoint(text, PLAN)) == (sentence, line)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("text", ["error:23", "error 23", "ERROR: 23"])
+def test_a_run_stops_behind_the_step_that_raised_the_error(runner: Runner, text: str) -> None:
+    why = "break on error 23: the motion ended without meeting the force it was to stop on"
+    assert stopped(runner, breakpoint(text, PLAN)) == (why, 11)
+
+
+@pytest.mark.slow
+def test_a_break_that_was_met_does_not_stop_the_run_again_where_it_stands(runner: Runner) -> None:
+    places = breakpoint("4", PLAN), breakpoint("AOJ", PLAN)
+    assert stopped(runner, *places) == ("break at AOJ", 14)
+    assert stopped(runner, *places, breakpoint("17", PLAN)) == ("break at line 18", 18)
+
+
+@pytest.mark.slow
+def test_a_run_goes_to_the_end_of_a_stage(runner: Runner) -> None:
+    assert stopped(runner, ToStage(0)) == ("stage 1, open the hand, has ended", 7)
+    assert runner.executor.between_stages
+    assert stopped(runner, ToStage(1)) == ("stage 2, search in the air, has ended", 18)
+
+
+@pytest.mark.slow
+def test_a_run_goes_until_a_step(runner: Runner) -> None:
+    assert stopped(runner, UntilStep(3)) == ("step 3 is the next", 8)
+    assert runner.position == 3
+
+
+def test_a_label_in_a_macro_stands_for_a_step_of_each_call(macro: Plan) -> None:
+    assert labels(macro.program) == {"LM": [0, 2], "LX": [2], "LY": [4]}
+
+
+def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
+    assert macro.program.steps[labels(macro.program)["LY"][0]].text.startswith("CHANGE")
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("23", "line 23 lies behind the last step, which is on line 22"),
+        ("99999999999", "the program has no label, instruction or stage `99999999999`"),
+        ("L9", "the program has no label, instruction or stage `L9`; did you mean `L3`?"),
+        ("AOK", "the program has no label, instruction or stage `AOK`; did you mean `AOJ`?"),
+        ("STOP", "no step of the program begins with STOP"),
+        ("shut the hnad", "the program has no label, instruction or stage `shut the hnad`; "
+         "did you mean `shut the hand`?"),
+        ("zzz", "the program has no label, instruction or stage `zzz`"),
+        ("", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
+        ("error:9", "there is no error `9`; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
+        ("error:", "there is no error ``; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
+    ],
+)  # fmt: skip
+def test_a_place_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
+    with pytest.raises(InvalidInput) as refused:
+        breakpoint(text, PLAN)
+    assert str(refused.value) == sentence
+
+
+@pytest.mark.parametrize("text", ["2", "search in the air", "SEARCH", " se "])
+def test_a_stage_is_found_by_its_number_its_name_or_the_beginning_of_it(text: str) -> None:
+    assert stage_number(text, PLAN) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("0", "there is no stage 0; the program has stages 1 to 4"),
+        ("5", "there is no stage 5; the program has stages 1 to 4"),
+        ("s", "2 stages begin with `s`: `search in the air`, `shut the hand`"),
+        ("grab nothing", "there is no stage `grab nothing`; did you mean `grasp nothing`?"),
+        ("", "there is no stage ``"),
+    ],
+)
+def test_a_stage_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
+    with pytest.raises(InvalidInput) as refused:
+        stage_number(text, PLAN)
+    assert str(refused.value) == sentence
+
+
+def test_a_step_is_found_by_its_number_or_its_label() -> None:
+    assert [step_number(text, PLAN) for text in ("0", "12", "L2")] == [0, 12, 8]
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("14", "there is no step 14; the program has steps 0 to 13"),
+        ("-9", "`-9` is neither a step's number nor a label"),
+        ("L4", "`L4` is neither a step's number nor a label; did you mean `L3`?"),
+    ],
+)
+def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
+    with pytest.raises(InvalidInput) as refused:
+        step_number(text, PLAN)
+    assert str(refused.value) == sentence
+
+
+def test_a_label_that_stands_for_several_steps_is_no_step(macro: Plan) -> None:
+    with pytest.raises(InvalidInput, match=r"^label `LM` stands for steps 0, 2; give one by its number$"):
+        step_number("LM", macro)

@@ -1,0 +1,263 @@
+"""What operators say when they are called, and what comes of it."""
+
+import pytest
+from short_runs import begin, history, plan_of
+from stepper_bench import AIR, reset
+
+from handeye.debugger.breakpoints import ToStage, breakpoint
+from handeye.debugger.operator import Abort, Ask, Back, Retry, attend, beginnings, parse_policy
+from handeye.errors import InvalidInput
+from handeye.events import OperatorAnswered, OperatorCalled, StageFinished, StepStarted
+from handeye.runs.advance import Pause
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+
+pytestmark = pytest.mark.slow
+
+CALLED = "the fingers closed beyond the minimum gap: nothing, or too thin a thing, is between them"
+
+
+@pytest.fixture(scope="module")
+def built() -> Runner:
+    return Runner(begin(AIR))
+
+
+@pytest.fixture
+def runner(built: Runner) -> Runner:
+    """A run that calls the operator in its third stage, each time that is tried."""
+    return reset(built)
+
+
+class Talk:
+    """Answers, and what was said to whoever gave them."""
+
+    def __init__(self, *answers: str) -> None:
+        self.said: list[str] = []
+        self.operator = Ask(iter(answers), self.said.append)
+
+
+def answers(runner: Runner) -> list[str]:
+    """What the operator chose."""
+    return [event.choice for event in runner.events if isinstance(event, OperatorAnswered)]
+
+
+def calls(runner: Runner) -> int:
+    """How often the operator was called."""
+    return sum(isinstance(event, OperatorCalled) for event in runner.events)
+
+
+def texts(runner: Runner) -> list[str]:
+    """The statements that were carried out."""
+    return [event.text for event in runner.events if isinstance(event, StepStarted)]
+
+
+# -- policies -------------------------------------------------------------------------------------------
+
+
+def test_policies_are_written_in_a_word() -> None:
+    assert [parse_policy(text) for text in ("abort", "retry:3", "ask")] == [Abort(), Retry(3), None]
+
+
+@pytest.mark.parametrize("text", ["", "retry", "retry:0", "retry:-1", "retry:x", "Abort", "retry:1.5"])
+def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
+    with pytest.raises(
+        InvalidInput, match=r"^what to do on a stop is abort, ask, or retry:N .* is none of these$"
+    ):
+        parse_policy(text)
+
+
+def test_abort_ends_the_run_where_the_operator_was_called(runner: Runner) -> None:
+    pause = attend(runner, Abort())
+    assert (pause.kind, calls(runner), answers(runner)) == ("operator", 1, [])
+    assert runner.called
+
+
+@pytest.mark.parametrize("times", [1, 3])
+def test_retry_does_the_stage_again_so_many_times_and_gives_up(runner: Runner, times: int) -> None:
+    assert attend(runner, Retry(times)).kind == "operator"
+    assert answers(runner) == ["retry"] * times
+    assert calls(runner) == times + 1
+
+
+def test_a_run_taken_up_again_retries_no_more_often_than_one_never_broken_off(runner: Runner) -> None:
+    kept: list[Checkpoint] = []
+
+    class Keep(Observer):
+        def checkpoint(self, checkpoint: Checkpoint) -> None:
+            kept.append(checkpoint)
+
+    runner.observers.append(Keep())
+    attend(runner, Retry(2))
+    once_retried = next(c for c in kept if any(isinstance(e, OperatorAnswered) for e in c.events))
+    again = Runner(once_retried)
+    attend(again, Retry(2))
+    assert history(again.events) == history(runner.events)
+
+
+def test_each_stage_is_retried_on_its_own_account() -> None:
+    runner = Runner(begin('STAGE "one"\nWAIT HERE\nSTAGE "two"\nWAIT THERE\n'))
+    attend(runner, Retry(1))
+    runner.answer("proceed")
+    assert attend(runner, Retry(1)).kind == "operator"
+    assert answers(runner) == ["retry", "proceed", "retry"]
+
+
+# -- asking ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("answer", "last"), [("p", "OPEN    .4"), ("proceed", "OPEN    .4"), ("s", "OPEN    .5")]
+)
+def test_the_program_goes_on_as_the_answer_says(runner: Runner, answer: str, last: str) -> None:
+    talk = Talk(answer)
+    assert attend(runner, talk.operator, [breakpoint("shut", plan_of(AIR))] if answer != "s" else []).kind
+    assert texts(runner)[-1] == last
+
+
+def test_retry_goes_on_with_the_first_step_of_the_stage(runner: Runner) -> None:
+    attend(runner, Talk("r", "a").operator)
+    assert texts(runner)[-4:] == ["OPEN    .5", "CLOSE   .4"] * 2
+
+
+def test_going_back_to_a_stage_makes_all_since_then_undone(runner: Runner) -> None:
+    attend(runner, Talk("a").operator)
+    first = history(runner.events)
+    reset(runner)
+    attend(runner, Talk("b", "b search", "b 1", "a").operator)
+    assert history(runner.events) == first
+
+
+def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runner) -> None:
+    talk = Talk("a")
+    attend(runner, talk.operator)
+    assert talk.said[0].splitlines() == [
+        "The operator is called in stage 3, grasp nothing:",
+        f"    {CALLED} (the gap is 0.01 in, the minimum 0.40 in)",
+        '    17          STAGE   "grasp nothing"',
+        "    18          OPEN    .5",
+        "  ■ 19          CLOSE   .4",
+        "    20          OPEN    .4",
+        '    21          STAGE   "shut the hand"',
+        "p          proceed behind it: on at line 20",
+        "r          retry: the stage again from line 18, with the world as it is now",
+        "s          skip: leave out the rest of the stage",
+        "b [STAGE]  back: in time to the beginning of this stage, or of an earlier one",
+        "a          abort",
+        "show       see joints, hand, force, saved differences, parts and so on",
+    ]
+
+
+def test_the_end_of_the_answers_is_taken_for_abort(runner: Runner) -> None:
+    talk = Talk()
+    assert attend(runner, talk.operator).kind == "operator"
+    assert talk.said[-1] == "the answers have come to their end: abort"
+
+
+@pytest.mark.parametrize(
+    ("answer", "sentence"),
+    [
+        ("maybe", "`maybe` is no answer; say p, r, s, b, a or show"),
+        ("", "`` is no answer; say p, r, s, b, a or show"),
+        ("p 3", "`p 3` is no answer; say p, r, s, b, a or show"),
+        ("b shut", "stage 4, shut the hand, has not begun yet"),
+        ("b nowhere", "there is no stage `nowhere`"),
+        ("show tee", "there is no `tee` to show; did you mean `time`?"),
+    ],
+)
+def test_an_answer_that_is_none_is_told_and_asked_for_again(
+    runner: Runner, answer: str, sentence: str
+) -> None:
+    talk = Talk(answer, "a")
+    assert attend(runner, talk.operator).kind == "operator"
+    assert talk.said[1:] == [sentence]
+
+
+def test_whoever_is_asked_can_look_first(runner: Runner) -> None:
+    talk = Talk("show saved", "a")
+    attend(runner, talk.operator)
+    assert talk.said[1].startswith("saved     H  (")
+
+
+# -- stopping elsewhere ---------------------------------------------------------------------------------
+
+
+def test_a_stage_that_is_skipped_has_ended(runner: Runner) -> None:
+    pause = attend(runner, Talk("s").operator, [ToStage(2)])
+    assert pause == Pause(kind="break", sentence="stage 3, grasp nothing, has ended")
+    assert [event.status for event in runner.events if isinstance(event, StageFinished)][-1] == "skipped"
+
+
+def test_a_break_where_the_program_goes_on_after_an_answer_stops_it_and_the_state_is_kept(
+    runner: Runner,
+) -> None:
+    kept: list[Checkpoint] = []
+
+    class Keep(Observer):
+        def checkpoint(self, checkpoint: Checkpoint) -> None:
+            kept.append(checkpoint)
+
+    runner.observers.append(Keep())
+    pause = attend(runner, Talk("p").operator, [breakpoint("20", plan_of(AIR))])
+    assert pause == Pause(kind="break", sentence="break at line 20")
+    assert history(list(kept[-1].events)) == history(runner.events)
+
+
+def test_a_run_that_nobody_needs_to_attend_to_comes_to_its_end(runner: Runner) -> None:
+    asked: list[str] = []
+
+    class Never:
+        def answer(self, runner: Runner, sentence: str) -> Back:
+            asked.append(sentence)
+            return Back(stage=0)
+
+    pause = attend(runner, Never(), [ToStage(1)])
+    assert (pause.kind, asked) == ("break", [])
+
+
+def test_stages_are_known_by_where_they_began(runner: Runner) -> None:
+    attend(runner, Abort())
+    assert beginnings(runner) == {0: 0, 1: 2, 2: 9}
+
+
+def test_going_back_reaches_what_is_only_on_disk(runner: Runner) -> None:
+    at_start = runner.checkpoint()
+    attend(runner, Abort(), [ToStage(1)])
+    late = Runner(runner.checkpoint())
+    attend(late, Talk("b 1", "a").operator, kept=lambda _: at_start)
+    attend(runner, Abort())
+    assert history(late.events) == history(runner.events)
+
+
+@pytest.mark.parametrize("word", ["help", "?", "h"])
+def test_help_says_again_what_can_be_said(runner: Runner, word: str) -> None:
+    talk = Talk(word, "a")
+    attend(runner, talk.operator)
+    question, choices = talk.said
+    assert choices.splitlines()[0] == "p          proceed behind it: on at line 20"
+    assert question.endswith(choices)
+
+
+def test_going_back_behind_what_was_kept_is_told_and_asked_for_again(runner: Runner) -> None:
+    attend(runner, Abort(), [ToStage(1)])
+    talk = Talk("b 1", "a")
+    pause = attend(Runner(runner.checkpoint()), talk.operator)
+    assert pause.kind == "operator"
+    assert (
+        talk.said[1].splitlines()[1] == "    this run begins with 9 steps done: there is nothing before that"
+    )
+
+
+def test_the_panic_button_on_the_way_back_stops_the_run(runner: Runner) -> None:
+    at_start = runner.checkpoint()
+    attend(runner, Abort(), [ToStage(1)])
+    pressed: list[bool] = []
+    late = Runner(runner.checkpoint(), halt=lambda: bool(pressed and pressed.pop()))
+
+    class Panic:
+        def answer(self, runner: Runner, sentence: str) -> Back:
+            pressed.append(True)
+            return Back(stage=1)
+
+    pause = attend(late, Panic(), kept=lambda _: at_start)
+    assert pause == Pause(kind="panic", sentence="stopped by hand on the way back; the brakes are set")

@@ -1,0 +1,136 @@
+"""The pin-insertion listing of 1973, as printed, with the hole where the program thinks and where it does not.
+
+The base stands in its standard position; the hole is displaced by teaching T beside it, so that `off` is how
+far the hole lies from T.
+"""
+
+import msgspec
+import pytest
+from pump_bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifted, written
+
+from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
+from handeye.events import Saved, SearchAdvanced
+from handeye.planfile.plan import Plan
+from handeye.program.program import AnyOperation, Position, Search
+
+pytestmark = pytest.mark.slow
+
+PLAY = 0.02
+"""Sideways play (in) of the hand that holds a seated pin: pin in hole, pin in fingers, give of the servo."""
+
+
+def inserting(T: Position, more: str = "") -> Bench:
+    positions = {"P": TAUGHT.positions["P1"], "T": T}
+    return bench("OPEN 1\n" + INSERT + more, positions=positions, lay=at_standard())
+
+
+def hole_off(x: float, y: float, more: str = "") -> Bench:
+    """A run with the hole displaced from T by (x, y) in."""
+    return inserting(shifted("T1", -x, -y), more)
+
+
+def over_large_hole() -> Bench:
+    return inserting(written(25.0, 38.0, 3.931, -90))
+
+
+def test_row_12_a_hole_exactly_at_t_is_found_at_the_first_place() -> None:
+    run = hole_off(0.0, 0.0).go()
+    assert (run.finished, run.tries) == (True, 1)
+    assert run.saved("H")[:2] == pytest.approx([0.0, 0.0], abs=PLAY)
+    assert run.place("pin0")[2] == pytest.approx(SEATED, abs=0.005)
+
+
+def test_row_13_a_hole_one_step_off_is_found_at_the_second_place() -> None:
+    run = hole_off(0.07, 0.0).go()
+    assert (run.finished, len(run.all(SearchAdvanced))) == (True, 1)
+    assert run.saved("H")[:2] == pytest.approx([0.07, 0.0], abs=PLAY)
+
+
+@pytest.mark.parametrize("off", [(0.1, 0.0), (0.0, 0.1), (-0.0707, -0.0707), (0.0707, -0.0707)])
+def test_row_14_a_hole_a_tenth_off_is_found_within_nine_tries(off: tuple[float, float]) -> None:
+    run = hole_off(*off).go()
+    assert run.finished
+    assert 2 <= run.tries <= 9
+    assert run.saved("H")[:2] == pytest.approx(off, abs=PLAY)
+
+
+def test_row_15_a_hole_fifteen_hundredths_off_is_found_within_twenty_four_tries() -> None:
+    run = hole_off(0.0, -0.15).go()
+    assert run.finished
+    assert 10 <= run.tries <= 24
+    assert run.saved("H")[:2] == pytest.approx([0.0, -0.15], abs=PLAY)
+
+
+def test_row_16_beside_the_base_nothing_resists_and_the_search_goes_on() -> None:
+    run = inserting(written(25.0, 34.0, 3.931, -90))
+    run.go(lambda: run.tries > 3)
+    assert run.errors == [23, 23] * 3
+    assert not run.all(Saved)
+
+
+def test_row_17_over_the_large_hole_both_force_tests_pass() -> None:
+    run = over_large_hole().to("OPEN  .5")
+    assert run.errors == [23]
+    assert not run.all(SearchAdvanced)
+
+
+def test_row_17_a_pin_that_fell_over_in_the_large_hole_is_missed_by_the_closing_hand() -> None:
+    """Set down squarely the pin may stand on the floor of the hole; the experimenter flicks it over."""
+    run = over_large_hole().to("OPEN  .5")
+    run.executor.step()
+    run.flick("pin0", (-0.05, 0.0, 0.0)).go()
+    assert run.called.error == NOTHING_HELD
+    assert "nothing, or too thin a thing" in run.called.message
+
+
+def two_places(plan: Plan) -> Plan:
+    """The plan with searches of two places."""
+
+    def short(operation: AnyOperation) -> AnyOperation:
+        return msgspec.structs.replace(operation, limit=2) if isinstance(operation, Search) else operation
+
+    steps = [msgspec.structs.replace(step, operation=short(step.operation)) for step in plan.program.steps]
+    return msgspec.structs.replace(plan, program=msgspec.structs.replace(plan.program, steps=tuple(steps)))
+
+
+def test_row_18_at_600_oz_the_pin_is_in_the_hole_and_the_search_goes_on() -> None:
+    """So 60 oz it must have been. The checker warns of it; to save time the search has two places only."""
+    script = "OPEN 1\n" + INSERT.replace("-60]", "-600]")
+    positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
+    run = bench(script, positions=positions, lay=at_standard(), edited=two_places)
+    assert run.to("SKIPN").place("pin0")[2] == pytest.approx(SEATED, abs=0.02)
+    assert run.go().errors[:2] == [23, 23]
+    assert run.called.error == SEARCH_EXHAUSTED
+    assert not run.all(Saved)
+
+
+def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() -> None:
+    run = hole_off(0.08, 0.0, "MOVE T\nRESTORE H\n").to("SAVE")
+    inserted, tries = run.hand(), run.tries
+    run.go()
+    assert run.finished
+    assert run.hand() == pytest.approx(inserted, abs=0.02)
+    assert run.tries == tries
+
+
+@pytest.mark.parametrize("off", [(0.06, -0.04), (0.12, -0.08)])
+def test_row_22_one_hole_found_helps_to_find_the_next(off: tuple[float, float]) -> None:
+    """The base stands off its place; the second pin goes to the diagonal hole."""
+    second = INSERT.replace("L1", "L2").replace("MOVE  P", "MOVE  P2").replace("MOVE  T", "MOVE  T2")
+    second = second.replace("STOP  [0 0 -50]", "RESTORE H LEVEL\n STOP [0 0 -50]")
+    positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
+    script = "OPEN 1\n" + INSERT + "OPEN 1\n" + second
+    run = bench(script, positions=positions, lay=at_standard(*off)).to("SAVE")
+    before = len(run.all(SearchAdvanced))
+    assert run.go().finished
+    assert len(run.all(SearchAdvanced)) - before <= 1
+    assert run.place("pin1")[2] == pytest.approx(SEATED, abs=0.005)
+
+
+def test_a_search_that_finds_no_hole_ends_with_the_operator() -> None:
+    """The hole is half an inch away, beyond the spiral's reach."""
+    run = hole_off(0.0, 0.5)
+    run.go(lambda: run.tries > 2)
+    assert run.run.search is not None
+    run.run.search.limit = 5  # the rest of the 49 places would be no different
+    assert run.go().called.error == SEARCH_EXHAUSTED

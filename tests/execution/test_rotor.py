@@ -1,0 +1,38 @@
+"""Step 11: the rotor is turned, and is to resist with less than forty ounces."""
+
+import math
+
+import pytest
+from pump_bench import Bench, bench, stacked, stage
+
+from handeye.errors import NO_FORCE
+from handeye.events import GuardTripped
+
+pytestmark = pytest.mark.slow
+
+
+def turning(friction: float | None = None) -> Bench:
+    """The program's last stage; the experimenter may have jammed the rotor (N m)."""
+    run = bench(stage("turn the rotor"), lay=stacked())
+    if friction is not None:
+        model = run.cell.truth.model
+        model.dof_frictionloss[model.joint("rotor").dofadr[0]] = friction
+    return run.go()
+
+
+def turned(run: Bench) -> float:
+    """Angle of the rotor, degrees."""
+    return math.degrees(run.cell.truth.data.joint("rotor").qpos[0])
+
+
+def test_a_free_rotor_turns_and_meets_no_such_resistance() -> None:
+    run = turning()
+    assert (run.finished, run.errors) == (True, [NO_FORCE])
+    assert turned(run) > 50
+
+
+def test_row_56_a_jammed_rotor_stops_the_motion_and_the_operator_is_told() -> None:
+    run = turning(friction=5.0)
+    assert run.all(GuardTripped)[-1].guard == "against"
+    assert run.called.message == "THE ROTOR IS HARD TO TURN"
+    assert abs(turned(run)) < 2

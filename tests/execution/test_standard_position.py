@@ -1,0 +1,37 @@
+"""Step 3: the base is pushed against both blocks, and stops there by force."""
+
+from dataclasses import replace
+
+import pytest
+from pump_bench import Bench, at_standard, bench, shifted, stage
+
+from handeye.events import GuardTripped
+from handeye.tasks.water_pump.referee import judge
+from handeye.tasks.water_pump.variation import World
+from handeye.units import INCH
+
+pytestmark = pytest.mark.slow
+
+
+def pushed(world: World | None = None) -> Bench:
+    """The base in the hand on the table, .4 in short of both blocks; the pushes are the program's."""
+    text = stage("put the base in its standard position")
+    grasp = "OPEN 1.85\nMOVE W\nCLOSE .9 1.4\n"
+    script = grasp + text[text.index("STOP    [0 72 0]") :]
+    positions = {"W": shifted("S0", z=-0.5)}
+    return bench(script, world=world, positions=positions, lay=at_standard(0.4, -0.4)).go()
+
+
+def test_row_59_every_push_is_stopped_by_force() -> None:
+    assert [trip.guard for trip in pushed().all(GuardTripped)] == ["force", "force", "force"]
+
+
+def test_row_59_the_base_ends_within_five_hundredths_of_its_standard_position() -> None:
+    assert pushed().place("base")[:2] == pytest.approx([25.0, 38.0], abs=0.05)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_row_59_it_lies_against_both_blocks_though_the_arm_is_wrong(seed: int) -> None:
+    findings = judge(pushed(replace(World.nominal(), arm=World.sample(seed).arm)).cell.truth)
+    assert max(findings[f"base_{side}"].value for side in ("far", "left")) < 0.05 * INCH * 1000
+    assert findings["base_yaw"].ok

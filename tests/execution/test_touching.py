@@ -1,0 +1,41 @@
+"""TOUCH: a finger that meets something ends the motion."""
+
+import pytest
+from pump_bench import Bench, bench, written
+
+from handeye.errors import NO_TOUCH
+from handeye.events import GuardTripped
+from handeye.pose import planar
+from handeye.units import INCH
+
+pytestmark = pytest.mark.slow
+
+
+def reaching(script: str) -> Bench:
+    """The open hand about the pump's top, which lies loose on the table; angle O points to table +y."""
+    top = planar(25 * INCH, 38 * INCH, 1e-5, 0.0)
+    return bench(
+        f"OPEN 2.8\nMOVE T\n{script}", positions={"T": written(25, 38.2, 0.45, 90)}, lay={"top": top}
+    ).go()
+
+
+@pytest.mark.parametrize(("way", "finger", "mask"), [(-1, 1, 1), (-1, 1, 3), (1, 2, 2), (1, 2, 3)])
+def test_the_motion_ends_when_an_enabled_finger_touches(way: int, finger: int, mask: int) -> None:
+    run = reaching(f"TOUCH {mask}\nCHANGE [0 {way} 0] 1.5")
+    (trip,) = run.all(GuardTripped)
+    assert (trip.guard, trip.value, trip.limit, run.errors) == ("touch", finger, mask, [])
+    assert run.moved("top") < 0.03
+
+
+def test_the_finger_that_is_not_enabled_does_not_end_it() -> None:
+    run = reaching("TOUCH 2\nCHANGE [0 -1 0] 1.5\nSKIPN 25\nWAIT NOT FELT")
+    assert (run.all(GuardTripped), run.errors) == ([], [NO_TOUCH])
+    assert run.called.message == "NOT FELT"
+
+
+def test_a_move_that_touches_nothing_raises_error_25() -> None:
+    run = bench("OPEN 2\nTOUCH 3\nMOVE T", positions={"T": written(25, 38, 6, 0)}).go()
+    assert (run.called.error, run.called.message) == (
+        NO_TOUCH,
+        "the motion ended without a finger touching anything",
+    )

@@ -1,0 +1,151 @@
+"""One whole run in one drawn world: eleven stages, their senses, their times, and the referee's word."""
+
+import re
+from dataclasses import dataclass
+
+import pytest
+from pump_bench import SCRIPT, TAUGHT
+
+from handeye.al import compile_text
+from handeye.arm.stanford import STANFORD
+from handeye.events import (
+    CameraBusy,
+    Event,
+    GuardTripped,
+    OperatorCalled,
+    PartInspected,
+    PartSeen,
+    StageFinished,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+)
+from handeye.planning.planner import make_plan
+from handeye.source import Source
+from handeye.tasks.water_pump.referee import judge
+from handeye.trials.assembly import Finished, run_plan
+
+pytestmark = pytest.mark.slow
+
+STAGES = (
+    "find the base", "feel for the grasp", "put the base in its standard position", "insert the aligning pins",
+    "put on the gasket", "check the gasket", "put on the top", "drive the first two screws",
+    "take out the aligning pins", "drive the last four screws", "turn the rotor",
+)  # fmt: skip
+"""The eleven steps of 1973."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Whole:
+    """What a run came to, and everything that happened."""
+
+    finished: Finished
+    events: tuple[Event, ...]
+
+    def during(self, stage: str) -> list[Event]:
+        """What happened in a stage."""
+        names = [e.stage if isinstance(e, StageStarted) else None for e in self.events]
+        start = names.index(stage)
+        ends = [i for i, e in enumerate(self.events) if isinstance(e, StageFinished) and i > start]
+        return list(self.events[start : ends[0]])
+
+
+@pytest.fixture(scope="module")
+def whole() -> Whole:
+    program, _ = compile_text(Source(name="water_pump.al", text=SCRIPT), TAUGHT)
+    assert program is not None
+    plan, _ = make_plan(program, STANFORD)
+    assert plan is not None
+    finished = run_plan(plan, seed=1)
+    return Whole(finished=finished, events=tuple(finished.runner.events))
+
+
+def count(events: list[Event], kind: type[Event]) -> int:
+    return sum(isinstance(event, kind) for event in events)
+
+
+def test_row_55_the_eleven_stages_are_done_in_order(whole: Whole) -> None:
+    started = tuple(e.stage for e in whole.events if isinstance(e, StageStarted))
+    done = tuple(e.stage for e in whole.events if isinstance(e, StageFinished) and e.status == "done")
+    assert started == done == STAGES
+
+
+def test_row_55_nobody_calls_the_operator(whole: Whole) -> None:
+    assert count(list(whole.events), OperatorCalled) == 0
+    assert (whole.finished.result.completed, whole.finished.result.error) == (True, None)
+
+
+@pytest.mark.parametrize(
+    ("stage", "screws"), [("drive the first two screws", 2), ("drive the last four screws", 4)]
+)
+def test_row_55_every_screw_ends_by_torque(whole: Whole, stage: str, screws: int) -> None:
+    guards = [e.guard for e in whole.during(stage) if isinstance(e, GuardTripped)]
+    assert guards.count("torque") == screws
+
+
+@pytest.mark.parametrize("stage", ["insert the aligning pins", "take out the aligning pins"])
+def test_row_55_two_pins_go_in_and_two_come_out(whole: Whole, stage: str) -> None:
+    texts = [e.text for e in whole.during(stage) if isinstance(e, StepStarted)]
+    places = {m[1] for text in texts if (m := re.match(r"MOVE\s+(P\d|T\d|Q\d)", text))}
+    assert places == ({"P1", "P2", "T1", "T2"} if stage.startswith("insert") else {"P1", "P2", "Q1", "Q2"})
+
+
+def test_row_55_the_rotor_is_turned_without_resistance(whole: Whole) -> None:
+    assert count(whole.during("turn the rotor"), GuardTripped) == 0
+    assert whole.finished.result.referee["rotor"].ok
+
+
+def test_the_base_is_found_by_sight_and_refined_by_touch(whole: Whole) -> None:
+    assert count(whole.during("find the base"), PartSeen) == 2
+    texts = [e.text.split()[0] for e in whole.during("feel for the grasp") if isinstance(e, StepStarted)]
+    assert (texts.count("CENTER"), texts.count("SAVE"), texts.count("RESTORE")) == (2, 2, 0)
+
+
+def test_the_gasket_is_accepted_by_sight(whole: Whole) -> None:
+    (seen,) = [e for e in whole.during("check the gasket") if isinstance(e, PartInspected)]
+    assert seen.ok, seen.sentence
+
+
+def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole: Whole) -> None:
+    """The labels K1 to K6 of the program are the six screw holes, L1 and L2 those of the pins."""
+    texts = [event.text for event in whole.events if isinstance(event, StepStarted)]
+    again = [m[1] for text in texts if (m := re.match(r"AOJ\s+([KL]\d)", text))]
+    assert {label for label in again if again.count(label) > 1} <= {"L1"}
+
+
+def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> None:
+    result, timing = whole.finished.result, whole.finished.result.timing
+    lens = sum(event.seconds for event in whole.events if isinstance(event, CameraBusy))
+    assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
+    assert lens == pytest.approx(timing.lens_s, abs=0.01)
+    total = timing.manipulation_s + timing.lens_s + timing.vision_wall_s
+    assert timing.total_s == pytest.approx(total, abs=0.01)
+
+
+def test_row_58_vision_is_a_tiny_share_and_the_lens_a_large_one(whole: Whole) -> None:
+    timing = whole.finished.result.timing
+    assert timing.vision_wall_s < 0.02 * timing.total_s
+    assert 0.15 < timing.lens_s / timing.total_s < 0.4
+
+
+def test_the_referee_agrees_with_the_program(whole: Whole) -> None:
+    wrong = {name: check for name, check in whole.finished.result.referee.items() if not check.ok}
+    assert wrong == {}
+    assert whole.finished.result.exit_code == 0
+
+
+def test_the_referee_says_the_same_again(whole: Whole) -> None:
+    findings = judge(whole.finished.runner.cell.truth)
+    assert {name: f.value for name, f in findings.items()} == {
+        name: check.value for name, check in whole.finished.result.referee.items()
+    }
+
+
+def test_time_never_goes_back(whole: Whole) -> None:
+    times = [event.time for event in whole.events]
+    assert times == sorted(times)
+
+
+def test_every_step_that_began_has_ended(whole: Whole) -> None:
+    events = list(whole.events)
+    assert count(events, StepStarted) == count(events, StepFinished) > 200

@@ -1,0 +1,92 @@
+"""Every version of the plan format ever released can be read, and the schema says what the types say."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from handeye.errors import InvalidInput
+from handeye.planfile import migrations
+from handeye.planfile.plan import VERSION
+from handeye.planfile.schema import plan_schema
+from handeye.planfile.store import decode, encode, read_plan
+from handeye.resources import plans
+
+VERSIONS = Path(__file__).parent / "versions"
+PRESENT = VERSIONS / f"{VERSION}.plan.json"
+
+
+def as_version_0(data: dict[str, Any]) -> dict[str, Any]:
+    """A plan in a format that never was: the speed in per cent, under another name."""
+    return {("percent" if k == "speed" else k): v for k, v in data.items()} | {
+        "version": 0,
+        "percent": data["speed"] * 100,
+    }
+
+
+def from_version_0(data: dict[str, Any]) -> dict[str, Any]:
+    rest = {key: value for key, value in data.items() if key != "percent"}
+    return rest | {"speed": data["percent"] / 100}
+
+
+@pytest.fixture
+def old(monkeypatch: pytest.MonkeyPatch) -> Callable[[], dict[str, Any]]:
+    monkeypatch.setattr(migrations, "MIGRATIONS", migrations.MIGRATIONS | {0: from_version_0})
+    return lambda: as_version_0(json.loads(PRESENT.read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("version", range(1, VERSION + 1))
+def test_a_plan_of_every_version_is_kept_and_can_be_read(version: int) -> None:
+    path = VERSIONS / f"{version}.plan.json"
+    written = json.loads(path.read_text(encoding="utf-8"))
+    plan = read_plan(path)
+    assert (written["version"], plan.version) == (version, VERSION)
+    assert [s.text for s in plan.program.steps] == [s["text"] for s in written["program"]["steps"]]
+
+
+def test_every_version_before_the_present_one_has_its_migration() -> None:
+    assert set(migrations.MIGRATIONS) == set(range(1, VERSION))
+
+
+def test_an_older_plan_comes_out_as_the_same_plan_in_the_present_version(
+    old: Callable[[], dict[str, Any]],
+) -> None:
+    assert encode(decode(json.dumps(old()), "old.json")) == encode(read_plan(PRESENT))
+
+
+def test_an_older_plan_that_is_not_sound_is_refused_in_one_sentence(
+    old: Callable[[], dict[str, Any]],
+) -> None:
+    data = old()
+    del data["percent"]
+    with pytest.raises(InvalidInput, match=r"^old\.json is not a sound plan of format version 0$"):
+        decode(json.dumps(data), "old.json")
+
+
+def test_what_a_migration_leaves_is_checked_as_any_plan_is(old: Callable[[], dict[str, Any]]) -> None:
+    with pytest.raises(InvalidInput, match=r"^old\.json: its speed is 7; a share of"):
+        decode(json.dumps(old() | {"percent": 700.0}), "old.json")
+
+
+def test_a_version_from_before_the_first_is_refused() -> None:
+    text = PRESENT.read_text(encoding="utf-8").replace('"version": 1', '"version": 0', 1)
+    with pytest.raises(
+        InvalidInput, match=r"^old\.json does not say which version of the plan format it has$"
+    ):
+        decode(text, "old.json")
+
+
+def test_the_committed_schema_is_what_the_types_say() -> None:
+    committed = (plans() / "plan.schema.json").read_text(encoding="utf-8")
+    assert committed == plan_schema(), "write it again: handeye schema -o plans/plan.schema.json"
+
+
+def test_the_schema_knows_every_operation_of_the_pump_plan() -> None:
+    schema = json.loads(plan_schema())
+    tags = {
+        d["properties"]["op"]["enum"][0] for d in schema["$defs"].values() if "op" in d.get("properties", {})
+    }
+    steps = json.loads(PRESENT.read_text(encoding="utf-8"))["program"]["steps"]
+    assert {step["operation"]["op"] for step in steps} <= tags

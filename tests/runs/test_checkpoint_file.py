@@ -1,0 +1,208 @@
+"""Checkpoints on disk: whole, sound and of this arm, or refused with one sentence."""
+
+import dataclasses
+import hashlib
+import zlib
+from pathlib import Path
+
+import msgspec
+import pytest
+from short_runs import GRASP, begin, history, through
+
+from handeye.errors import InvalidInput
+from handeye.execution.drive import ArmDrive
+from handeye.execution.executor import Executor
+from handeye.execution.memory import DriveMemory, Memory
+from handeye.execution.state import ExecutionState
+from handeye.program.world_model import WorldModel
+from handeye.runs import checkpoint_file
+from handeye.runs.checkpoint_file import decode, encode, read_checkpoint, read_head, write_checkpoint
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def runner() -> Runner:
+    """A run in the middle of its second stage, with a saved difference."""
+    run = Runner(begin())
+    while run.position < 4:
+        run.step()
+    return run
+
+
+@pytest.fixture(scope="module")
+def data(runner: Runner) -> bytes:
+    return encode(runner.checkpoint())
+
+
+def sealed(rest: bytes, version: int = 1) -> bytes:
+    """A file with a right checksum, whatever is in it."""
+    return f"handeye-checkpoint {version} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
+
+
+def changed(data: bytes, **fields: object) -> bytes:
+    """A checkpoint with other things in its body, rightly sealed."""
+    _, head, packed = data.split(b"\n", 2)
+    body = msgspec.msgpack.decode(zlib.decompress(packed))
+    return sealed(head + b"\n" + zlib.compress(msgspec.msgpack.encode({**body, **fields})))
+
+
+def test_what_is_read_leads_to_the_same_end_as_what_was_written(runner: Runner, data: bytes) -> None:
+    mine, read = Runner(runner.checkpoint()), Runner(decode(data, "it"))
+    assert history(through(read).events) == history(through(mine).events)
+
+
+def test_the_same_state_gives_the_same_bytes(runner: Runner, data: bytes) -> None:
+    assert encode(decode(data, "it")) == data == encode(runner.checkpoint())
+
+
+def test_the_second_line_tells_people_what_it_is(data: bytes, tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(data)
+    head = read_head(tmp_path / "a")
+    assert (head.program, head.seed, head.position, head.stage) == ("short", 0, 4, "take the pin")
+    assert (head.between_stages, head.touched) == (False, False)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.01, 0.3, 0.9, 0.9999])
+def test_a_file_cut_short_is_refused(data: bytes, share: float) -> None:
+    with pytest.raises(InvalidInput, match=r"^it is (not a checkpoint of handeye|damaged or cut short)"):
+        decode(data[: int(len(data) * share)], "it")
+
+
+def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
+    for place in [*range(0, 400, 7), *range(400, len(data), len(data) // 60)]:
+        for bit in (0, 5):
+            flipped = bytearray(data)
+            flipped[place] ^= 1 << bit
+            with pytest.raises(InvalidInput, match=r"^it (is|has) "):
+                decode(bytes(flipped), "it")
+
+
+def test_a_newer_version_is_refused(data: bytes) -> None:
+    rest = data.partition(b"\n")[2]
+    with pytest.raises(InvalidInput, match="checkpoint format version 2; this handeye reads up to version 1"):
+        decode(sealed(rest, version=2), "it")
+
+
+def test_a_version_of_thousands_of_digits_is_no_version(data: bytes) -> None:
+    rest = data.partition(b"\n")[2]
+    with pytest.raises(InvalidInput, match="it is not a checkpoint of handeye"):
+        decode(sealed(rest, version=10**4000), "it")
+
+
+def test_another_arm_is_refused(runner: Runner) -> None:
+    plan = msgspec.structs.replace(runner.setup.plan, arm="puma", arm_digest="0" * 12)
+    setup = msgspec.structs.replace(runner.setup, plan=plan)
+    foreign = encode(msgspec.structs.replace(runner.checkpoint(), setup=setup))
+    with pytest.raises(InvalidInput, match="another arm"):
+        decode(foreign, "it")
+
+
+@pytest.mark.parametrize(
+    ("fields", "sentence"),
+    [
+        ({"plan": "{}"}, "the plan in it is not a plan"),
+        ({"events": []}, "does not hold all that has happened"),
+        ({"calibration": 3}, "not a sound checkpoint"),
+        ({"more": 1}, "unknown field"),
+        ({"snapshot": {"position": -1}}, "not a sound checkpoint"),
+    ],
+)
+def test_a_sealed_file_with_nonsense_in_it_is_refused(
+    data: bytes, fields: dict[str, object], sentence: str
+) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        decode(changed(data, **fields), "it")
+
+
+def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checkpoint_file, "LARGEST", 1000)
+    with pytest.raises(InvalidInput, match="its state is too large"):
+        decode(data, "it")
+
+
+@pytest.mark.parametrize("dtype", ["|O", "<c16", "|S3"])
+def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str) -> None:
+    _, _, packed = data.split(b"\n", 2)
+    body = msgspec.msgpack.decode(zlib.decompress(packed))
+    body["snapshot"]["memory"]["goal"] = [dtype, [3], b"\0" * 48]
+    with pytest.raises(InvalidInput, match="belongs in a checkpoint"):
+        decode(changed(data, snapshot=body["snapshot"]), "it")
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "sentence"),
+    [
+        (("memory", "at"), 999, "does not fit this plan"),
+        (("memory", "stage"), 99, "does not fit this plan"),
+        (("memory", "goal"), ["<f8", [2], b"\0" * 16], "does not fit this plan"),
+        (("memory", "measured"), {"moon": ["<f8", [4, 4], b"\0" * 128]}, "does not fit this plan"),
+        (("memory", "found"), {"../../x": {}}, "does not fit this plan"),
+        (("cell", "sensed", "time"), 1e300, "what they cannot"),
+        (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
+        (("cell", "figures"), {}, "figures that change"),
+        (("cell", "noise"), "{}", "not a state of this work cell"),
+        (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
+        (("cell", "camera", "lens"), 0.5, "no lens"),
+    ],
+)
+def test_a_state_that_does_not_fit_is_refused_before_it_is_used(
+    data: bytes, path: tuple[str, ...], value: object, sentence: str
+) -> None:
+    _, _, packed = data.split(b"\n", 2)
+    body = msgspec.msgpack.decode(zlib.decompress(packed))
+    place = body["snapshot"]
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    checkpoint = decode(changed(data, snapshot=body["snapshot"]), "it")
+    with pytest.raises(InvalidInput, match=sentence):
+        Runner(checkpoint)
+
+
+def test_a_run_that_has_not_begun_can_be_kept(tmp_path: Path) -> None:
+    write_checkpoint(tmp_path / "start.checkpoint", begin(GRASP, seed=7))
+    read = read_checkpoint(tmp_path / "start.checkpoint")
+    assert (read, read.position, read.stage) == (begin(GRASP, seed=7), -1, None)
+
+
+def test_a_checkpoint_that_cannot_be_written_leaves_the_one_before(
+    runner: Runner, data: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a.checkpoint"
+    path.write_bytes(data)
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(InvalidInput, match="No space left on device"):
+        write_checkpoint(path, Checkpoint(setup=runner.setup))
+    assert [p.name for p in tmp_path.iterdir()] == ["a.checkpoint"]
+    assert path.read_bytes() == data
+
+
+GIVEN = {"plan", "arm", "cell", "camera", "emit", "stopwatch"}
+"""What a run is given anew when it is taken up."""
+
+
+def test_nothing_that_a_run_remembers_is_left_out() -> None:
+    remembered = {field.name for field in msgspec.structs.fields(Memory)}
+    run = {field.name for field in dataclasses.fields(ExecutionState)} - GIVEN - {"world", "drive"}
+    executor = {field.name for field in dataclasses.fields(Executor)} - {"state"}
+    world = {field.name for field in dataclasses.fields(WorldModel)} - {"parts", "positions"}
+    assert remembered == run | executor | world | {"drive"}
+
+
+def test_nothing_that_the_servo_loop_holds_is_left_out() -> None:
+    remembered = {field.name for field in msgspec.structs.fields(DriveMemory)}
+    held = {field.name for field in dataclasses.fields(ArmDrive)}
+    assert remembered == held - {"cell", "arm", "watch", "halt", "sensed"}
+
+
+@pytest.mark.parametrize("path", ["/dev/zero", "/", "/nowhere"])
+def test_what_is_no_file_is_refused(path: str) -> None:
+    with pytest.raises(InvalidInput, match=r"is a device or a pipe|is a directory|there is no such file"):
+        read_checkpoint(Path(path))

@@ -1,0 +1,265 @@
+"""A work cell arranged by the experimenter, and a short program that is carried out in it.
+
+Before a run begins the experimenter may lay parts where the question needs them, by writing the simulator's
+state; once it has begun nobody touches anything, unless a test says that the experimenter does.
+"""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final, TypeVar
+
+import mujoco
+import numpy as np
+
+from handeye.al import compile_text
+from handeye.arm.stanford import STANFORD
+from handeye.cell.simulated import SimulatedCell
+from handeye.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
+from handeye.execution.executor import Executor
+from handeye.execution.state import ExecutionState
+from handeye.planfile.plan import Plan
+from handeye.planning.planner import make_plan
+from handeye.ports.ports import Drive
+from handeye.pose import Array, Pose, planar, pose, translated
+from handeye.program.program import Part, Position
+from handeye.program.taught import Taught, load_taught
+from handeye.resources import plans
+from handeye.source import Source
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard
+from handeye.tasks.water_pump.variation import Placing, World
+from handeye.units import DEGREE, INCH
+from handeye.vision.camera import DRAWING
+
+Kind = TypeVar("Kind", bound=Event)
+
+TAUGHT: Final = load_taught(plans() / "water_pump.toml")
+"""Positions and parts of the water-pump program."""
+
+INSERT: Final = """
+        MOVE  P              ;GO TO THE PIN
+        CLOSE 0.1            ;grasp it
+        MOVE  T              ;GO TO THE HOLE
+        SEARCH .07
+L1:     MOVE  T              ;GO TO THE HOLE
+        STOP  [0 0 -50]
+        CHANGE [0 0 -1] 0.6  ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
+        SKIPE 23
+        AOJ   L1
+        STOP  [0 0 -60]
+        CHANGE [0 0 -1] 0.6  ;IT SHOULD MEET SOME RESISTANCE
+        SKIPN 23
+        AOJ   L1
+        SAVE  H
+        OPEN  .5
+        CLOSE 0.1            ;AND CHECK THAT IT IS STILL THERE
+        OPEN  1
+"""
+"""The pin-insertion listing of 1973, reference 3.6, with the taught names P and T."""
+
+
+SCRIPT: Final = (plans() / "water_pump.al").read_text(encoding="utf-8")
+"""The water-pump program."""
+
+
+def stage(*names: str) -> str:
+    """The text of some stages of the water-pump program."""
+    texts = dict(re.findall(r'STAGE\s+"([^"]+)"\n(.*?)(?=\n\s+STAGE|\Z)', SCRIPT, re.DOTALL))
+    return "\n".join(f'STAGE "{name}"\n{texts[name]}' for name in names)
+
+
+def without(word: str, script: str) -> str:
+    """A script without the lines that begin with an instruction."""
+    return re.sub(rf"(?m)^\s*{word}\b.*\n", "", script)
+
+
+SEATED: Final = 1.7309
+"""Height (in) of a seated pin's shoulder over the underside of the base: in the chamfer of its hole."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Bench:
+    """A cell, a program in it, and everything that happened."""
+
+    cell: SimulatedCell
+    executor: Executor
+    events: list[Event]
+    first: dict[str, Array]
+    """Where bodies lay before the run, in inches."""
+
+    # -- the run ------------------------------------------------------------------------------------
+
+    def go(self, until: Callable[[], bool] = lambda: False) -> "Bench":
+        """Do steps until the program ends, the operator is called, or `until` says so."""
+        while self.executor.at is not None and not until():
+            self.executor.step()
+        return self
+
+    def to(self, word: str) -> "Bench":
+        """Do steps until the next one's text begins with `word`."""
+        return self.go(lambda: self.text.startswith(word))
+
+    @property
+    def text(self) -> str:
+        """The statement to be done next."""
+        assert self.executor.at is not None
+        return self.run.plan.program.steps[self.executor.at].text
+
+    @property
+    def run(self) -> ExecutionState:
+        return self.executor.state
+
+    # -- what happened ------------------------------------------------------------------------------
+
+    def all(self, kind: type[Kind]) -> list[Kind]:
+        """Events of a kind, in order."""
+        return [event for event in self.events if isinstance(event, kind)]
+
+    @property
+    def errors(self) -> list[int]:
+        return [event.number for event in self.all(ErrorRaised)]
+
+    @property
+    def tries(self) -> int:
+        """Places at which the last search tried."""
+        searched = self.all(SearchAdvanced)
+        return searched[-1].count + 1 if searched else 1
+
+    @property
+    def finished(self) -> bool:
+        """The program came to its end."""
+        return self.executor.at is None and self.executor.stopped is None
+
+    @property
+    def called(self) -> OperatorCalled:
+        """What the operator was told."""
+        assert self.executor.stopped is not None, self.events[-5:]
+        return self.executor.stopped
+
+    def saved(self, name: str) -> Array:
+        """A saved difference in inches."""
+        return self.run.saved[name] / INCH
+
+    # -- what is really so --------------------------------------------------------------------------
+
+    def place(self, body: str) -> Array:
+        """Where a body is, in inches; shape (3,), W."""
+        return np.array(self.cell.truth.data.body(body).xpos) / INCH
+
+    def pose(self, body: str) -> Pose:
+        """`X_WP` of a body."""
+        found = self.cell.truth.data.body(body)
+        return pose(found.xmat.reshape(3, 3).copy(), found.xpos.copy())
+
+    def moved(self, body: str) -> float:
+        """How far a body has moved sideways since the run began, in inches."""
+        return float(np.hypot(*(self.place(body) - self.first[body])[:2]))
+
+    def hand(self) -> Array:
+        """Where the fingers really are, midway between their tips, in inches; shape (3,), W."""
+        return np.array(self.cell.truth.data.site("stanford/tool").xpos) / INCH
+
+    def flick(self, body: str, force: tuple[float, float, float], seconds: float = 0.1) -> "Bench":
+        """The experimenter pushes a body for a moment (N), and waits until it lies still."""
+        truth = self.cell.truth
+        index = truth.model.body(body).id
+        truth.data.xfrc_applied[index, :3] = force
+        self.rest(seconds)
+        truth.data.xfrc_applied[index] = 0.0
+        return self.rest(0.5)
+
+    def rest(self, seconds: float = 0.1) -> "Bench":
+        """Let time pass, brakes on."""
+        self.run.drive.brake(seconds)
+        return self
+
+
+def bench(
+    script: str,
+    *,
+    world: World | None = None,
+    positions: dict[str, Position] | None = None,
+    parts: dict[str, Part] | None = None,
+    lay: dict[str, Pose] | None = None,
+    camera: str = "ray",
+    edited: Callable[[Plan], Plan] = lambda plan: plan,
+) -> Bench:
+    """A cell with a script compiled for it, ready to go.
+
+    Args:
+        edited: what somebody has done to the plan by hand.
+        positions: taught positions besides those of the water-pump program.
+        parts: parts as the program believes them, instead of the water pump's.
+        lay: where the experimenter lays free bodies (`X_WP`) before the run begins.
+    """
+    taught = Taught(
+        positions={**TAUGHT.positions, **(positions or {})}, parts={**TAUGHT.parts, **(parts or {})}
+    )
+    program, diagnostics = compile_text(Source(name="test.al", text=script), taught)
+    assert program is not None, diagnostics
+    plan, problems = make_plan(program, STANFORD)
+    assert plan is not None, problems
+    cell = SimulatedCell(world or World.nominal(), camera=camera)
+    for part, X_WP in (lay or {}).items():
+        put(cell, part, X_WP)
+    settle(cell)
+    events: list[Event] = []
+    run = ExecutionState(plan=edited(plan), arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
+    first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
+    return Bench(cell=cell, executor=Executor(state=run), events=events, first=first)
+
+
+def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:
+    """The experimenter lays a free body somewhere, at rest."""
+    quat = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
+    joint = cell.truth.data.joint(part)
+    joint.qpos, joint.qvel = [*X_WP[:3, 3], *quat], 0.0
+    mujoco.mj_forward(cell.truth.model, cell.truth.data)
+
+
+def settle(cell: SimulatedCell) -> None:
+    """A tenth of a second with brakes set: what was laid comes to rest, and the interface reads anew."""
+    gap = cell.sense().gap
+    for _ in range(6):
+        cell.tick(Drive(torque=np.zeros(6), brakes=True, gap=gap, grip=80.0, tool=0.0))
+
+
+def at_standard(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, Pose]:
+    """The base in its standard position, or off it (in, degrees)."""
+    return {"base": translated(standard(), (x * INCH, y * INCH, 1e-5)) @ planar(0, 0, 0, turn * DEGREE)}
+
+
+def stacked() -> dict[str, Pose]:
+    """Base, gasket and top in their places, held together by the two pins, nothing screwed."""
+    X_WP, seat = at_standard()["base"], base_top()
+    lay = {"base": X_WP, "gasket": X_WP @ planar(0, 0, seat, 0)}
+    lay["top"] = X_WP @ planar(0, 0, seat + dimensions()("gasket.thickness"), 0)
+    for pin, hole in zip(
+        ("pin0", "pin1"), (int(k) for k in dimensions().all("base.screw_holes.pinned")), strict=True
+    ):
+        lay[pin] = X_WP @ planar(*screw_holes()[hole], SEATED * INCH, 0)
+    return lay
+
+
+def base_off(x: float, y: float) -> World:
+    """A world in which nothing is wrong but the place of the base on the belt (in)."""
+    world = World.nominal()
+    base = Placing(x=world.base.x + x * INCH, y=world.base.y + y * INCH, yaw=world.base.yaw)
+    return replace(world, base=base)
+
+
+def shifted(name: str, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Position:
+    """A taught position of the water-pump program moved by inches in W."""
+    position = TAUGHT.positions[name]
+    turned = position.of == "PUMP"  # stands turned half round
+    px, py, pz, o, a, t = position.at
+    sign = -1 if turned else 1
+    at = (px + sign * x * INCH, py + sign * y * INCH, pz + z * INCH, o, a, t)
+    return Position(at=at, of=position.of)
+
+
+def written(x: float, y: float, z: float, o: float, a: float = 90.0, t: float = 0.0) -> Position:
+    """A hand position in table inches and degrees."""
+    return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE))

@@ -1,0 +1,44 @@
+"""Somebody who types at the arm program, and the cell behind it."""
+
+from pathlib import Path
+
+from handeye.program.taught import load_taught
+from handeye.resources import plans
+from handeye.teaching.answers import Answer, text
+from handeye.teaching.commands import ReplSession
+from handeye.teaching.repl import Repl
+from handeye.teaching.workplace import Workplace
+
+TAUGHT = load_taught(plans() / "water_pump.toml")
+
+
+def workplace() -> Workplace:
+    """The cell of world 0, in which nothing has been done."""
+    return Workplace(seed=0, camera="ray", taught=TAUGHT, halt=lambda: False)
+
+
+class Console:
+    """Lines typed, and what is seen."""
+
+    def __init__(self, place: Workplace, folder: Path) -> None:
+        self.repl = Repl(workplace=place, folder=folder)
+        self.typist = ReplSession(self.repl)
+
+    def type(self, *lines: str) -> Answer:
+        """Type lines; the answer to the last."""
+        answers = [self.typist.hear(line) for line in lines]
+        return answers[-1]
+
+    def read(self, *lines: str) -> str:
+        """Type lines; the text of the answer to the last."""
+        return text(self.type(*lines))
+
+    @property
+    def steps(self) -> list[str]:
+        """The functions of the plan carried out last."""
+        return [step.text for step in self.repl.workplace.runner.setup.plan.program.steps]
+
+    @property
+    def gap(self) -> float:
+        """Opening of the hand, in."""
+        return self.repl.workplace.runner.run.drive.sensed.gap / 0.0254

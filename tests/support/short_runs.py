@@ -1,0 +1,62 @@
+"""Short programs as plans, and runs of them: no pictures, so that no camera has to be calibrated."""
+
+from functools import cache
+
+from handeye.al import compile_text, sewn_of
+from handeye.arm.stanford import STANFORD
+from handeye.events import AnyEvent, to_line
+from handeye.planfile.plan import Plan
+from handeye.planning.planner import make_plan
+from handeye.program.taught import load_taught
+from handeye.resources import plans
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.source import Source
+
+GRASP = """
+        STAGE   "go to the pin"
+        OPEN    1
+        MOVE    P1
+        STAGE   "take the pin"
+        CENTER  .1
+        SAVE    C1              ;where the holder really is
+        CLOSE   0.1             ;grasp it
+        CHANGE  [0 0 1] 1.5     ;draw it out of its holder
+        STAGE   "feel for nothing"
+        SEARCH  .07
+AGAIN:  STOP    [0 0 -50]
+        CHANGE  [0 0 -1] .3
+        SKIPN   23
+        JUMP    DONE
+        AOJ     AGAIN
+DONE:   OPEN    1
+"""
+"""Takes a pin out of its holder and meets no resistance in the air: error 23, tested."""
+
+
+@cache
+def plan_of(script: str, files: tuple[tuple[str, str], ...] = ()) -> Plan:
+    """The plan of a script and the files it requires, with the taught positions of the water pump."""
+    taught = load_taught(plans() / "water_pump.toml")
+    program, diagnostics = compile_text(sewn_of(Source(name="short.al", text=script), dict(files)), taught)
+    assert program is not None, diagnostics
+    plan, problems = make_plan(program, STANFORD)
+    assert plan is not None, problems
+    return plan
+
+
+def begin(script: str = GRASP, seed: int = 0, files: tuple[tuple[str, str], ...] = ()) -> Checkpoint:
+    """A run that has not begun."""
+    return Checkpoint(setup=Setup(plan=plan_of(script, files), seed=seed, camera="ray"))
+
+
+def through(runner: Runner) -> Runner:
+    """The run, carried out to its end."""
+    while not runner.ended:
+        runner.step()
+    return runner
+
+
+def history(events: list[AnyEvent]) -> bytes:
+    """Everything that happened, as bytes."""
+    return b"".join(to_line(event) for event in events)

@@ -1,0 +1,68 @@
+"""A finished pump, put together by decree: for tests of what looks at it afterwards."""
+
+from dataclasses import replace
+from functools import cache
+
+import mujoco
+import numpy as np
+
+from handeye.cell.simulated import SimulatedCell
+from handeye.cell.truth import Truth
+from handeye.ports.ports import TICK, Drive
+from handeye.pose import Pose, planar, translated
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import base_top, standard
+from handeye.tasks.water_pump.variation import World
+
+BRAKED = Drive(torque=np.zeros(6), brakes=True, gap=0.05, grip=20.0, tool=0.0)
+TIGHTENING = 0.30  # N m
+
+
+def put(truth: Truth, part: str, X_WP: Pose) -> None:
+    """Put a free part somewhere, at rest."""
+    model, data = truth.model, truth.data
+    free = model.body_jntadr[model.body(part).id]
+    start, dof = model.jnt_qposadr[free], model.jnt_dofadr[free]
+    data.qpos[start : start + 3] = X_WP[:3, 3]
+    mujoco.mju_mat2Quat(data.qpos[start + 3 : start + 7], X_WP[:3, :3].ravel())
+    data.qvel[dof : dof + 6] = 0.0
+    mujoco.mj_forward(model, data)
+
+
+def stacked(*, rest: bool = True) -> SimulatedCell:
+    """Base against the blocks, gasket and top on it, nothing screwed."""
+    cell = SimulatedCell(World.nominal(), camera="ray", rest=rest)
+    X = translated(standard(), (1e-4, -1e-4, 0.0))
+    top = base_top() + dimensions()("gasket.thickness")
+    for part, height in (("base", 0.0), ("gasket", base_top()), ("top", top)):
+        put(cell.truth, part, X @ planar(0.0, 0.0, height, 0.0))
+    return cell
+
+
+def tighten(cell: SimulatedCell, hole: int) -> None:
+    """Let a screw take its thread just under its head's full depth, and turn it home with a wrench."""
+    size, threads, truth = dimensions(), cell._threads, cell.truth
+    seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
+    threads._take(hole, hole, depth=seated - 1e-4)
+    dof = truth.model.joint(f"thread_turn{hole}").dofadr[0]
+    for tick in range(30):
+        truth.data.qfrc_applied[dof] = -TIGHTENING if tick < 20 else 0.0
+        threads._rub(hole)
+        cell.tick(BRAKED)
+
+
+@cache
+def _finished() -> Truth:
+    cell = stacked()
+    for hole in range(6):
+        tighten(cell, hole)
+    for _ in range(round(0.2 / TICK)):
+        cell.tick(BRAKED)
+    return cell.truth
+
+
+def finished() -> Truth:
+    """A fresh copy of the finished pump."""
+    truth = _finished()
+    model, data = truth.copy()
+    return replace(truth, model=model, data=data)

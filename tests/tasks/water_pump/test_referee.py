@@ -1,0 +1,113 @@
+"""The referee finds what is wrong with a pump, and nothing else."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from finished import finished, put
+
+from handeye.cell.truth import Truth
+from handeye.judge.finding import Finding
+from handeye.pose import planar, pose, rotation_x, translated
+from handeye.tasks.water_pump.referee import assembled, judge
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+
+
+def X(truth: Truth, part: str) -> np.ndarray:
+    body = truth.model.body(part).id
+    return pose(truth.data.xmat[body].reshape(3, 3), truth.data.xpos[body])
+
+
+def wrong(truth: Truth) -> set[str]:
+    return {name for name, finding in judge(truth).items() if not finding.ok}
+
+
+def moved(part: str, *by: float) -> Callable[[Truth], Truth]:
+    def change(truth: Truth) -> Truth:
+        put(truth, part, translated(X(truth, part), by))
+        return truth
+
+    return change
+
+
+def crossed(truth: Truth) -> Truth:
+    first, *others = truth.threads
+    return replace(truth, threads=(replace(first, crossed=True), *others))
+
+
+def missing_screw(truth: Truth) -> Truth:
+    first, *others = truth.threads
+    return replace(truth, threads=(replace(first, screw=None), *others))
+
+
+def jammed(truth: Truth) -> Truth:
+    truth.model.dof_frictionloss[truth.model.joint("rotor").dofadr[0]] = 5.0
+    return truth
+
+
+def high_screw(truth: Truth) -> Truth:
+    slide, turn = (truth.model.joint(f"thread_{way}2").qposadr[0] for way in ("slide", "turn"))
+    truth.data.qpos[slide] += 0.003
+    truth.data.qpos[turn] = (
+        truth.data.qpos[slide] * 2 * np.pi / dimensions()("screw.pitch")
+    )  # nothing strained
+    truth.model.dof_frictionloss[truth.model.joint("thread_turn2").dofadr[0]] = 5.0
+    return truth
+
+
+def fallen_pin(truth: Truth) -> Truth:
+    put(truth, "pin0", pose(rotation_x(np.pi / 2), (0.3, 0.3, 0.003)))
+    return truth
+
+
+CHANGES: dict[str, tuple[Callable[[Truth], Truth], set[str]]] = {
+    "a pin that lies on the table": (fallen_pin, {"pins", "pins_tilt"}),
+    "a driver beside its rack": (moved("driver", 0.06, 0.0, -0.06), {"rack"}),
+    "a crossed screw": (crossed, {"screws_crossed"}),
+    "a screw that stands high": (high_screw, {"screws_depth", "screws_clamp"}),
+    "a jammed rotor": (jammed, {"rotor"}),
+    "a missing screw": (missing_screw, {"screws", "dispenser", "floor"}),
+}
+
+
+def test_a_finished_pump_is_assembled() -> None:
+    findings = judge(finished())
+    assert {name: finding for name, finding in findings.items() if not finding.ok} == {}
+    assert assembled(findings)
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_the_referee_finds(name: str) -> None:
+    change, expected = CHANGES[name]
+    assert wrong(change(finished())) == expected
+
+
+def test_a_base_two_millimetres_off_its_blocks_is_found() -> None:
+    truth = finished()
+    for part in ("base", "gasket", "top"):
+        put(truth, part, translated(X(truth, part), (0.002, -0.002, 0.0)))
+    assert wrong(truth) == {"base_far", "base_left"}
+
+
+def test_a_gasket_left_on_its_stand_is_found() -> None:
+    truth = finished()
+    put(truth, "gasket", planar(0.4, 1.1, 0.0445, 0.0))
+    assert {"gasket_height", "gasket_place"} <= wrong(truth)
+
+
+def test_looking_does_not_change_the_cell() -> None:
+    truth = finished()
+    before = truth.data.qpos.tobytes(), truth.model.geom_contype.tobytes(), truth.data.time
+    judge(truth)
+    assert (truth.data.qpos.tobytes(), truth.model.geom_contype.tobytes(), truth.data.time) == before
+
+
+def test_judging_twice_gives_the_same() -> None:
+    truth = finished()
+    assert judge(truth) == judge(truth)
+
+
+def test_every_finding_says_what_was_measured_and_its_limit() -> None:
+    findings = judge(finished()).values()
+    assert all(isinstance(f, Finding) and f.unit and f"{f.limit:g} {f.unit}" in f.sentence for f in findings)

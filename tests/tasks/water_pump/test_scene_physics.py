@@ -1,0 +1,73 @@
+"""The scene obeys: things stay, drop home, seat, and do not go where there is metal."""
+
+import numpy as np
+import pytest
+from scene_bench import FREE, Bench, pinned_base, shift
+
+from handeye.pose import planar, translated
+from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
+from handeye.tasks.water_pump.variation import World
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "world", [World.nominal(), World.sample(1), World.sample(2)], ids=lambda w: f"seed{w.seed}"
+)
+def test_everything_stays_where_it_starts(world):
+    bench = Bench(world)
+    before = {part: bench.pose(part) for part in FREE}
+    bench.run(1.0)
+    moved = {part: shift(before[part], bench.pose(part)) for part in FREE}
+    assert all(distance < 0.5e-3 and angle < 0.5 for distance, angle in moved.values()), moved
+    assert bench.warnings() == 0
+
+
+@pytest.mark.slow
+def test_pins_a_millimetre_off_drop_home_through_the_chamfers():
+    bench, d = pinned_base(), dimensions()
+    for pin, hole in enumerate(int(k) for k in d.all("base.screw_holes.pinned")):
+        home = standard() @ planar(*screw_holes()[hole], base_top(), 0.0)
+        p = bench.pose(f"pin{pin}")[:3, 3] - home[:3, 3]
+        seat = pin_seat(d("base.screw_holes.chamfer"), d("base.screw_holes.radius"))
+        assert abs(p[2] - seat) < 0.05e-3  # its shoulder rests in the chamfer
+        assert np.hypot(p[0], p[1]) < 0.2e-3
+
+
+@pytest.mark.slow
+def test_gasket_and_top_dropped_over_the_pins_seat_on_the_base():
+    bench, off = pinned_base(), [0.001, -0.001, 0.05]
+    bench.put("gasket", translated(standard(), [*off[:2], base_top() + off[2]]))
+    bench.run(0.5)
+    assert abs(bench.pose("gasket")[2, 3] - base_top()) < 0.3e-3
+    bench.put("top", translated(standard(), [*off[:2], base_top() + off[2]]))
+    bench.run(0.8)
+    height = bench.pose("top")[2, 3] - bench.pose("gasket")[2, 3]
+    assert abs(height - dimensions()("gasket.thickness")) < 0.3e-3
+    assert bench.pose("top")[2, 2] > np.cos(np.radians(0.5))
+    assert bench.warnings() == 0
+
+
+@pytest.mark.slow
+def test_a_pin_that_misses_its_hole_stands_on_the_face():
+    bench = pinned_base()
+    bench.put("pin0", translated(standard(), [-1.3 * 0.0254, 0.3 * 0.0254, base_top() + 0.0195]))
+    bench.run(0.05)
+    assert bench.pose("pin0")[2, 3] > base_top() + 0.0185
+
+
+@pytest.mark.slow
+def test_a_screw_cannot_enter_a_tapped_hole_by_itself():
+    bench, point = pinned_base(), dimensions()("screw.point_length")
+    X = standard() @ planar(*screw_holes()[0], base_top() + 0.001, 0.0)
+    bench.put("screw0", X)
+    bench.run(0.15)
+    depth = base_top() - bench.pose("screw0")[2, 3]
+    assert point - 1e-3 < depth < point + 1e-3  # its dog point is in, its thread is not
+
+
+def test_the_scene_of_a_seed_is_always_the_same():
+    first, second = (Bench(World.sample(5)) for _ in range(2))
+    for bench in (first, second):
+        bench.run(0.1)
+    assert np.array_equal(first.data.qpos, second.data.qpos)

@@ -1,0 +1,146 @@
+"""A bench with one tapped hole, one screw and a driver on a spring-loaded slide: the thread model alone."""
+
+from dataclasses import dataclass, replace
+from math import cos, degrees, pi, sin, tan
+
+import mujoco
+import numpy as np
+
+from handeye.ports.ports import TICK
+from handeye.tasks.water_pump.threads import Thread, Threads
+from handeye.tasks.water_pump.variation import World
+
+MOUTH = 0.05  # m, height of the hole's mouth
+LENGTH, HEAD = 0.01905, 0.004  # m, screw under the head; head
+FLANGE = 0.0091  # m, clamped thickness: gasket and flange
+PITCH = 0.00127
+SPEED = 20.0  # rad/s
+STOP = 0.28  # N m
+
+_RING = """
+<option timestep="{step}" integrator="implicitfast" cone="elliptic" impratio="50">
+  <flag diagexact="enable" filterparent="disable"/></option>
+<size memory="10M"/>
+<default>
+  <geom solref="{solref} 1" solimp=".95 .99 .0005" friction=".2 .002 .0001"/>
+  <default class="bore"><geom type="mesh" contype="4" conaffinity="0" mass="0"/></default>
+  <default class="socket"><geom type="mesh" contype="0" conaffinity="8" mass="0"/></default>
+  <default class="seat"><geom type="box" size=".02 .004 .004" solimp=".99 .999 .0001" contype="16" mass="0"
+   conaffinity="0"/></default>
+  <default class="hard"><geom solimp=".99 .999 .0001" friction=".2 .002 .0001"/></default>
+  <joint solreffriction=".004 1" solimpfriction=".999 .9999 .001"/>
+</default>
+"""
+
+
+def _wedges(
+    name: str, radius: float, outer: float, height: float, chamfer: float, z: float, count: int = 12
+) -> tuple[str, str]:
+    """Mesh asset and geoms of a chamfered hole, from z = 0 to `height`."""
+    half = pi / count
+    profile = [
+        (radius, 0),
+        (radius, height - chamfer),
+        (radius + chamfer, height),
+        (outer, height),
+        (outer, 0),
+    ]
+    points = [(r, r * tan(side), z) for side in (-half, half) for r, z in profile]
+    mesh = f'<mesh name="{name}" vertex="{" ".join(f"{x:.7f}" for p in points for x in p)}"/>'
+    turns = [(cos(pi * i / count), sin(pi * i / count)) for i in range(count)]
+    geoms = [f'<geom class="bore" mesh="{name}" pos="0 0 {z}" quat="{c} 0 0 {s}"/>' for c, s in turns]
+    return mesh, "".join(geoms)
+
+
+def scene(offset: float, tilt: float) -> str:
+    """MJCF of the bench: driver `offset` (m) beside the hole and leaning by `tilt` (rad)."""
+    ring, ring_geoms = _wedges("tap", 0.00255, 0.0095, 0.021, 0.001, -0.021)
+    sock, sock_geoms = _wedges("sock", 0.0058, 0.0085, 0.003, 0.0, -0.0025)
+    sock_geoms = sock_geoms.replace("bore", "socket")
+    reach = LENGTH + HEAD  # bit face over the tip; the driver's frame is at the tip's start point
+    top, lead = LENGTH + HEAD / 2, PITCH / 2 / pi
+    lean = f"{cos(tilt / 2)} {sin(tilt / 2)} 0 0"
+    return f"""<mujoco>{_RING.format(step=1 / 960, solref=2 / 960)}<asset>{ring}{sock}</asset><worldbody>
+<site name="park0" pos="1 0 -1"/><geom type="box" pos="1 0 -1.01" size=".1 .1 .01" conaffinity="8"/>
+<body name="base" pos="0 0 {MOUTH}"><freejoint name="base"/>
+ <inertial pos="0 0 -.03" mass="2" diaginertia=".01 .01 .01"/>
+ {ring_geoms}
+ <geom class="seat" pos="0 .008 {FLANGE - 0.004}"/><geom class="seat" pos="0 -.008 {FLANGE - 0.004}"/>
+ <body name="carrier0"><joint name="thread_slide0" type="slide" axis="0 0 1" range="-.025 .002" limited="true"
+   armature=".02" damping=".5"/><joint name="thread_turn0" axis="0 0 1" armature="1e-3" damping="1e-4"/>
+  <inertial pos="0 0 0" mass=".005" diaginertia="1e-7 1e-7 1e-7"/><site name="thread0"/>
+  <geom name="head0" class="hard" type="cylinder" size=".0055 {HEAD / 2}" pos="0 0 {top}" mass="0"
+   contype="8" conaffinity="16" condim="4" priority="1"/></body></body>
+<body name="screw0" pos="0 {offset} {MOUTH + 0.002}" quat="{lean}"><freejoint name="screw0"/>
+ <geom type="cylinder" size=".00305 .008" pos="0 0 .011" contype="8" conaffinity="4" density="7800"/>
+ <geom type="cylinder" size=".0022 .0015" pos="0 0 .0015" contype="8" conaffinity="4" density="7800"/>
+ <geom type="cylinder" size=".0055 {HEAD / 2}" pos="0 0 {LENGTH + HEAD / 2}" contype="8" conaffinity="0"
+  condim="4" density="7800" priority="1"/></body>
+<body name="driver" pos="0 {offset} {MOUTH + 0.002}" quat="{lean}">
+ <joint name="press" type="slide" axis="0 0 1" damping="100" armature="2"/>
+ <inertial pos="0 0 0" mass=".48" diaginertia="3e-4 3e-4 8e-5"/>
+ <body name="bit" pos="0 0 {reach}"><joint name="spindle" axis="0 0 1" armature="2e-4" damping="1e-4"/>
+  <inertial pos="0 0 .02" mass=".03" diaginertia="4e-6 4e-6 1e-6"/>
+  <geom type="cylinder" size=".0065 .004" pos="0 0 .004" contype="0" conaffinity="8" condim="4" mass="0"
+   friction=".8 .003 .0001" priority="2"/>{sock_geoms}</body><site name="reaction"/></body>
+</worldbody>
+<equality><joint joint1="thread_slide0" joint2="thread_turn0" polycoef="0 {lead} 0 0 0"
+  solref=".004 1" solimp=".999 .9999 .0001"/>
+ <weld body1="base" relpose="0 0 {-MOUTH} 1 0 0 0" anchor="0 0 0" solref=".004 1"/></equality>
+<actuator><general name="spindle" joint="spindle" gainprm=".02" biastype="affine" biasprm="0 0 -.02"
+  forcelimited="true" forcerange="-.05 .05"/>
+ <general name="drive" site="thread0" refsite="reaction" gear="0 0 0 0 0 1" biastype="affine"
+  forcelimited="true" forcerange="-.32 .32"/>
+ <adhesion name="magnet" body="bit" ctrlrange="0 1" gain="6"/></actuator></mujoco>"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """How the screw ended."""
+
+    thread: Thread
+    torque: float
+    """Of the motor, N m."""
+    height: float
+    """Of the head over where it belongs, m; of the loose screw's head if it never entered."""
+    lean: float
+    """Of the screw at first, deg."""
+
+
+def drive_screw(
+    *, offset: float = 0.0, tilt: float = 0.0, seconds: float = 8.0, press: float = 6.0
+) -> Outcome:
+    """Press and turn until the motor has to work too hard or the time is over; then switch it off."""
+    world = replace(World.nominal(), thread_phase=(1.0,) * 6)
+    model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
+    data = mujoco.MjData(model)
+    threads = Threads(model, data, world)
+    weight = 0.51 * 9.81
+    torque = 0.0
+    for _ in range(round(seconds / TICK)):
+        data.qfrc_applied[model.joint("press").dofadr[0]] = weight - press
+        threads.before(SPEED)
+        mujoco.mj_step(model, data, 16)
+        assert not any(w.number for w in data.warning)
+        torque = threads.torque
+        if torque > STOP:
+            break
+    for _ in range(20):
+        threads.before(0.0)
+        mujoco.mj_step(model, data, 16)
+    head = (
+        data.geom_xpos[model.geom("head0").id]
+        if threads.holes[0].screw is not None
+        else _loose_head(model, data)
+    )
+    return Outcome(
+        thread=threads.holes[0],
+        torque=torque,
+        height=float(head[2] - (data.xpos[model.body("base").id][2] + FLANGE + HEAD / 2)),
+        lean=degrees(tilt),
+    )
+
+
+def _loose_head(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
+    body = model.body("screw0").id
+    return data.xpos[body] + data.xmat[body].reshape(3, 3)[:, 2] * (LENGTH + HEAD / 2)

@@ -1,0 +1,88 @@
+"""The exercise of docs/language/seventh-screw.md: by script and one taught position, as it stands there."""
+
+import re
+from pathlib import Path
+
+import pytest
+from conftest import Command
+from pump_bench import bench, stacked, stage
+
+from handeye.al import compile_text
+from handeye.arm.stanford import STANFORD
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import read_plan
+from handeye.planning.planner import make_plan
+from handeye.program.program import Position
+from handeye.program.taught import load_taught
+from handeye.resources import plans
+from handeye.source import Source
+from handeye.tasks.water_pump.variation import SEVENTH, World
+from handeye.units import DEGREE, INCH
+
+pytestmark = pytest.mark.slow
+
+DOC = (Path(__file__).parents[2] / "docs/language/seventh-screw.md").read_text(encoding="utf-8")
+LESSON = re.findall(r"^teach> (.*)$", DOC, re.MULTILINE)
+(WHERE,) = re.findall(r"^ +TRANS +S7 .*\n", DOC, re.MULTILINE)
+(SCREW,) = re.findall(r"^```\n( +SEARCH +\.05\nM7:.*?)```$", DOC, re.MULTILINE | re.DOTALL)
+PUMP = (plans() / "water_pump.al").read_text(encoding="utf-8")
+BEHIND = PUMP.index("        SEARCH  .07\nD2:")
+
+
+def edited() -> str:
+    """The script with what the exercise adds."""
+    head = PUMP.index('        STAGE   "find the base"')
+    return PUMP[:head] + WHERE + PUMP[head:BEHIND] + SCREW + PUMP[BEHIND:]
+
+
+@pytest.fixture(scope="module")
+def hole() -> Position:
+    """The position that the exercise shows the teacher to have written."""
+    (figures,) = re.findall(r"^H6 is \[(.*)\] of PUMP$", DOC, re.MULTILINE)
+    x, y, z, o, a, t = map(float, figures.split())
+    return Position(at=(x * INCH, y * INCH, z * INCH, o * DEGREE, a * DEGREE, t * DEGREE), of="PUMP")
+
+
+def planned(text: str, hole: Position) -> Plan:
+    taught = load_taught(plans() / "water_pump.toml")
+    taught.positions["H6"] = hole
+    program, diagnostics = compile_text(Source(name="seven.al", text=text), taught)
+    assert program is not None, diagnostics
+    plan, problems = make_plan(program, STANFORD)
+    assert plan is not None, problems
+    return plan
+
+
+def test_the_lesson_teaches_the_position_that_the_exercise_shows(command: Command, hole: Position) -> None:
+    Path("seven.toml").write_text((plans() / "water_pump.toml").read_text(encoding="utf-8"))
+    code, _, _ = command("teach", "seven.al", "--seed", str(SEVENTH), typed="\n".join(LESSON) + "\n")
+    assert code == 0
+    taught = load_taught("seven.toml").positions["H6"]
+    assert taught.of == "PUMP"
+    assert taught.at == pytest.approx(hole.at, abs=0.002 * INCH)
+
+
+def test_the_script_makes_a_plan_that_differs_by_one_screw(hole: Position) -> None:
+    before, after = read_plan(plans() / "water_pump.plan.json"), planned(edited(), hole)
+    assert set(after.program.positions) - set(before.program.positions) == {"H6", "S7"}
+    texts, more = ([step.text for step in plan.program.steps] for plan in (before, after))
+    start = next(number for number, text in enumerate(more) if text.split()[-1] == "S7") - 1
+    added = len(more) - len(texts)
+    assert more[:start] + more[start + added :] == texts
+
+
+def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position) -> None:
+    text = stage("drive the last four screws")
+    first, last = text.index("        SEARCH  .05\nM3:"), text.index("        SEARCH  .07\nD2:")
+    run = bench(
+        WHERE + text[:first] + SCREW + text[last:],
+        world=World.nominal(7), positions={"H6": hole}, lay=stacked(),
+    ).go()  # fmt: skip
+    *others, seventh = run.cell.truth.threads
+    assert (run.finished, seventh.screw, seventh.crossed) == (True, 6, False)
+    assert seventh.clamp > 40
+    assert [other.screw for other in others] == [None] * 6
+
+
+def test_worlds_below_the_later_make_have_six_screws() -> None:
+    assert [len(World.sample(seed).holes) for seed in (0, SEVENTH - 1, SEVENTH)] == [6, 6, 7]

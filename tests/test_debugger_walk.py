@@ -1,0 +1,88 @@
+"""The walk in docs/stepping.md shows what there is to see, line by line, with the same commands."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from handeye.debugger.breakpoints import ToStage, stage_number
+from handeye.debugger.formatting import MOST, as_text
+from handeye.debugger.listing import listing_text
+from handeye.debugger.stepper import Stepper
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import read_plan
+from handeye.resources import plans
+from handeye.runs.advance import advance
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.trace.account import account
+
+DOC = (Path(__file__).parent.parent / "docs" / "stepping.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
+SEED = 20
+SAID = "handeye> "
+
+
+def of_command(words: str) -> list[str]:
+    """What the walk shows behind a command of the shell, up to the next."""
+    (shown,) = [block.split("\n$ ")[0] for block in BLOCKS if block.startswith(f"$ handeye {words}")]
+    return shown.splitlines()[1:]
+
+
+def pieces(lines: list[str]) -> list[list[str]]:
+    """What stands between the dots for lines left out."""
+    found: list[list[str]] = [[]]
+    for line in lines:
+        if line.strip() == "...":
+            found.append([])
+        else:
+            found[-1].append(line)
+    return [piece for piece in found if piece]
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return read_plan(plans() / "water_pump.plan.json")
+
+
+@pytest.fixture(scope="module")
+def stepper(plan: Plan) -> Stepper:
+    """The run of the walk, where its commands begin."""
+    runner = Runner(Checkpoint(setup=Setup(plan=plan, seed=SEED, camera="auto")))
+    if not runner.cell.camera.renderer.startswith("OpenGL"):
+        pytest.skip("the walk was made with pictures by OpenGL")
+    advance(runner, [ToStage(stage_number("insert", plan) - 1)])
+    return Stepper(runner)
+
+
+def transcript(stepper: Stepper, commands: list[str]) -> Iterator[str]:
+    """What stands on the terminal of somebody who says these commands."""
+    yield as_text(stepper.standing())
+    for command in commands:
+        yield f"{SAID}{command}"
+        yield as_text(stepper.do(command), MOST)
+
+
+def test_the_stages_of_the_walk_are_those_of_the_plan(plan: Plan) -> None:
+    listed = "\n".join(listing_text(plan))
+    shown = pieces(of_command("stages plans/water_pump.plan.json"))
+    assert shown
+    assert all("\n".join(piece) in listed for piece in shown)
+
+
+@pytest.mark.slow
+@pytest.mark.render
+def test_the_commands_of_the_walk_are_answered_as_it_shows_and_their_trace_tells_what_it_shows(
+    stepper: Stepper,
+) -> None:
+    shown = of_command(
+        f"run plans/water_pump.plan.json --seed {SEED} --checkpoints pump --from insert --step"
+    )
+    for block in BLOCKS:
+        shown += block.splitlines() if block.startswith(SAID) else []
+    commands = [line.removeprefix(SAID) for line in shown if line.startswith(SAID)]
+    assert len(commands) >= 10
+    assert "\n".join(transcript(stepper, commands)).splitlines() == shown
+    told = "\n".join(account(stepper.hands.runner.events))
+    assert all("\n".join(piece) in told for piece in pieces(of_command("trace show pump")))
