@@ -7,12 +7,12 @@ from typing import Final
 import mujoco
 import numpy as np
 
+from handeye.cell.device_errors import CameraErrors
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import CameraState, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.ports.ports import FIRST_LENS, Picture, TvCamera
-from handeye.tasks.water_pump.variation import CameraErrors
 from handeye.vision.camera import DRAWING, CameraModel, View
 
 TURRET: Final = 20.0

@@ -10,6 +10,7 @@ from typing import Final, Self
 
 import numpy as np
 
+from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
 from handeye.pose import Array
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
@@ -61,66 +62,6 @@ AMBIENT: Final = (0.15, 0.40)  # uniform
 
 SEVENTH: Final = 7_000_000
 """The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ArmErrors:
-    """What is wrong with the arm; arrays have shape (6,), rad (joint 3: m) unless said."""
-
-    offset: Array
-    scale: Array
-    """Relative error of the reading, about the mid-work posture."""
-    wave: Array
-    phase: Array
-    """Of the waviness, rad."""
-    pot_noise: Array
-    tachometer_noise: Array
-    """Sigma, rad/s, m/s."""
-    link_mass: Array
-    """True mass over the mass the controller believes."""
-    friction: Array
-    """Coulomb friction, N m, N."""
-
-    def readings(self, q: Array) -> Array:
-        """Potentiometer readings without noise for true positions `q`, shape (..., 6)."""
-        wave = self.wave * np.sin(2 * np.pi * q / (ARM_PERIOD * _ARM_UNIT) + self.phase)
-        return np.asarray(q + self.offset + self.scale * (q - ARM_CENTRE * _ARM_UNIT) + wave)
-
-    def positions(self, readings: Array) -> Array:
-        """True positions that give these `readings`, shape (..., 6)."""
-        q = readings
-        for _ in range(6):  # the errors are small and smooth: a few fixed-point steps reach 1e-12
-            q = q - (self.readings(q) - readings)
-        return q
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HandErrors:
-    """What is wrong with the hand's sensors and the screwdriver's."""
-
-    gap_offset: float
-    """m"""
-    gap_scale: float
-    gap_noise: float
-    """Sigma, m."""
-    switch_force: tuple[float, float]
-    """Force at which the +y and the -y finger's switch fires, N."""
-    torque_noise: float
-    """Sigma, N m."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CameraErrors:
-    """How the camera differs from its drawing."""
-
-    place: tuple[float, float, float]
-    """Error of the mount in W, m."""
-    turn: tuple[float, float, float]
-    """Error of pan, tilt and roll, rad."""
-    focal_scale: tuple[float, float]
-    """True over nominal focal length of the 25 mm and the 50 mm lens."""
-    pot_noise: float
-    """Sigma of the pan and tilt readings, rad."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -235,7 +176,9 @@ def _arm(rng: np.random.Generator, amount: float) -> ArmErrors:
         offset=amount * _clipped(rng, 6) * ARM_OFFSET * _ARM_UNIT,
         scale=amount * _clipped(rng, 6) * ARM_SCALE / 100,
         wave=amount * ARM_WAVE * _ARM_UNIT,
+        period=ARM_PERIOD * _ARM_UNIT,
         phase=rng.uniform(0, 2 * np.pi, 6),
+        centre=ARM_CENTRE * _ARM_UNIT,
         pot_noise=amount * ARM_POT_NOISE * _ARM_UNIT,
         tachometer_noise=amount * TACHOMETER_NOISE,
         link_mass=1 + amount * _clipped(rng, 6) * LINK_MASS / 100,
