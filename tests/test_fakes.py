@@ -7,9 +7,9 @@ from fakes import FakeWorkcell, Wall
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
 from handeye.arm.stanford import STANFORD
-from handeye.ports.ports import TICK, Drive
+from handeye.ports.workcell import Drive
 from handeye.pose import Array
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7, 104.0, 0.0, 0.0, 76.0, 70.3]) * DEGREE + np.array([0, 0, 17.5 * INCH, 0, 0, 0])
 
@@ -45,4 +45,4 @@ def test_fake_time_is_exact_and_late_periods_set_the_brakes() -> None:
     cell = FakeWorkcell(q=PARK)
     cell.tick(drive(np.zeros(6)))
     cell.late()
-    assert (cell.sense().time, cell.sense().braked) == (2 * TICK, True)
+    assert (cell.sense().time, cell.sense().braked) == (2 * JIFFY, True)

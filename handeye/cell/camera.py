@@ -12,7 +12,7 @@ from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import CameraState, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
-from handeye.ports.ports import FIRST_LENS, Picture, TvCamera
+from handeye.ports.camera import FIRST_LENS, Picture, TvCamera
 from handeye.vision.camera import DRAWING, CameraModel, View
 
 TURRET: Final = 20.0

@@ -5,8 +5,8 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.ports.ports import TICK
 from handeye.pose import Array
+from handeye.units import JIFFY
 
 BRAKE: Final = np.array([200.0, 200.0, 600.0, 30.0, 30.0, 20.0])
 """Friction torque of the brakes, N m, joint 3 N. Placeholder: over twice what the drives can do."""
@@ -67,13 +67,13 @@ class HandDrive:
         The set-point never runs far ahead of fingers that are held up, so that they can turn round at once.
         """
         goal = min(max(gap, 0.0), GAP_MAX)
-        here, step = self.gap, GAP_SPEED * TICK
+        here, step = self.gap, GAP_SPEED * JIFFY
         start = min(max(self.set_point, here - _GIVE), here + _GIVE)
         if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
         moved = min(max(goal - start, -step), step)
         self.set_point = start + moved
-        self._press(min(max(grip, 0.0), GRIP_MAX), ahead=moved * (_LAG / TICK - 0.5))
+        self._press(min(max(grip, 0.0), GRIP_MAX), ahead=moved * (_LAG / JIFFY - 0.5))
 
     def _press(self, grip: float, ahead: float) -> None:
         """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.

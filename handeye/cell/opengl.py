@@ -16,7 +16,8 @@ import numpy as np
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
 from handeye.errors import InvalidInput
-from handeye.vision.camera import COLUMNS, ROWS, View
+from handeye.ports.camera import COLUMNS, ROWS
+from handeye.vision.camera import View
 
 PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),

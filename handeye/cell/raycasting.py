@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.pose import Array
-from handeye.vision.camera import COLUMNS, ROWS, View
+from handeye.vision.camera import View
 
 SKY: Final = 0.1
 """Luminance where there is nothing. Placeholder."""

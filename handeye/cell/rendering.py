@@ -12,8 +12,9 @@ import mujoco
 import numpy as np
 
 from handeye.cell.vidicon import Luminance
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.pose import Array
-from handeye.vision.camera import COLUMNS, ROWS, View
+from handeye.vision.camera import View
 
 FINE: Final = 2
 """Samples for a picture point, along the line and across it."""

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.drives import HandDrive, SimulatedArm
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.tasks.water_pump.threads import Threads
 from handeye.tasks.water_pump.variation import World
 

@@ -12,12 +12,12 @@ from handeye.cell.sensors import Sensors
 from handeye.cell.state import MUTABLE, CellState, noise_state, set_noise
 from handeye.cell.truth import Drawn, Truth
 from handeye.errors import HandeyeError, InvalidInput
-from handeye.ports.ports import TICK, Drive, Sensed, Workcell
+from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.tasks.water_pump.clamping import Resting
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.threads import Threads
 from handeye.tasks.water_pump.variation import World
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, JIFFY
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 """What MuJoCo needs to go on from a state as if it had never left it."""
@@ -49,7 +49,7 @@ class SimulatedCell(Workcell):
         data = mujoco.MjData(model)
         self._model, self._data = model, data
         self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
-        self._steps = round(TICK / model.opt.timestep)
+        self._steps = round(JIFFY / model.opt.timestep)
         self._arm, self._hand = SimulatedArm(model, data), HandDrive(model, data)
         self._lamp = Lamp(model)
         self._threads, self._sensors = Threads(model, data, world), Sensors(model, data, world)

@@ -6,7 +6,7 @@ from typing import Annotated, Final
 import msgspec
 import numpy as np
 
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.tasks.water_pump.threads import Thread
 

@@ -7,8 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.ports.ports import Picture
-from handeye.vision.camera import COLUMNS, RASTER, ROWS
+from handeye.ports.camera import COLUMNS, RASTER, ROWS, Picture
 
 Luminance = NDArray[np.float32]
 """Light that falls on the target, shape (256, 333), 1 = a white surface in full light."""

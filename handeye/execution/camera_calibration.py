@@ -16,9 +16,10 @@ from handeye.arm.model import ArmModel
 from handeye.arm.trajectory import Trajectory, move
 from handeye.errors import HandeyeError
 from handeye.execution.drive import ArmDrive
-from handeye.ports.ports import TICK, Workcell
+from handeye.ports.camera import CLOSE_UP, WIDE
+from handeye.ports.workcell import Workcell
 from handeye.pose import hand
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, JIFFY
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera import CameraModel
 from handeye.vision.spot import find_spot
@@ -63,9 +64,9 @@ def _looks(lens: float, x: float, y: float, dx: float, dy: float, heights: tuple
 
 
 LOOKS: Final = (
-    *_looks(0.025, 42.5, 29.0, 5.0, 6.0, (7.5, 10.0, 12.5)),
-    *_looks(0.050, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
-    *_looks(0.050, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
+    *_looks(WIDE, 42.5, 29.0, 5.0, 6.0, (7.5, 10.0, 12.5)),
+    *_looks(CLOSE_UP, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
+    *_looks(CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
 )
 """Both lenses over the belt, and the close-up lens from there to the standard position too.
 
@@ -101,7 +102,7 @@ def calibrate_camera(
 
 
 def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
-    outcome = drive.follow(trajectory.sample(TICK))
+    outcome = drive.follow(trajectory.sample(JIFFY))
     if outcome.error is not None:
         raise CalibrationFailed(
             f"while the camera was being calibrated, {outcome.detail or 'the drives were cut'}"

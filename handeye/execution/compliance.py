@@ -10,9 +10,8 @@ from typing import Final
 
 import numpy as np
 
-from handeye.ports.ports import TICK
 from handeye.pose import Array
-from handeye.units import DEGREE, OUNCE_INCH
+from handeye.units import DEGREE, JIFFY, OUNCE_INCH
 
 GAIN: Final = 0.0015
 """Speed per force, m/s/N: slow enough for the arm's 20 kg of felt inertia."""
@@ -53,7 +52,7 @@ class Course:
 
     def patience(self, pressing: int) -> int:
         """Servo periods the motion may take: `pressing` ones, beside those of an unhindered way."""
-        return pressing + math.ceil(self.distance / self.speed / TICK)
+        return pressing + math.ceil(self.distance / self.speed / JIFFY)
 
     def advance(self, wrench: Array, tick: int) -> float:
         """Speed along the way (m/s) for an external wrench on the hand, in servo period number `tick`."""
@@ -74,7 +73,7 @@ class Course:
         if wanted:
             axis = self.moment / wanted
             missing += axis * (wanted + float((felt - missing) @ axis))
-        turn = turn + np.clip(missing * TURN_GAIN, -TURN_GREATEST, TURN_GREATEST) * TICK
+        turn = turn + np.clip(missing * TURN_GAIN, -TURN_GREATEST, TURN_GREATEST) * JIFFY
         return turn * (TURN_MOST / max(float(np.linalg.norm(turn)), TURN_MOST))
 
 

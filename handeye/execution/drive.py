@@ -16,10 +16,10 @@ from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.servo import prepare, torque
 from handeye.execution.compliance import Course
-from handeye.ports.ports import TICK, Drive, Sensed, Workcell
+from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.pose import Array, Pose, displaced, translated
 from handeye.touch.guards import Guard, Reading, Trip
-from handeye.units import INCH
+from handeye.units import INCH, JIFFY
 
 SETTLE_TICKS = 8
 """Periods held at the end of a motion, and averaged for the tare of the force estimate."""
@@ -97,7 +97,7 @@ class ArmDrive:
 
     def brake(self, seconds: float) -> None:
         """Set the brakes and let time pass; the set-point becomes where the arm then is."""
-        for _ in range(round(seconds / TICK)):
+        for _ in range(round(seconds / JIFFY)):
             self._tick(np.zeros(6), brakes=True)
         self.q = self.sensed.q.copy()
 
@@ -106,7 +106,7 @@ class ArmDrive:
 
         The set-point becomes where the arm then is.
         """
-        for _ in range(round(seconds / TICK)):
+        for _ in range(round(seconds / JIFFY)):
             q, qd = self.sensed.q, self.sensed.qd
             self._tick(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / OILED)
         self.q = self.sensed.q.copy()
@@ -160,8 +160,8 @@ class ArmDrive:
         for tick in range(course.patience(PRESS_TICKS)):
             if gone >= course.distance:
                 return REACHED if guard is not None else self._arrived()
-            gone += course.advance(self.wrench, tick) * TICK
-            given += course.yielding(self.wrench) * TICK
+            gone += course.advance(self.wrench, tick) * JIFFY
+            given += course.yielding(self.wrench) * JIFFY
             turn = course.turned(turn, self.wrench)
             step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.q)
             if step.q is None:
@@ -204,7 +204,7 @@ class ArmDrive:
 
     def _approach(self, here: _Dynamics, q: Array, *, estimate: bool) -> None:
         """One servo period towards a set-point close by."""
-        self._servo(here, self.q, (q - self.q) / TICK, np.zeros(6), estimate=estimate)
+        self._servo(here, self.q, (q - self.q) / JIFFY, np.zeros(6), estimate=estimate)
         self.q = q
 
     def _servo(self, here: _Dynamics, q: Array, qd: Array, qdd: Array, *, estimate: bool) -> None:
@@ -216,7 +216,7 @@ class ArmDrive:
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
         self._tick(tau)
         if estimate:
-            acceleration = (self.sensed.qd - before.qd) / TICK
+            acceleration = (self.sensed.qd - before.qd) / JIFFY
             unexplained = here.M @ acceleration + here.bias - tau
             self.wrench = np.linalg.solve(here.J.T, unexplained) - self.tare
 

@@ -12,10 +12,10 @@ from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled
 from handeye.execution.executor import Executor
 from handeye.execution.state import Clockwork, ExecutionState, Fault, Found, SearchState, Shot
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.pose import Array, Pose
 from handeye.program.program import Look, Position, Record
 from handeye.vision.base import GeneralLocation
-from handeye.vision.camera import COLUMNS, ROWS
 
 Natural = Annotated[int, msgspec.Meta(ge=0)]
 

@@ -20,7 +20,6 @@ from handeye.planning.motions import (
     move_trajectory,
     turn_samples,
 )
-from handeye.ports.ports import TICK
 from handeye.pose import Array, Pose, translated
 from handeye.program.program import (
     Center,
@@ -45,7 +44,7 @@ from handeye.touch.guards import (
     TouchGuard,
 )
 from handeye.touch.hold import at_least, within
-from handeye.units import INCH
+from handeye.units import INCH, JIFFY
 
 HAND_SPEED: Final = 0.05
 """Speed of the finger gap when nothing is between them, m/s; the hand does .08 free (data sheet of 1974)."""
@@ -81,7 +80,7 @@ def move(run: ExecutionState, number: int, operation: Move) -> Fault | None:
         return Fault(
             number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
         )
-    samples = trajectory.sample(TICK)
+    samples = trajectory.sample(JIFFY)
     along = directions(samples, run.arm, run.drive.q)
     return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
 
@@ -190,7 +189,7 @@ def open_hand(run: ExecutionState, operation: Open) -> Fault | None:
 def _to_gap(run: ExecutionState, goal: float) -> None:
     drive = run.drive
     start = drive.gap = drive.sensed.gap
-    ticks = max(1, round(abs(goal - start) / (HAND_SPEED * TICK)))
+    ticks = max(1, round(abs(goal - start) / (HAND_SPEED * JIFFY)))
     for i in range(1, ticks + 1):
         drive.gap = start + (goal - start) * i / ticks
         drive.hold(1)
@@ -202,7 +201,7 @@ def close(run: ExecutionState, operation: Close) -> Fault | None:
     drive.gap = drive.sensed.gap
     floor = min(operation.minimum, drive.gap)
     while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.gap > -0.02:
-        drive.gap -= HAND_SPEED * TICK
+        drive.gap -= HAND_SPEED * JIFFY
         drive.hold(1)
     drive.gap = -0.02
     drive.hold(GRASP_TICKS)
@@ -228,7 +227,7 @@ def center(run: ExecutionState, operation: Center) -> Fault | None:
     drive.gap = drive.sensed.gap
     centring = Centring(minimum=operation.minimum, speed=CENTRE_SPEED)
     while not centring.done:
-        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=TICK)
+        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=JIFFY)
         drive.gap += step.gap
         X_WT = translated(X_WT, step.hand * line)
         outcome = drive.shift(here, X_WT)

@@ -9,10 +9,12 @@ from handeye.arm.model import ArmModel
 from handeye.events import AnyEvent
 from handeye.execution.drive import ArmDrive
 from handeye.planfile.plan import Plan
-from handeye.ports.ports import FIRST_LENS, TICK, Picture, Workcell
+from handeye.ports.camera import FIRST_LENS, Picture
+from handeye.ports.workcell import Workcell
 from handeye.pose import Array
 from handeye.program.world_model import WorldModel
 from handeye.touch.spiral import spiral
+from handeye.units import JIFFY
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.camera import CameraModel, View
 from handeye.vision.gasket import Inspection
@@ -104,7 +106,7 @@ class ExecutionState:
     @property
     def time(self) -> float:
         """The cell's clock, rounded to its period so that it prints the same everywhere."""
-        return round(round(self.drive.sensed.time / TICK) * TICK, 6)
+        return round(round(self.drive.sensed.time / JIFFY) * JIFFY, 6)
 
 
 def vector(p: Array) -> tuple[float, float, float]:

@@ -10,11 +10,11 @@ from typing import Final
 
 from handeye.boxes import Box
 from handeye.planfile.plan import Motion, Plan
+from handeye.ports.camera import LENSES
 from handeye.program import program as op
 
 _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 """Names that become file names."""
-_LENSES: Final = (0.025, 0.050)
 _FORCE: Final = (1e-6, 1e4)  # N, or N m
 _LENGTH: Final = (1e-6, 10.0)  # m
 _SHORTEST: Final = 1e-5  # s, segment of a polynomial
@@ -119,7 +119,7 @@ def _numbers(operation: op.AnyOperation) -> Iterator[str]:
             value = getattr(operation, field)
             if value is not None:
                 yield from _size(field, value, _FORCE)
-    if isinstance(operation, op.Lens) and not any(math.isclose(operation.focal_length, f) for f in _LENSES):
+    if isinstance(operation, op.Lens) and not any(math.isclose(operation.focal_length, f) for f in LENSES):
         yield f"wants a lens of {operation.focal_length * 1000:g} mm; the turret has 25 and 50 mm"
     stop = getattr(operation, "stop", None)
     if stop is not None:

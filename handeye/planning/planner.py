@@ -20,7 +20,6 @@ from handeye.planfile.plan import Joints, Motion, Plan
 from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
 from handeye.planning.planning_findings import PlanningFindings
-from handeye.ports.ports import TICK
 from handeye.pose import Array
 from handeye.program.program import (
     Center,
@@ -35,6 +34,7 @@ from handeye.program.program import (
     Turn,
 )
 from handeye.program.world_model import WorldModel
+from handeye.units import JIFFY
 
 SPEED = 0.40
 """Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
@@ -42,7 +42,7 @@ invented acceleration limits it makes the whole job take about the four minutes 
 5); one datum, so no evidence of how slow the real arm was."""
 HOME = "PARK"
 """The position a program starts from."""
-_LOOK = 2 * TICK
+_LOOK = 2 * JIFFY
 """s between the places of a free motion at which its surroundings are looked at; under .6 in at the pump's speeds."""
 
 
@@ -180,7 +180,9 @@ class _Walk:
             if not guarded:
                 self.checks.clear(step, q)
             self.checks.strong(step, q, demands)
-        self.motions[number] = Motion(knots=(_joints(self.q), _joints(q[-1])), times=(len(samples.q) * TICK,))
+        self.motions[number] = Motion(
+            knots=(_joints(self.q), _joints(q[-1])), times=(len(samples.q) * JIFFY,)
+        )
         self.q = q[-1]
 
 

@@ -14,7 +14,8 @@ from handeye.events import AnyEvent
 from handeye.files import write_whole
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest, read_plan
-from handeye.ports.ports import Picture, Sensed
+from handeye.ports.camera import Picture
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.journal import Journal

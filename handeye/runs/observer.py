@@ -1,7 +1,7 @@
 """What may look on while a run goes on. No observer can change a run."""
 
 from handeye.events import AnyEvent
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.runs.snapshot import Checkpoint
 

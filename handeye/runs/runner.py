@@ -28,7 +28,7 @@ from handeye.execution.executor import Choice, Executor
 from handeye.execution.memory import recall, remember
 from handeye.execution.state import ExecutionState
 from handeye.planfile.store import plan_digest
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.program import Look, Position, Step, Vector
 from handeye.runs.observer import Observer

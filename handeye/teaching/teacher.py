@@ -18,7 +18,6 @@ from handeye.execution.drive import Halted, Outcome
 from handeye.files import write_whole
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED
-from handeye.ports.ports import TICK
 from handeye.program.program import Change, Position, Vector
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position
@@ -27,6 +26,7 @@ from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED
 from handeye.teaching.plan_and_run import carry_out
 from handeye.teaching.workplace import Workplace
+from handeye.units import JIFFY
 
 REST = 0.5
 """s that a floating arm is given to come to rest when it is let go."""
@@ -82,7 +82,7 @@ class Teacher:
             InvalidInput: it cannot go there, or something is in the way.
         """
         arm = self.workplace.runner.arm
-        self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED, period=TICK))
+        self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED, period=JIFFY))
 
     def straight(self, displacement: Vector) -> None:
         """Move the hand straight by a way (m, table coordinates), its angles kept.

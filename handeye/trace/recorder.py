@@ -8,7 +8,8 @@ from google.protobuf.message import DecodeError
 from handeye.errors import InvalidInput
 from handeye.events import Event, PictureTaken, RunStarted, StepStarted, WentBack
 from handeye.files import read_whole
-from handeye.ports.ports import Picture, Sensed
+from handeye.ports.camera import Picture
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.mcap_writer import GrowingFile

@@ -13,7 +13,7 @@ from google.protobuf.message import DecodeError
 
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, PictureTaken, RunStarted
-from handeye.ports.ports import Picture
+from handeye.ports.camera import Picture
 from handeye.pose import Array
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE
 from handeye.trace.messages import GAP, LEVEL

@@ -7,7 +7,8 @@ import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
 from handeye.events import AnyEvent, Event, RunStarted, StepStarted
-from handeye.ports.ports import Picture, Sensed
+from handeye.ports.camera import Picture
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.trace import messages
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, LOG, PICTURE, SCENE, nanoseconds

@@ -16,12 +16,12 @@ import numpy as np
 
 from handeye.errors import HandeyeError
 from handeye.events import AnyEvent, PanicStopped, StageFinished, StageStarted
-from handeye.ports.ports import TICK
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, TRACE
 from handeye.runs.snapshot import Snapshot
 from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
+from handeye.units import JIFFY
 
 POLL: Final = 0.002
 """s between two looks at what a run has written."""
@@ -213,7 +213,7 @@ def _brakes(place: Path) -> list[str]:
     if not isinstance(last, PanicStopped):
         return [f"its last event is {type(last).__name__}"]
     before, end = list(trace.ticks())[-2:]
-    stopped = round((end.time - before.time) / TICK) == 1 and abs(last.time - end.time) < TICK / 2
+    stopped = round((end.time - before.time) / JIFFY) == 1 and abs(last.time - end.time) < JIFFY / 2
     return [] if stopped and not np.any(end.effort) else ["the brakes were not set at the next tick"]
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from handeye.events import AnyEvent
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, RunFolder, open_new

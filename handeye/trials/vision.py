@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye.cell.staging import Stage
-from handeye.ports.ports import Picture, TvCamera
+from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
 from handeye.program.program import Hole, Part
 from handeye.tasks.water_pump.scene.dimensions import dimensions
@@ -91,14 +91,14 @@ def locate(
 ) -> tuple[SpecificLocation | Failure, list[tuple[Picture, View, GeneralLocation | None]]]:
     """Both stages, with the pictures they used."""
     x, y, z, _ = part.at
-    view = look(camera, known, 0.025, (x, y, z))
+    view = look(camera, known, WIDE, (x, y, z))
     picture, _ = camera.digitise()
     general = locate_general(picture, view, part)
     if isinstance(general, Failure):
         return general, [(picture, view, None)]
     pictures: list[tuple[Picture, View, GeneralLocation | None]] = [(picture, view, general)]
     middle = np.mean(general.corners, axis=0)
-    view = look(camera, known, 0.050, (float(middle[0]), float(middle[1]), float(middle[2])))
+    view = look(camera, known, CLOSE_UP, (float(middle[0]), float(middle[1]), float(middle[2])))
     picture, _ = camera.digitise()
     pictures.append((picture, view, None))
     return locate_specific(picture, view, part, general), pictures
@@ -148,7 +148,7 @@ def gasket_trials(n: int, seed: int, *, renderer: str = "auto") -> GasketCounts:
         base = _jittered(part.at, rng, 0.03)
         put_base(stage, base, pins=True)
         x, y, z, _ = part.at
-        view = look(stage.camera, simulated_calibration(stage, part).model, 0.050, (x, y, z + part.face))
+        view = look(stage.camera, simulated_calibration(stage, part).model, CLOSE_UP, (x, y, z + part.face))
         before, _ = stage.camera.digitise()
         for name in GASKETS:
             after = _with_gasket(stage, base, name, rng)
@@ -204,7 +204,7 @@ def simulated_calibration(stage: Stage, part: Part) -> Calibration:
     rng = stage.world.generator(73)
     x, y, z, _ = part.at
     sightings = []
-    for lens in (0.025, 0.050):
+    for lens in LENSES:
         for _ in range(SPOTS):
             lamp = np.array([x, y, z]) + rng.uniform((-0.12, -0.12, 0.01), (0.12, 0.12, 0.24))
             pan, tilt = DRAWING.aim(lamp, lens)

@@ -11,13 +11,13 @@ from typing import Final
 import numpy as np
 
 from handeye.errors import InvalidInput
-from handeye.ports.ports import Picture
+from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.pose import Array
 from handeye.program.program import Part
 from handeye.units import DEGREE, INCH
 from handeye.vision.beam import Scan
 from handeye.vision.blob import Box, localise
-from handeye.vision.camera import COLUMNS, ROWS, View
+from handeye.vision.camera import View
 from handeye.vision.holes import (
     SEARCHES,
     Levels,

@@ -12,13 +12,10 @@ from typing import Final
 import numpy as np
 
 from handeye.errors import InvalidInput
+from handeye.ports.camera import COLUMNS, LENSES, RASTER, ROWS
 from handeye.pose import Array, Pose, pose
 from handeye.units import INCH
 
-COLUMNS: Final = 333
-ROWS: Final = 256
-RASTER: Final = (0.0128, 0.0096)
-"""Width and height of the raster on a one-inch vidicon, m. Inferred; the points are not square."""
 CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
 
 
@@ -144,10 +141,7 @@ class View:
 
 DRAWING: Final = CameraModel(
     mount=(34 * INCH, 68 * INCH, 54 * INCH),
-    lenses=(
-        Lens(focal_length=0.025, forward=2 * INCH, up=1 * INCH),
-        Lens(focal_length=0.050, forward=2 * INCH, up=1 * INCH),
-    ),
+    lenses=tuple(Lens(focal_length=focal, forward=2 * INCH, up=1 * INCH) for focal in LENSES),
 )
 """The camera as drawn: on a tripod 14 in beyond the far edge of the table, opposite the arm.
 

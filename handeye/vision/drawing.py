@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.ports.ports import Picture
+from handeye.ports.camera import Picture
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.gasket import Inspection
 

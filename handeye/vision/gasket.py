@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from handeye.errors import InvalidInput
-from handeye.ports.ports import Picture
+from handeye.ports.camera import Picture
 from handeye.pose import Array
 from handeye.program.program import Hole, Part
 from handeye.units import INCH

@@ -5,7 +5,7 @@ from typing import Final
 import cv2
 import numpy as np
 
-from handeye.ports.ports import Picture
+from handeye.ports.camera import Picture
 
 LEVEL: Final = 3.0
 """Least mean difference over 3 x 3 points: six times the noise of such a mean."""

@@ -27,7 +27,7 @@ from pump_bench import at_standard, put, settle
 
 from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
-from handeye.ports.ports import Workcell
+from handeye.ports.workcell import Workcell
 from handeye.pose import Array
 from handeye.tasks.water_pump.variation import World
 from handeye.units import INCH, OUNCE_INCH

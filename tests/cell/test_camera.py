@@ -11,9 +11,10 @@ from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.tasks.water_pump.variation import World
 from handeye.vision.beam import Scan
-from handeye.vision.camera import COLUMNS, DRAWING, ROWS, View
+from handeye.vision.camera import DRAWING, View
 from handeye.vision.characteriser import characterise
 
 BLOCK = (0.65, 0.95, 0.0)

@@ -12,10 +12,10 @@ from handeye.arm.kinematics import solve
 from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
-from handeye.ports.ports import TICK, Drive, Sensed
+from handeye.ports.workcell import Drive, Sensed
 from handeye.pose import Array, hand
 from handeye.tasks.water_pump.variation import World
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, JIFFY
 
 NONE = np.zeros(6)
 
@@ -112,7 +112,7 @@ def test_fingers_open_at_eight_centimetres_a_second(cell: SimulatedCell) -> None
     first = run(cell, drive(brakes=True, gap=0.10), 15).gap
     last = run(cell, drive(brakes=True, gap=0.10), 30).gap
     assert start == pytest.approx(0.02, abs=1e-3)
-    assert (last - first) / (30 * TICK) == pytest.approx(0.08, rel=0.02)
+    assert (last - first) / (30 * JIFFY) == pytest.approx(0.08, rel=0.02)
 
 
 def test_both_switches_fire_on_the_driver_and_the_gap_is_its_width(cell: SimulatedCell) -> None:

@@ -8,7 +8,7 @@ from handeye.arm.dynamics import gravity
 from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.errors import WATCHDOG
-from handeye.ports.ports import Drive, Sensed
+from handeye.ports.workcell import Drive, Sensed
 from handeye.tasks.water_pump.variation import World
 from handeye.units import DEGREE
 

@@ -13,7 +13,7 @@ from handeye.execution.compliance import (
     TURN_NOISE,
     Course,
 )
-from handeye.ports.ports import TICK
+from handeye.units import JIFFY
 
 DOWN = np.array([0.0, 0.0, -1.0])
 
@@ -60,7 +60,7 @@ def rate(moment: tuple[float, float, float] = (0, 0, 0), spin: tuple[float, floa
     course = Course(
         direction=DOWN, distance=0.01, speed=0.02, moment=np.array(moment, float), spin=np.array(spin, float)
     )
-    return course.turned(np.zeros(3), np.array([0.0, 0.0, 0.0, *felt])) / TICK
+    return course.turned(np.zeros(3), np.array([0.0, 0.0, 0.0, *felt])) / JIFFY
 
 
 def test_the_hand_turns_about_the_axes_it_may_spin_about_only() -> None:

@@ -8,8 +8,10 @@ import numpy as np
 from handeye.arm.dynamics import inverse_dynamics, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.stanford import STANFORD
-from handeye.ports.ports import TICK, Drive, Picture, Sensed, TvCamera, Workcell
+from handeye.ports.camera import COLUMNS, ROWS, Picture, TvCamera
+from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.pose import Array
+from handeye.units import JIFFY
 
 STIFFNESS = 20e3  # N/m of whatever the hand meets
 CRITICAL = 800.0  # N s/m, keeps it from ringing
@@ -57,7 +59,7 @@ class FakeCamera(TvCamera):
 
     def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
         self.actions.append(("digitise", hold_target))
-        picture = self.pictures.pop(0) if self.pictures else np.zeros((256, 333), np.uint8)
+        picture = self.pictures.pop(0) if self.pictures else np.zeros((ROWS, COLUMNS), np.uint8)
         return picture, 0.5
 
 
@@ -104,14 +106,14 @@ class FakeWorkcell(Workcell):
             self.qd = np.zeros(6)
         else:
             self._move(drive.torque)
-        step = STANFORD.gap_speed * TICK
+        step = STANFORD.gap_speed * JIFFY
         self.gap = max(self.gap + min(max(drive.gap - self.gap, -step), step), self.thickness(self.tcp))
-        self.time += TICK
+        self.time += JIFFY
 
     def late(self) -> None:
         self.braked, self.tool = True, 0.0
         self.qd = np.zeros(6)
-        self.time += TICK
+        self.time += JIFFY
 
     def _move(self, torque: Array, steps: int = 16) -> None:
         """Semi-implicit steps under a held torque; the arm's matrices are taken once per tick."""
@@ -123,5 +125,5 @@ class FakeWorkcell(Workcell):
             p, v = X + (J @ (self.q - q0))[:3], (J @ self.qd)[:3]
             push = sum((wall.force(p, v) for wall in self.walls), np.zeros(3))
             tau = torque - bias - damping * self.qd + J[:3].T @ push
-            self.qd = self.qd + np.linalg.solve(M, tau) * TICK / steps
-            self.q = self.q + self.qd * TICK / steps
+            self.qd = self.qd + np.linalg.solve(M, tau) * JIFFY / steps
+            self.q = self.q + self.qd * JIFFY / steps

@@ -20,7 +20,7 @@ from handeye.execution.executor import Executor
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
-from handeye.ports.ports import Drive
+from handeye.ports.workcell import Drive
 from handeye.pose import Array, Pose, planar, pose, translated
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught

@@ -16,13 +16,15 @@ from handeye.events import Event, RunStarted, StageFinished
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest
 from handeye.planning.planner import make_plan
-from handeye.ports.ports import TICK, Picture, Sensed
+from handeye.ports.camera import Picture
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.trace.frames import Frames
 from handeye.trace.messages import Poses
 from handeye.trace.recorder import Recorder
+from handeye.units import JIFFY
 
 SCRIPT: Final = 'STAGE "open"\nOPEN 1\nSTAGE "close"\nCLOSE .1\nSTAGE "again"\nOPEN 2\n'
 BODIES: Final = ("base", "finger", "screw", "carrier")
@@ -89,7 +91,7 @@ class _Clock:
 
     def ticks(self, count: int) -> Iterator[Moment]:
         for _ in range(count):
-            self.time += TICK
+            self.time += JIFFY
             self.poses[1, :3] += np.float32(self.rng.normal(0, 1e-3, 3))
             if self.shown:
                 self.poses[2, 2] -= np.float32(1e-4)  # what is put away does not lie quite still

@@ -12,7 +12,7 @@ from mcap_protobuf.decoder import DecoderFactory
 from recordings import EVENTS, HISTORY, PLAN, record
 
 from handeye.events import to_line
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 
 TYPES = {
     "/joint_states": "foxglove.JointStates",

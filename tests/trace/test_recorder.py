@@ -12,7 +12,7 @@ from recordings import BOUNDARIES, EVENTS, HISTORY, PLAN, Recording, between, re
 
 from handeye.errors import InvalidInput
 from handeye.events import StepStarted, WentBack
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.trace import mcap_writer
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace

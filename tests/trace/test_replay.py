@@ -7,7 +7,7 @@ import pytest
 from recordings import HISTORY, Recording, record
 
 from handeye.errors import InvalidInput
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.trace.reading import read_trace
 from handeye.trace.replay import Replay
 

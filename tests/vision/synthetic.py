@@ -5,10 +5,10 @@ import math
 import cv2
 import numpy as np
 
-from handeye.ports.ports import Picture
+from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.program import Hole, Part
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import COLUMNS, DRAWING, ROWS, View
+from handeye.vision.camera import DRAWING, View
 from handeye.vision.holes import hole_places
 
 DARK, BRIGHT, BELT, PLATE, FACE, HOLE, GASKET = 3, 11, 3, 6, 12, 4, 4

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.vision.beam import BRIGHTER, DARKER, Scan, beam
 from handeye.vision.blob import localise
-from handeye.vision.camera import COLUMNS, ROWS
 from handeye.vision.characteriser import characterise
 
 

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from handeye.vision.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.vision.spot import find_spot
 
 

@@ -16,7 +16,7 @@ import pytest
 from recordings import EVENTS, HISTORY, record
 from rerun.chunk import RrdReader
 
-from handeye.ports.ports import Sensed
+from handeye.ports.workcell import Sensed
 from handeye.trace.reading import read_trace
 
 TIME = "message_log_time"

@@ -16,9 +16,9 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.ports.ports import TICK
 from handeye.pose import Array
 from handeye.tasks.water_pump.variation import World
+from handeye.units import JIFFY
 
 CAPTURE: Final = 0.0008  # m, tip to axis. The bore leaves .35 mm of play; assembly study, section 3.
 START_DEPTH: Final = 0.00127  # m, tip below the mouth: one turn of the thread.
@@ -138,7 +138,7 @@ class Threads:
             return False
         R = self._axes().T @ self._data.xmat[self._screw[screw]].reshape(3, 3)
         ahead = (np.arctan2(R[1, 0], R[0, 0]) - self._phase[hole]) % (2 * pi)
-        return bool(ahead < 1.2 * rate * TICK + 0.05)  # the thread starts within the turn of this tick
+        return bool(ahead < 1.2 * rate * JIFFY + 0.05)  # the thread starts within the turn of this tick
 
     def _rate(self, screw: int) -> float:
         """Rate of a loose screw about its own axis, rad/s, counter-clockwise positive."""

@@ -5,9 +5,9 @@ import numpy as np
 from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.kinematics import forward, jacobian, solve
 from handeye.arm.stanford import STANFORD
-from handeye.ports.ports import TICK, Drive, Workcell
+from handeye.ports.workcell import Drive, Workcell
 from handeye.pose import Array, hand
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, JIFFY
 
 STIFFNESS = 25.0  # rad/s, of the servo
 
@@ -37,13 +37,13 @@ class Hand:
         self.yaw = self.yaw if yaw is None else yaw
         sensed = self.cell.sense()
         self.before, self.q = self.q, self.solved(self.q)
-        rate = (self.q - self.before) / TICK
+        rate = (self.q - self.before) / JIFFY
         M, h = mass_matrix(STANFORD, sensed.q), bias(STANFORD, sensed.q, sensed.qd)
         J = jacobian(STANFORD, sensed.q)
         torque = M @ (2 * STIFFNESS * (rate - sensed.qd) + STIFFNESS**2 * (self.q - sensed.q)) + h
         torque += J.T @ np.array([0, 0, self.load, 0, 0, 0])
         self.cell.tick(Drive(torque=torque, brakes=False, gap=self.gap, grip=self.grip, tool=self.tool))
-        pushed = M @ (self.cell.sense().qd - sensed.qd) / TICK + h - torque
+        pushed = M @ (self.cell.sense().qd - sensed.qd) / JIFFY + h - torque
         self.force = np.linalg.solve(J.T, pushed) - self.tare
 
     def hold(self, ticks: int) -> None:
@@ -63,7 +63,7 @@ class Hand:
         """Straight to a place (m) along a smooth course; `degrees` of the finger line from table x."""
         start, end = self.place, np.array([x, y, z])
         turn0, turn1 = self.yaw, self.yaw if degrees is None else degrees * DEGREE
-        steps = round(seconds / TICK)
+        steps = round(seconds / JIFFY)
         for i in range(1, steps + 1):
             s = i / steps
             u = 10 * s**3 - 15 * s**4 + 6 * s**5
@@ -78,8 +78,8 @@ class Hand:
     def press(self, direction: Array, distance: float, stop: float, speed: float = INCH) -> bool:
         """Move until the hand is opposed with more than `stop` (N); whether it was."""
         along = np.asarray(direction, float)
-        for i in range(round(distance / speed / TICK)):
-            self.tick(place=self.place + along * speed * TICK * min(1.0, (i + 1) / 6))
+        for i in range(round(distance / speed / JIFFY)):
+            self.tick(place=self.place + along * speed * JIFFY * min(1.0, (i + 1) / 6))
             if -self.force[:3] @ along > stop:
                 self.rest()
                 return True

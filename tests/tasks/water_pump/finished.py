@@ -8,11 +8,12 @@ import numpy as np
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
-from handeye.ports.ports import TICK, Drive
+from handeye.ports.workcell import Drive
 from handeye.pose import Pose, planar, translated
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, standard
 from handeye.tasks.water_pump.variation import World
+from handeye.units import JIFFY
 
 BRAKED = Drive(torque=np.zeros(6), brakes=True, gap=0.05, grip=20.0, tool=0.0)
 TIGHTENING = 0.30  # N m
@@ -56,7 +57,7 @@ def _finished() -> Truth:
     cell = stacked()
     for hole in range(6):
         tighten(cell, hole)
-    for _ in range(round(0.2 / TICK)):
+    for _ in range(round(0.2 / JIFFY)):
         cell.tick(BRAKED)
     return cell.truth
 

@@ -6,9 +6,9 @@ from math import cos, degrees, pi, sin, tan
 import mujoco
 import numpy as np
 
-from handeye.ports.ports import TICK
 from handeye.tasks.water_pump.threads import Thread, Threads
 from handeye.tasks.water_pump.variation import World
+from handeye.units import JIFFY
 
 MOUTH = 0.05  # m, height of the hole's mouth
 LENGTH, HEAD = 0.01905, 0.004  # m, screw under the head; head
@@ -117,7 +117,7 @@ def drive_screw(
     threads = Threads(model, data, world)
     weight = 0.51 * 9.81
     torque = 0.0
-    for _ in range(round(seconds / TICK)):
+    for _ in range(round(seconds / JIFFY)):
         data.qfrc_applied[model.joint("press").dofadr[0]] = weight - press
         threads.before(SPEED)
         mujoco.mj_step(model, data, 16)

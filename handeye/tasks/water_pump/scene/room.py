@@ -5,6 +5,7 @@ import math
 import mujoco
 import numpy as np
 
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.pose import Array
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.shapes import Shaper
@@ -152,7 +153,7 @@ def _add_cameras(spec: mujoco.MjSpec) -> None:
     d = dimensions()
     focal = d.all("camera.focal_length")[0]
     tv = _camera(spec, "tv", np.array(d.all("camera.mount")), np.array([*d.all("standard.place"), 0.04]))
-    tv.resolution[:] = [333, 256]
+    tv.resolution[:] = [COLUMNS, ROWS]
     tv.sensor_size[:] = d.all("camera.raster")
     tv.focal_length[:] = [focal, focal]
     for name, eye, at, fovy in (

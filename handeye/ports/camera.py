@@ -1,0 +1,64 @@
+"""The television camera: a pan/tilt mount, a two-lens turret, a vidicon and its digitiser."""
+
+from abc import ABC, abstractmethod
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+COLUMNS: Final = 333
+ROWS: Final = 256
+RASTER: Final = (0.0128, 0.0096)
+"""Width and height of the raster on a one-inch vidicon, m. Inferred; the points are not square."""
+
+WIDE: Final = 0.025
+CLOSE_UP: Final = 0.050
+"""Focal lengths, m, of the lenses of the turret."""
+LENSES: Final = (WIDE, CLOSE_UP)
+FIRST_LENS: Final = CLOSE_UP
+"""The lens that is in place when the cell is switched on: as the last look of a run leaves it."""
+
+Picture = NDArray[np.uint8]
+"""A digitised television picture: ROWS by COLUMNS of intensities 0..15."""
+
+
+class TvCamera(ABC):
+    """The television camera on its pan/tilt mount with a two-lens turret.
+
+    `lens`, `aim` and `focus` start a slow mechanical action; they return the time it takes, and the executor
+    lets that much time pass (brakes on) before it takes a picture.
+    """
+
+    @abstractmethod
+    def lens(self, focal_length: float) -> float:
+        """Turn the turret to the lens of that focal length (m, one of LENSES); seconds it takes (0: already there).
+
+        Raises:
+            InvalidInput: no such lens.
+        """
+
+    @abstractmethod
+    def aim(self, pan: float, tilt: float) -> float:
+        """Slew to these potentiometer readings (rad); seconds it takes."""
+
+    @abstractmethod
+    def focus(self, distance: float) -> float:
+        """Set the focus for a distance (m); seconds it takes."""
+
+    @abstractmethod
+    def pots(self) -> tuple[float, float]:
+        """Pan and tilt as the potentiometers read them now (rad), noise included."""
+
+    @abstractmethod
+    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
+        """Take a picture; the picture and the seconds it takes.
+
+        Args:
+            hold_target: keep the vidicon target voltage (gain) of the previous picture, as a difference of
+                two pictures needs, instead of adjusting it to this one.
+        """
+
+    @property
+    @abstractmethod
+    def renderer(self) -> str:
+        """How pictures are made, for reports (`OpenGL (EGL)`, `ray casting`, ...)."""
