@@ -4,6 +4,8 @@ Inside the program every quantity is SI: metres, radians, newtons, newton metres
 """
 
 import math
+import re
+from dataclasses import dataclass
 from typing import Final
 
 INCH: Final = 0.0254  # m, exact by definition
@@ -13,3 +15,51 @@ OUNCE_FORCE: Final = 0.27801385095378125  # N, avoirdupois ounce times standard 
 OUNCE_INCH: Final = OUNCE_FORCE * INCH  # N m
 RPM: Final = 2 * math.pi / 60  # rad/s
 JIFFY: Final = 1 / 60  # s, the servo period of the 1973 arm program
+PERCENT: Final = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A unit as people write it behind a number."""
+
+    name: str
+    dimension: str
+    size: float
+    """Of one of it, SI."""
+
+
+UNITS: Final = {
+    unit.name: unit
+    for unit in (
+        Unit("in", "length", INCH),
+        Unit("mm", "length", MILLIMETRE),
+        Unit("m", "length", 1.0),
+        Unit("deg", "angle", DEGREE),
+        Unit("rad", "angle", 1.0),
+        Unit("oz", "force", OUNCE_FORCE),
+        Unit("N", "force", 1.0),
+        Unit("oz in", "torque", OUNCE_INCH),
+        Unit("N m", "torque", 1.0),
+        Unit("deg/s", "angular speed", DEGREE),
+        Unit("rad/s", "angular speed", 1.0),
+        Unit("in/s", "speed", INCH),
+        Unit("m/s", "speed", 1.0),
+        Unit("%", "ratio", PERCENT),
+        Unit("", "ratio", 1.0),
+    )
+}
+"""Units by name; the last is that of a plain number."""
+
+_WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.IGNORECASE)
+
+
+def split_value(text: str) -> tuple[float, str] | None:
+    """The number and the unit's word, as written, of a text such as `.3 in`; None: it does not begin with a number."""
+    found = _WRITTEN.fullmatch(text.strip())
+    return None if found is None else (float(found[1]), found[2])
+
+
+def unit_named(word: str) -> Unit | None:
+    """The unit of a name; spaces and capitals do not matter."""
+    spelt = {name.replace(" ", "").casefold(): unit for name, unit in UNITS.items()}
+    return spelt.get(word.replace(" ", "").casefold())

@@ -17,6 +17,9 @@ FOUNDATIONS = {
     "errors",
     "files",
     "resources",
+    "variation",
+    "distributions",
+    "world_options",
     "versions",
 }
 LAYERS = [

@@ -5,12 +5,12 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.threads import SEEN
-from handeye.tasks.water_pump.variation import World
 
 
-def posed(world: World, poses: Mapping[str, Sequence[float]]) -> tuple[mujoco.MjModel, mujoco.MjData]:
+def posed(world: PumpWorld, poses: Mapping[str, Sequence[float]]) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """A scene to be looked at; it holds no state, since shapes are put where they were and joints are not.
 
     Args:

@@ -5,16 +5,16 @@ import numpy as np
 
 from handeye.cell.drives import HandDrive, SimulatedArm
 from handeye.ports.workcell import Sensed
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Threads
-from handeye.tasks.water_pump.variation import World
 
 
 class Sensors:
     """Reads the interface once per tick."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, world: World) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, world: PumpWorld) -> None:
         self._data, self._world = data, world
-        self.rng = world.generator(1)
+        self.rng = world.generator("sensors")
         """Source of the noise."""
         self._switches = [int(model.sensor(f"stanford/switch_{side}").adr[0]) for side in "ab"]
 

@@ -14,9 +14,9 @@ from handeye.cell.truth import Drawn, Truth
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.tasks.water_pump.clamping import Resting
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.threads import Threads
-from handeye.tasks.water_pump.variation import World
 from handeye.units import DEGREE, INCH, JIFFY
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
@@ -38,7 +38,7 @@ class SimulatedCell(Workcell):
     After a missed servo period the drives stay cut until a `Drive` with brakes acknowledges it.
     """
 
-    def __init__(self, world: World, *, camera: str = "auto", rest: bool = True) -> None:
+    def __init__(self, world: PumpWorld, *, camera: str = "auto", rest: bool = True) -> None:
         """Build the cell of a world.
 
         Args:
@@ -60,7 +60,7 @@ class SimulatedCell(Workcell):
         mujoco.mj_forward(model, data)
         self._sensed = self._read(braked=True)
         self.camera: SimulatedCamera = SimulatedCamera(
-            data, world.camera, world.generator(2), make_renderer(camera, model)
+            data, world.camera, world.generator("camera"), make_renderer(camera, model)
         )
 
     @property

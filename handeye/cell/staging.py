@@ -7,21 +7,21 @@ from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.renderers import make_renderer
 from handeye.cell.simulated import PARK
 from handeye.pose import Pose, pose
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import ARM, build
-from handeye.tasks.water_pump.variation import World
 
 
 class Stage:
     """The cell of a world before it has moved, its arm parked."""
 
-    def __init__(self, world: World, *, renderer: str = "auto", posture: np.ndarray = PARK) -> None:
+    def __init__(self, world: PumpWorld, *, renderer: str = "auto", posture: np.ndarray = PARK) -> None:
         """Raises InvalidInput if there is no such renderer, or it does not work here."""
         self.world = world
         self._model = build(world)
         self._data = mujoco.MjData(self._model)
         self.posture(posture)
         self.camera = SimulatedCamera(
-            self._data, world.camera, world.generator(2), make_renderer(renderer, self._model)
+            self._data, world.camera, world.generator("camera"), make_renderer(renderer, self._model)
         )
         self.true_camera = true_camera(world.camera)
 

@@ -37,10 +37,10 @@ def render(
     """Render a picture of the work cell."""
     from handeye.cell.photograph import PNG, photograph_png
     from handeye.cell.simulated import SimulatedCell
-    from handeye.tasks.water_pump.variation import World
+    from handeye.tasks.water_pump.pump_world import PumpWorld
 
     check_place(output, PNG)
-    cell = SimulatedCell(World.sample(world(seed)), camera="ray")
+    cell = SimulatedCell(PumpWorld.sample(world(seed)), camera="ray")
     write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0

@@ -33,7 +33,7 @@ from handeye.pose import Array
 from handeye.program.program import Look, Position, Step, Vector
 from handeye.runs.observer import Observer
 from handeye.runs.snapshot import Checkpoint, Snapshot, arm_of, interfered
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera import DRAWING
@@ -73,7 +73,7 @@ class Runner:
         self.setup = start.setup
         plan = start.setup.plan
         self.arm = arm_of(plan)
-        self.cell = SimulatedCell(World.sample(start.setup.seed), camera=start.setup.camera)
+        self.cell = SimulatedCell(PumpWorld.sample(start.setup.seed), camera=start.setup.camera)
         self._unable: str | None = None
         self.calibration = start.calibration
         if start.snapshot is None:

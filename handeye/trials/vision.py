@@ -10,9 +10,10 @@ from handeye.cell.staging import Stage
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
 from handeye.program.program import Hole, Part
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
-from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y, World
+from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.units import DEGREE, INCH
 from handeye.vision.base import (
     Failure,
@@ -65,7 +66,7 @@ def pump_base(at: tuple[float, float, float, float] | None = None) -> Part:
     second = Hole(x=d("base.large_hole_2.x"), y=0.0, diameter=d("base.large_hole_2.diameter"))
     middle, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
     (x0, x1), (y0, y1) = BELT_X, BELT_Y
-    belt = ((x0 + x1) / 2 * INCH, (y0 + y1) / 2 * INCH, d("belt.height"), BELT_LINE[0] * DEGREE)
+    belt = ((x0 + x1) / 2 * INCH, (y0 + y1) / 2 * INCH, d("belt.height"), sum(BELT_LINE) / 2 * DEGREE)
     return Part(
         at=at or belt,
         face=base_top(),
@@ -112,11 +113,11 @@ def base_trials(n: int, seed: int, *, renderer: str = "auto", camera: str = "tru
     """
     part = pump_base()
     errors, failures, wrong = [], [], 0
-    for world in (World.sample(seed + k) for k in range(n)):
+    for world in (PumpWorld.sample(seed + k) for k in range(n)):
         stage = Stage(world, renderer=renderer)
         location, _ = locate(stage.camera, _known(camera, stage, part), part)
         if isinstance(location, Failure):
-            failures.append(f"{world.seed}: {location.reason}")
+            failures.append(f"{world.drawn.spec.seed}: {location.reason}")
             continue
         error = _error(location.pose, (world.base.x, world.base.y, world.base.yaw))
         wrong += _is_wrong(location, stage, part)
@@ -142,9 +143,9 @@ def gasket_trials(n: int, seed: int, *, renderer: str = "auto") -> GasketCounts:
     """Inspect the gasket in `n` worlds from `seed` on, in every one of GASKETS; with a calibrated camera."""
     part = pump_base(_standard())
     accepted = dict.fromkeys(GASKETS, 0)
-    for world in (World.sample(seed + k) for k in range(n)):
+    for world in (PumpWorld.sample(seed + k) for k in range(n)):
         stage = Stage(world, renderer=renderer)
-        rng = world.generator(74)
+        rng = world.generator("trial.gasket")
         base = _jittered(part.at, rng, 0.03)
         put_base(stage, base, pins=True)
         x, y, z, _ = part.at
@@ -201,7 +202,7 @@ def _jittered(
 
 def simulated_calibration(stage: Stage, part: Part) -> Calibration:
     """Calibrate as by a lamp that the arm carries to random places over the belt, without rendering any."""
-    rng = stage.world.generator(73)
+    rng = stage.world.generator("trial.calibration")
     x, y, z, _ = part.at
     sightings = []
     for lens in LENSES:

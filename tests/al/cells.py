@@ -29,7 +29,7 @@ from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.ports.workcell import Workcell
 from handeye.pose import Array
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import INCH, OUNCE_INCH
 
 SIMULATED = "the simulated cell"
@@ -62,7 +62,7 @@ def cell_of(words: str, q: Array) -> Workcell:
 
 
 def _simulated(lines: list[str]) -> SimulatedCell:
-    cell = SimulatedCell(World.nominal(), camera="ray")
+    cell = SimulatedCell(PumpWorld.nominal(), camera="ray")
     assert set(lines) <= {SIMULATED, "the base in its standard position"}, lines
     if len(lines) > 1:
         put(cell, "base", at_standard()["base"])

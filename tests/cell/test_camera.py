@@ -12,7 +12,7 @@ from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.vision.beam import Scan
 from handeye.vision.camera import DRAWING, View
 from handeye.vision.characteriser import characterise
@@ -45,9 +45,9 @@ class Plain(SceneRenderer):
         return np.tile(np.linspace(0.1, 0.9, COLUMNS, dtype=np.float32), (ROWS, 1))
 
 
-def camera(world: World | None = None, renderer: SceneRenderer | None = None) -> SimulatedCamera:
-    world = world or World.nominal()
-    return SimulatedCamera(scene(), world.camera, world.generator(2), renderer or Plain())
+def camera(world: PumpWorld | None = None, renderer: SceneRenderer | None = None) -> SimulatedCamera:
+    world = world or PumpWorld.nominal()
+    return SimulatedCamera(scene(), world.camera, world.generator("camera"), renderer or Plain())
 
 
 def test_a_picture_has_256_lines_of_333_integers_from_0_to_15():
@@ -86,7 +86,7 @@ def test_a_lens_that_is_not_there_is_refused():
 
 
 def test_the_pots_tell_the_aim_but_for_the_error_of_the_world():
-    world = World.sample(5)
+    world = PumpWorld.sample(5)
     tv = camera(world)
     tv.aim(0.1, 0.8)
     assert tv.pots() == (0.1, 0.8)
@@ -94,7 +94,7 @@ def test_the_pots_tell_the_aim_but_for_the_error_of_the_world():
 
 
 def test_a_perfect_world_has_the_camera_of_the_drawing():
-    assert true_camera(World.nominal().camera) == DRAWING
+    assert true_camera(PumpWorld.nominal().camera) == DRAWING
 
 
 def test_the_bright_parts_are_brought_to_the_same_level_in_any_light():
@@ -119,7 +119,7 @@ def test_noise_is_about_one_level():
 
 
 def test_equal_seeds_give_equal_pictures():
-    first, second = (camera(World.sample(3)).digitise()[0] for _ in range(2))
+    first, second = (camera(PumpWorld.sample(3)).digitise()[0] for _ in range(2))
     assert (first == second).all()
 
 
@@ -155,7 +155,7 @@ def test_a_renderer_gives_the_same_light_every_time(kind: str):
 @pytest.mark.parametrize("kind", ["auto", "ray"])
 def test_what_is_projected_is_where_it_is_rendered(kind: str):
     data = scene()
-    view = true_camera(World.sample(4).camera).view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    view = true_camera(PumpWorld.sample(4).camera).view(0.050, *DRAWING.aim(BLOCK, 0.050))
     light = make_renderer(kind, data.model).render(data, view)
     expected = view.project(np.array([*BLOCK[:2], 0.011]))[0]
     blob = characterise(Scan(light * 15), (float(expected[0]), float(expected[1])), 2, 60)

@@ -14,7 +14,7 @@ from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
 from handeye.ports.workcell import Drive, Sensed
 from handeye.pose import Array, hand
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import DEGREE, INCH, JIFFY
 
 NONE = np.zeros(6)
@@ -28,7 +28,7 @@ def drive(
 
 @pytest.fixture
 def cell() -> SimulatedCell:
-    return SimulatedCell(World.nominal(), camera="ray")
+    return SimulatedCell(PumpWorld.nominal(), camera="ray")
 
 
 def run(cell: SimulatedCell, put: Drive, ticks: int) -> Sensed:
@@ -48,7 +48,7 @@ def place_arm(cell: SimulatedCell, x: float, y: float, z: float, yaw: float) -> 
 
 
 def history(seed: int) -> bytes:
-    cell = SimulatedCell(World.sample(seed), camera="ray")
+    cell = SimulatedCell(PumpWorld.sample(seed), camera="ray")
     parts = []
     for i in range(20):
         cell.tick(drive(np.full(6, 0.1 * i)))
@@ -70,7 +70,7 @@ def test_a_tick_is_a_sixtieth_of_a_second(cell: SimulatedCell) -> None:
 
 
 def test_reading_twice_in_a_tick_gives_the_same() -> None:
-    cell = SimulatedCell(World.sample(1), camera="ray")
+    cell = SimulatedCell(PumpWorld.sample(1), camera="ray")
     assert cell.sense() is cell.sense()
 
 

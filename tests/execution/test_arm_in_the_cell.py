@@ -9,7 +9,7 @@ from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.errors import WATCHDOG
 from handeye.ports.workcell import Drive, Sensed
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import DEGREE
 
 pytestmark = pytest.mark.slow
@@ -33,7 +33,7 @@ def push(cell: SimulatedCell, axis: int, force: float) -> None:
 
 @pytest.fixture
 def cell() -> SimulatedCell:
-    return SimulatedCell(World.nominal(), camera="ray")
+    return SimulatedCell(PumpWorld.nominal(), camera="ray")
 
 
 def test_row_31_the_released_arm_drifts_less_than_half_a_degree_in_ten_seconds(cell: SimulatedCell) -> None:

@@ -4,7 +4,7 @@ import pytest
 from pump_bench import bench, stage
 
 from handeye.events import PartSeen, to_line
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
 
@@ -13,7 +13,7 @@ SHORT = stage("find the base", "feel for the grasp")
 
 def trace(seed: int) -> bytes:
     """Every event of a short run that looks, moves and feels."""
-    run = bench(SHORT, world=World.sample(seed), camera="auto").go()
+    run = bench(SHORT, world=PumpWorld.sample(seed), camera="auto").go()
     assert run.all(PartSeen)
     return b"".join(to_line(event) for event in run.events)
 

@@ -6,7 +6,7 @@ And where a sense fails, the program notices: it ends with the operator, never s
 import pytest
 from pump_bench import INSERT, SEATED, TAUGHT, at_standard, base_off, bench, shifted, stage, without
 
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 
 pytestmark = pytest.mark.slow
 
@@ -17,7 +17,7 @@ OFF = (0.33, -0.25)
 
 @pytest.mark.parametrize("seed", range(4))
 def test_without_vision_the_base_is_not_grasped_and_the_operator_is_called(seed: int) -> None:
-    run = bench(FEEL, world=World.sample(seed)).go()
+    run = bench(FEEL, world=PumpWorld.sample(seed)).go()
     assert run.called.error is not None
     assert run.place("base")[2] < 1.01
 

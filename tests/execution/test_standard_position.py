@@ -6,14 +6,14 @@ import pytest
 from pump_bench import Bench, at_standard, bench, shifted, stage
 
 from handeye.events import GuardTripped
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.referee import judge
-from handeye.tasks.water_pump.variation import World
 from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 
 
-def pushed(world: World | None = None) -> Bench:
+def pushed(world: PumpWorld | None = None) -> Bench:
     """The base in the hand on the table, .4 in short of both blocks; the pushes are the program's."""
     text = stage("put the base in its standard position")
     grasp = "OPEN 1.85\nMOVE W\nCLOSE .9 1.4\n"
@@ -32,6 +32,6 @@ def test_row_59_the_base_ends_within_five_hundredths_of_its_standard_position() 
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_row_59_it_lies_against_both_blocks_though_the_arm_is_wrong(seed: int) -> None:
-    findings = judge(pushed(replace(World.nominal(), arm=World.sample(seed).arm)).cell.truth)
+    findings = judge(pushed(replace(PumpWorld.nominal(), arm=PumpWorld.sample(seed).arm)).cell.truth)
     assert max(findings[f"base_{side}"].value for side in ("far", "left")) < 0.05 * INCH * 1000
     assert findings["base_yaw"].ok

@@ -9,7 +9,7 @@ from handeye.events import GuardTripped
 from handeye.execution.compliance import TURN_MOST
 from handeye.pose import Array
 from handeye.program.program import Position
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
@@ -65,7 +65,7 @@ def test_nothing_turns_a_hand_that_meets_nothing() -> None:
 def test_joint_friction_turns_no_hand_that_may_spin(seed: int) -> None:
     """The two of eight worlds in which most is felt where nothing is met: .2 degrees."""
     script = "MOVE T\nFREE 3 X Y Z\nSPIN 3 X Y Z\nCHANGE Y 2"
-    run = bench(script, positions={"T": written(25, 38, 6, 0)}, world=World.sample(seed)).to("CHANGE")
+    run = bench(script, positions={"T": written(25, 38, 6, 0)}, world=PumpWorld.sample(seed)).to("CHANGE")
     assert turned(run) == pytest.approx([0, 0, 0], abs=0.4)
 
 

@@ -26,9 +26,9 @@ from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source
+from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard
-from handeye.tasks.water_pump.variation import Placing, World
 from handeye.units import DEGREE, INCH
 from handeye.vision.camera import DRAWING
 
@@ -178,7 +178,7 @@ class Bench:
 def bench(
     script: str,
     *,
-    world: World | None = None,
+    world: PumpWorld | None = None,
     positions: dict[str, Position] | None = None,
     parts: dict[str, Part] | None = None,
     lay: dict[str, Pose] | None = None,
@@ -200,7 +200,7 @@ def bench(
     assert program is not None, diagnostics
     plan, problems = make_plan(program, STANFORD)
     assert plan is not None, problems
-    cell = SimulatedCell(world or World.nominal(), camera=camera)
+    cell = SimulatedCell(world or PumpWorld.nominal(), camera=camera)
     for part, X_WP in (lay or {}).items():
         put(cell, part, X_WP)
     settle(cell)
@@ -243,9 +243,9 @@ def stacked() -> dict[str, Pose]:
     return lay
 
 
-def base_off(x: float, y: float) -> World:
+def base_off(x: float, y: float) -> PumpWorld:
     """A world in which nothing is wrong but the place of the base on the belt (in)."""
-    world = World.nominal()
+    world = PumpWorld.nominal()
     base = Placing(x=world.base.x + x * INCH, y=world.base.y + y * INCH, yaw=world.base.yaw)
     return replace(world, base=base)
 

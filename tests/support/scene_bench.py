@@ -4,10 +4,10 @@ import mujoco
 import numpy as np
 
 from handeye.pose import Pose, planar
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard
-from handeye.tasks.water_pump.variation import World
 from handeye.units import DEGREE, INCH
 
 PARKED = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [1, 1, INCH / DEGREE, 1, 1, 1] * DEGREE
@@ -17,8 +17,8 @@ FREE = ("base", "gasket", "top", "pin0", "pin1", "driver", *(f"screw{k}" for k i
 class Bench:
     """Physics only: the cell's runtime is not involved."""
 
-    def __init__(self, world: World | None = None) -> None:
-        self.model = build(world or World.nominal())
+    def __init__(self, world: PumpWorld | None = None) -> None:
+        self.model = build(world or PumpWorld.nominal())
         for k in range(6):  # as the runtime does: no thread has a screw in it
             head = self.model.geom(f"head{k}")
             head.contype, head.conaffinity = 0, 0

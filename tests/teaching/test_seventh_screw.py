@@ -16,7 +16,8 @@ from handeye.program.program import Position
 from handeye.program.taught import load_taught
 from handeye.resources import plans
 from handeye.source import Source
-from handeye.tasks.water_pump.variation import SEVENTH, World
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.variation import SEVENTH
 from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
@@ -76,7 +77,7 @@ def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position)
     first, last = text.index("        SEARCH  .05\nM3:"), text.index("        SEARCH  .07\nD2:")
     run = bench(
         WHERE + text[:first] + SCREW + text[last:],
-        world=World.nominal(7), positions={"H6": hole}, lay=stacked(),
+        world=PumpWorld.nominal(7), positions={"H6": hole}, lay=stacked(),
     ).go()  # fmt: skip
     *others, seventh = run.cell.truth.threads
     assert (run.finished, seventh.screw, seventh.crossed) == (True, 6, False)
@@ -85,4 +86,4 @@ def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position)
 
 
 def test_worlds_below_the_later_make_have_six_screws() -> None:
-    assert [len(World.sample(seed).holes) for seed in (0, SEVENTH - 1, SEVENTH)] == [6, 6, 7]
+    assert [len(PumpWorld.sample(seed).holes) for seed in (0, SEVENTH - 1, SEVENTH)] == [6, 6, 7]

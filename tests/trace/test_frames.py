@@ -9,7 +9,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from handeye.arm.kinematics import forward
 from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import PARK, SimulatedCell
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.trace.frames import Frames
 
 SCENE_LIMIT = 300_000  # bytes: what a trace may grow by to show shapes and not only axes
@@ -17,7 +17,7 @@ SCENE_LIMIT = 300_000  # bytes: what a trace may grow by to show shapes and not 
 
 @pytest.fixture(scope="module")
 def cell() -> SimulatedCell:
-    return SimulatedCell(World.nominal(), camera="ray")
+    return SimulatedCell(PumpWorld.nominal(), camera="ray")
 
 
 @pytest.fixture(scope="module")
@@ -80,7 +80,7 @@ def test_the_meshes_of_the_scene_are_those_of_the_simulator(cell: SimulatedCell,
 
 
 def test_the_scene_is_told_as_it_was_drawn_whatever_has_happened_since() -> None:
-    cell = SimulatedCell(World.nominal(), camera="ray")
+    cell = SimulatedCell(PumpWorld.nominal(), camera="ray")
     before = Frames(cell.truth).scene(0)
     cell.truth.model.geom_group[:] = 2  # as if every hidden shape had become a screw in its thread
     cell.truth.model.mat_rgba[:] = 0.5  # as if the lamp had been switched

@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 
 from handeye.pose import Array
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import JIFFY
 
 CAPTURE: Final = 0.0008  # m, tip to axis. The bore leaves .35 mm of play; assembly study, section 3.
@@ -56,7 +56,7 @@ class Thread:
 class Threads:
     """The tapped holes, the loose screws and the driver's motor."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, world: World) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, world: PumpWorld) -> None:
         self._model, self._data = model, data
         holes = range(sum(model.body(i).name.startswith("carrier") for i in range(model.nbody)))
         self.holes: tuple[Thread, ...] = tuple(Thread() for _ in holes)

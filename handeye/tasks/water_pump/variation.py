@@ -1,220 +1,211 @@
-"""The imperfect world: everything that is not quite as the plan thinks, drawn from one seed.
+"""Variation of the pump's world: everything that is not quite as the plan thinks.
 
-Search, sight and touch exist to beat these errors. Every magnitude stands in the tables below, in the units
-people use; `World` holds the drawn values in SI. "sigma" is of a normal distribution clipped at two sigma,
-"half range" of a uniform one.
+Search, sight and touch exist to beat these errors. Joints, holes and screws are counted from 1.
 """
 
-from dataclasses import dataclass
-from typing import Final, Self
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from typing import Final
 
 import numpy as np
 
-from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
-from handeye.pose import Array
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
+from handeye.tasks.water_pump.old_draws import OldVariation
+from handeye.variation import Quantity, Variation
 
-_ARM_UNIT: Final = np.array([DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE])
-
-ARM_OFFSET: Final = np.array([0.060, 0.055, 0.027, 0.13, 0.13, 0.27])  # sigma; deg, joint 3 in
-ARM_SCALE: Final = np.array([0.11, 0.22, 0.11, 0.11, 0.22, 0.22])  # sigma; %, about ARM_CENTRE
-ARM_WAVE: Final = np.array([0.027, 0.027, 0.011, 0.044, 0.044, 0.09])  # amplitude; deg, joint 3 in
-ARM_PERIOD: Final = np.array([60.0, 60.0, 8.0, 60.0, 60.0, 60.0])  # of the waviness; deg, joint 3 in
-ARM_CENTRE: Final = np.array([-25.0, 105.0, 31.0, 0.0, 75.0, 20.0])  # mid-work posture; deg, joint 3 in
-"""Potentiometers against joints, so that the hand is wrong by .060 in (median), .112 in (95 %); layout study,
-section 4. The waviness decides how far a saved correction carries; its amplitude is a placeholder."""
-
-ARM_POT_NOISE: Final = np.array([0.004, 0.004, 0.002, 0.01, 0.01, 0.01])  # sigma; deg, joint 3 in
-"""Reading-to-reading noise. Placeholder: far inside the .08 in repeatability of the 1974 data sheet."""
-TACHOMETER_NOISE: Final = np.array([2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5])  # sigma; rad/s, joint 3 m/s
-"""Placeholder, after filtering: with 1/60 s it makes under .1 N of noise in the estimated hand force."""
-LINK_MASS: Final = 3.0  # sigma; %, true mass over the controller's. Placeholder.
-JOINT_FRICTION: Final = np.array([0.04, 0.04, 0.16, 0.008, 0.008, 0.004])  # mean; N m, joint 3 N
-"""Coulomb friction of the joints, varied by half. Placeholder: the true arm had more and its programs knew
-it; this much makes about .15 N of false hand force."""
-
-GAP_OFFSET: Final = 0.01  # sigma; in. Placeholder.
-GAP_SCALE: Final = 0.5  # sigma; %. Placeholder.
-GAP_NOISE: Final = 0.001  # sigma; in. Placeholder: one step of a 12-bit converter over 4.13 in.
-SWITCH_FORCE: Final = (2.0, 0.4)  # mean and sigma; oz. Reference 6.3: "a few oz; simulate about 2 oz".
-TORQUE_NOISE: Final = 0.004  # sigma; N m, screwdriver motor current. Placeholder.
-
-BELT_X: Final = (41.5, 47.5)  # uniform; in, where the base's reference point lies. Layout study, section 2.
-BELT_Y: Final = (23.0, 33.0)  # uniform; in
-BELT_LINE: Final = (90.0, 30.0)  # middle and half range; deg, direction of the line of centres
-
+JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
+ARM_PERIOD: Final = (60.0, 60.0, 8.0, 60.0, 60.0, 60.0)
+"""Of the waviness of the potentiometers; in JOINT_UNITS, as the next."""
+ARM_CENTRE: Final = (-25.0, 105.0, 31.0, 0.0, 75.0, 20.0)
+"""Mid-work posture, at which a wrong scale makes no error."""
+BELT_X: Final = (41.5, 47.5)
+BELT_Y: Final = (23.0, 33.0)
+BELT_LINE: Final = (60.0, 120.0)
+"""Where the base lies: its reference point (in) and the direction of its line of centres (deg)."""
 FIXTURES: Final = ("blocks", "pin_holder", "gasket_stand", "top_stand", "rack", "dispenser")
-FIXTURE_PLACE: Final = 0.02  # sigma; in, each of x and y. Placeholder.
-FIXTURE_YAW: Final = 0.2  # sigma; deg. Placeholder.
-HOLE_PLACE: Final = 0.003  # sigma; in, each of x and y, of a tapped hole. Placeholder: drilled by jig.
-PART_MASS: Final = 2.0  # sigma; %. Placeholder.
 RUBBING: Final = ("pad", "table", "part", "thread")
-FRICTION: Final = 15.0  # half range; %, of every coefficient of friction. Placeholder.
-
-CAMERA_PLACE: Final = 0.15  # sigma; in, each axis of the mount. Vision study, verdict 1.
-CAMERA_TURN: Final = 0.2  # sigma; deg, each of pan, tilt and roll. Vision study, verdict 1.
-FOCAL_LENGTH: Final = 0.4  # sigma; %, each lens. Vision study, verdict 1.
-CAMERA_POT: Final = 0.07  # sigma; deg, pan and tilt readings. Vision study: .07-.10 reproduces 1973.
-
-LIGHT_ZENITH: Final = (5.0, 50.0)  # uniform; deg from the vertical. Vision study 0.1, as the two below.
-LIGHT_STRENGTH: Final = (0.35, 0.85)  # uniform; diffuse intensity
-AMBIENT: Final = (0.15, 0.40)  # uniform
-
 SEVENTH: Final = 7_000_000
 """The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Light:
-    """The key light and what the room adds."""
-
-    zenith: float
-    """rad from the vertical."""
-    azimuth: float
-    """rad from table x: where the light comes from."""
-    strength: float
-    ambient: float
+_READING: Final = (
+    "Potentiometers against joints, so that the hand is wrong by .060 in (median), .112 in (95 %); layout study, "
+    "section 4."
+)
+_VISION: Final = "Vision study, verdict 1."
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Placing:
-    """An error of place: m and rad."""
-
-    x: float = 0.0
-    y: float = 0.0
-    yaw: float = 0.0
+def screws(seed: int) -> int:
+    """Screws and tapped holes of the pump of a seed: from SEVENTH on it is of a later make, with a seventh."""
+    return 6 if seed < SEVENTH else 7
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class World:
-    """One drawn world. Equal seeds give equal worlds.
+def variation(seed: int) -> Variation:
+    """The quantities in which the world of a seed differs from others."""
+    return _variation(screws(seed))
 
-    From seed `SEVENTH` on the pump is of a later make, with a seventh hole, and the dispenser has a seventh screw.
-    """
 
-    seed: int
-    base: Placing
-    """The pump base on the belt: its reference point and the direction of its line of centres, in W."""
-    arm: ArmErrors
-    hand: HandErrors
-    camera: CameraErrors
-    light: Light
-    fixtures: dict[str, Placing]
-    """Error of each fixture, by the names in FIXTURES."""
-    holes: tuple[tuple[float, float], ...]
-    """Error of each tapped hole in the base, m; as many as there are holes."""
-    part_mass: float
-    """Scale of the masses of base and top."""
-    friction: dict[str, float]
-    """Scales of the coefficients of friction, by the names in RUBBING."""
-    thread_phase: tuple[float, ...]
-    """Where each thread starts, rad."""
+@cache
+def _variation(count: int) -> Variation:
+    return OldVariation(
+        *_belt(), *_arm(), *_hand(), *_camera(), *_light(), *_fixtures(), *_holes(count), *_parts(count)
+    )
 
-    @classmethod
-    def sample(cls, seed: int) -> Self:
-        """The world of a seed."""
-        screws = 6 if seed < SEVENTH else 7
-        rng = np.random.default_rng([seed, 1973])
-        return cls(
-            seed=seed,
-            base=Placing(
-                x=float(rng.uniform(*BELT_X)) * INCH,
-                y=float(rng.uniform(*BELT_Y)) * INCH,
-                yaw=(BELT_LINE[0] + BELT_LINE[1] * float(rng.uniform(-1, 1))) * DEGREE,
-            ),
-            arm=_arm(rng, 1.0),
-            hand=_hand(rng, 1.0),
-            camera=_camera(rng, 1.0),
-            light=_light(rng),
-            fixtures={name: _placing(rng) for name in FIXTURES},
-            holes=tuple(_pair(rng, HOLE_PLACE * INCH) for _ in range(screws)),
-            part_mass=1 + float(_clipped(rng)) * PART_MASS / 100,
-            friction={name: 1 + FRICTION / 100 * float(rng.uniform(-1, 1)) for name in RUBBING},
-            thread_phase=tuple(float(a) for a in rng.uniform(0, 2 * np.pi, screws)),
+
+def _group(
+    group: str,
+    components: Mapping[str, Distribution],
+    unit: str | Sequence[str],
+    source: str,
+    *,
+    nominal: Sequence[float] | float = 0.0,
+    least: float = -np.inf,
+) -> Iterator[Quantity]:
+    """Quantities that one source speaks of; those that are sizes are never less than nothing."""
+    units = [unit] * len(components) if isinstance(unit, str) else unit
+    nominals = np.broadcast_to(nominal, len(components))
+    for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
+        low = 0.0 if isinstance(distribution, Noise | Fixed) else least
+        yield Quantity(
+            name=f"{group}.{name}",
+            unit=its,
+            distribution=distribution,
+            nominal=float(middle),
+            limits=(low, np.inf),
+            source=source,
         )
 
-    @classmethod
-    def nominal(cls, screws: int = 6) -> Self:
-        """The world as the plan thinks it is: no error, no noise."""
-        rng = np.random.default_rng(0)
-        return cls(
-            seed=0,
-            base=Placing(x=sum(BELT_X) / 2 * INCH, y=sum(BELT_Y) / 2 * INCH, yaw=BELT_LINE[0] * DEGREE),
-            arm=_arm(rng, 0.0),
-            hand=_hand(rng, 0.0),
-            camera=_camera(rng, 0.0),
-            light=Light(zenith=25 * DEGREE, azimuth=200 * DEGREE, strength=0.6, ambient=0.25),
-            fixtures={name: Placing() for name in FIXTURES},
-            holes=((0.0, 0.0),) * screws,
-            part_mass=1.0,
-            friction=dict.fromkeys(RUBBING, 1.0),
-            thread_phase=(0.0,) * screws,
-        )
 
-    def generator(self, stream: int) -> np.random.Generator:
-        """A source of noise of this world; different `stream`s are independent."""
-        return np.random.default_rng([self.seed, 1973, stream])
+def _numbered(kind: type[Normal | Uniform | Noise | Fixed], *spreads: float) -> dict[str, Distribution]:
+    return {str(number): kind(spread) for number, spread in enumerate(spreads, 1)}
 
 
-def _clipped(rng: np.random.Generator, size: int | None = None) -> Array:
-    """Standard normal values clipped at two sigma."""
-    return np.clip(rng.standard_normal(size), -2.0, 2.0)
+def _belt() -> Iterator[Quantity]:
+    for name, (low, high), unit in (("x", BELT_X, "in"), ("y", BELT_Y, "in"), ("yaw", BELT_LINE, "deg")):
+        yield from _group(
+            "base", {name: Range(low, high)}, unit,
+            "Where the pump base lies on the belt: its reference point, and the direction of its line of centres. "
+            "Layout study, section 2.",
+            nominal=(low + high) / 2,
+        )  # fmt: skip
 
 
-def _pair(rng: np.random.Generator, sigma: float) -> tuple[float, float]:
-    x, y = _clipped(rng, 2) * sigma
-    return float(x), float(y)
+def _arm() -> Iterator[Quantity]:
+    yield from _group(
+        "arm.offset", _numbered(Normal, 0.060, 0.055, 0.027, 0.13, 0.13, 0.27), JOINT_UNITS, _READING
+    )
+    yield from _group(
+        "arm.scale", _numbered(Normal, 0.11, 0.22, 0.11, 0.11, 0.22, 0.22), "%",
+        f"Scale of the reading, about the mid-work posture. {_READING}",
+    )  # fmt: skip
+    yield from _group(
+        "arm.wave", _numbered(Fixed, 0.027, 0.027, 0.011, 0.044, 0.044, 0.09), JOINT_UNITS,
+        f"Amplitude of the waviness of the reading. {_READING} The waviness decides how far a saved correction "
+        "carries; its amplitude is a placeholder.",
+    )  # fmt: skip
+    yield from _group(
+        "arm.wave_phase",
+        {str(n): Phase() for n in range(1, 7)},
+        "deg",
+        "Where in it the waviness of the reading is.",
+    )
+    yield from _group(
+        "arm.pot_noise", _numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
+        "Reading-to-reading noise. Placeholder: far inside the .08 in repeatability of the 1974 data sheet.",
+    )  # fmt: skip
+    yield from _group(
+        "arm.tachometer_noise", _numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5),
+        ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s"),
+        "Placeholder, after filtering: with 1/60 s it makes under .1 N of noise in the estimated hand force.",
+    )  # fmt: skip
+    yield from _group(
+        "arm.link_mass", _numbered(Normal, *[3.0] * 6), "%",
+        "True mass over the controller's. Placeholder.", least=-90.0,
+    )  # fmt: skip
+    friction = (0.04, 0.04, 0.16, 0.008, 0.008, 0.004)
+    yield from _group(
+        "arm.friction", _numbered(Uniform, *(mean / 2 for mean in friction)),
+        ("N m", "N m", "N", "N m", "N m", "N m"),
+        "Coulomb friction of the joints, varied by half; without its error it is the mean, set to 0 it is gone. "
+        "Placeholder: the true arm had more and its programs knew it; this much makes about .15 N of false hand force.",
+        nominal=friction, least=0.0,
+    )  # fmt: skip
 
 
-def _placing(rng: np.random.Generator) -> Placing:
-    x, y = _pair(rng, FIXTURE_PLACE * INCH)
-    return Placing(x=x, y=y, yaw=float(_clipped(rng)) * FIXTURE_YAW * DEGREE)
-
-
-def _arm(rng: np.random.Generator, amount: float) -> ArmErrors:
-    return ArmErrors(
-        offset=amount * _clipped(rng, 6) * ARM_OFFSET * _ARM_UNIT,
-        scale=amount * _clipped(rng, 6) * ARM_SCALE / 100,
-        wave=amount * ARM_WAVE * _ARM_UNIT,
-        period=ARM_PERIOD * _ARM_UNIT,
-        phase=rng.uniform(0, 2 * np.pi, 6),
-        centre=ARM_CENTRE * _ARM_UNIT,
-        pot_noise=amount * ARM_POT_NOISE * _ARM_UNIT,
-        tachometer_noise=amount * TACHOMETER_NOISE,
-        link_mass=1 + amount * _clipped(rng, 6) * LINK_MASS / 100,
-        friction=amount * JOINT_FRICTION * rng.uniform(0.5, 1.5, 6),
+def _hand() -> Iterator[Quantity]:
+    yield from _group("hand", {"gap_offset": Normal(0.01)}, "in", "Of the gap as read. Placeholder.")
+    yield from _group("hand", {"gap_scale": Normal(0.5)}, "%", "Of the gap as read. Placeholder.")
+    yield from _group(
+        "hand", {"gap_noise": Noise(0.001)}, "in",
+        "Placeholder: one step of a 12-bit converter over 4.13 in.",
+    )  # fmt: skip
+    yield from _group(
+        "hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
+        'Force at which a finger\'s switch fires. Reference 6.3: "a few oz; simulate about 2 oz".',
+        nominal=2.0, least=0.0,
+    )  # fmt: skip
+    yield from _group(
+        "screwdriver", {"torque_noise": Noise(0.004)}, "N m", "Screwdriver motor current. Placeholder."
     )
 
 
-def _hand(rng: np.random.Generator, amount: float) -> HandErrors:
-    mean, sigma = SWITCH_FORCE
-    first, second = (mean + amount * sigma * _clipped(rng, 2)) * OUNCE_FORCE
-    return HandErrors(
-        gap_offset=amount * float(_clipped(rng)) * GAP_OFFSET * INCH,
-        gap_scale=amount * float(_clipped(rng)) * GAP_SCALE / 100,
-        gap_noise=amount * GAP_NOISE * INCH,
-        switch_force=(float(first), float(second)),
-        torque_noise=amount * TORQUE_NOISE,
+def _camera() -> Iterator[Quantity]:
+    yield from _group(
+        "camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in", f"Each axis of the mount. {_VISION}"
     )
+    yield from _group(
+        "camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
+        f"How the mount is turned. {_VISION}",
+    )  # fmt: skip
+    yield from _group(
+        "camera.focal_length", {lens: Normal(0.4) for lens in ("25mm", "50mm")}, "%", f"Each lens. {_VISION}",
+        least=-50.0,
+    )  # fmt: skip
+    yield from _group(
+        "camera", {"pot_noise": Noise(0.07)}, "deg",
+        "Pan and tilt readings. Vision study: .07-.10 reproduces 1973.",
+    )  # fmt: skip
 
 
-def _camera(rng: np.random.Generator, amount: float) -> CameraErrors:
-    place = amount * _clipped(rng, 3) * CAMERA_PLACE * INCH
-    turn = amount * _clipped(rng, 3) * CAMERA_TURN * DEGREE
-    focal = 1 + amount * _clipped(rng, 2) * FOCAL_LENGTH / 100
-    return CameraErrors(
-        place=(float(place[0]), float(place[1]), float(place[2])),
-        turn=(float(turn[0]), float(turn[1]), float(turn[2])),
-        focal_scale=(float(focal[0]), float(focal[1])),
-        pot_noise=amount * CAMERA_POT * DEGREE,
-    )
+def _light() -> Iterator[Quantity]:
+    for name, unit, low, high, nominal, source in (
+        ("zenith", "deg", 5.0, 50.0, 25.0, "Where the key light comes from: angle to the vertical."),
+        ("azimuth", "deg", -180.0, 180.0, -160.0, "Where the key light comes from: angle to the table's x."),
+        ("strength", "", 0.35, 0.85, 0.6, "Diffuse intensity of the key light."),
+        ("ambient", "", 0.15, 0.40, 0.25, "What the room adds to the key light."),
+    ):
+        limits = {"zenith": (0.0, 89.0), "azimuth": (-360.0, 360.0)}.get(name, (0.0, 1.0))
+        yield Quantity(
+            name=f"light.{name}", unit=unit, distribution=Range(low, high), nominal=nominal, limits=limits,
+            source=f"{source} Vision study 0.1.",
+        )  # fmt: skip
 
 
-def _light(rng: np.random.Generator) -> Light:
-    zenith = float(rng.uniform(*LIGHT_ZENITH)) * DEGREE
-    return Light(
-        zenith=zenith,
-        azimuth=float(rng.uniform(-np.pi, np.pi)),
-        strength=float(rng.uniform(*LIGHT_STRENGTH)),
-        ambient=float(rng.uniform(*AMBIENT)),
-    )
+def _fixtures() -> Iterator[Quantity]:
+    for fixture in FIXTURES:
+        yield from _group(
+            f"fixtures.{fixture}", {"x": Normal(0.02), "y": Normal(0.02), "yaw": Normal(0.2)},
+            ("in", "in", "deg"), "Where the fixture stands against its drawing. Placeholder.",
+        )  # fmt: skip
+
+
+def _holes(count: int) -> Iterator[Quantity]:
+    for hole in range(1, count + 1):
+        yield from _group(
+            f"holes.{hole}", {"x": Normal(0.003), "y": Normal(0.003)}, "in",
+            "Where the tapped hole is against its drawing. Placeholder: drilled by jig.",
+        )  # fmt: skip
+
+
+def _parts(count: int) -> Iterator[Quantity]:
+    yield Quantity(
+        name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, np.inf),
+        source="Masses of base and top over those of the drawing. Placeholder.",
+    )  # fmt: skip
+    yield from _group(
+        "friction", {name: Uniform(15.0) for name in RUBBING}, "%",
+        "Coefficients of friction over those of the drawing. Placeholder.", least=-100.0,
+    )  # fmt: skip
+    yield from _group(
+        "thread_phase", {str(screw): Phase() for screw in range(1, count + 1)}, "deg",
+        "Where the thread of a screw hole starts.",
+    )  # fmt: skip

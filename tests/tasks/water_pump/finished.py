@@ -10,9 +10,9 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
 from handeye.ports.workcell import Drive
 from handeye.pose import Pose, planar, translated
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, standard
-from handeye.tasks.water_pump.variation import World
 from handeye.units import JIFFY
 
 BRAKED = Drive(torque=np.zeros(6), brakes=True, gap=0.05, grip=20.0, tool=0.0)
@@ -32,7 +32,7 @@ def put(truth: Truth, part: str, X_WP: Pose) -> None:
 
 def stacked(*, rest: bool = True) -> SimulatedCell:
     """Base against the blocks, gasket and top on it, nothing screwed."""
-    cell = SimulatedCell(World.nominal(), camera="ray", rest=rest)
+    cell = SimulatedCell(PumpWorld.nominal(), camera="ray", rest=rest)
     X = translated(standard(), (1e-4, -1e-4, 0.0))
     top = base_top() + dimensions()("gasket.thickness")
     for part, height in (("base", 0.0), ("gasket", base_top()), ("top", top)):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from handeye.cell.staging import Stage
-from handeye.tasks.water_pump.variation import World
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.trials.vision import base_trials, gasket_trials, locate, look, pump_base
 from handeye.units import INCH
 from handeye.vision.base import Failure, SpecificLocation, locate_specific
@@ -18,7 +18,7 @@ PART = pump_base()
 
 
 def found(seed: int, renderer: str) -> SpecificLocation | Failure:
-    stage = Stage(World.sample(seed), renderer=renderer)
+    stage = Stage(PumpWorld.sample(seed), renderer=renderer)
     return locate(stage.camera, stage.true_camera, PART)[0]
 
 
@@ -29,7 +29,7 @@ def test_both_renderers_put_the_holes_at_the_same_place_to_a_point():
 
 
 def test_the_base_is_found_to_a_fiftieth_of_an_inch_in_a_world_without_errors():
-    stage = Stage(World.nominal(), renderer="ray")
+    stage = Stage(PumpWorld.nominal(), renderer="ray")
     location, _ = locate(stage.camera, stage.true_camera, PART)
     base = stage.world.base
     assert location.pose[:2] == pytest.approx((base.x, base.y), abs=0.02 * INCH)
@@ -46,7 +46,7 @@ def test_a_gasket_is_accepted_only_where_it_belongs():
 
 
 def test_a_forgotten_refocus_fails_with_a_clear_message():
-    stage = Stage(World.sample(3), renderer="ray")
+    stage = Stage(PumpWorld.sample(3), renderer="ray")
     _, pictures = locate(stage.camera, stage.true_camera, PART)
     general = pictures[0][2]
     view = pictures[1][1]
@@ -58,7 +58,7 @@ def test_a_forgotten_refocus_fails_with_a_clear_message():
 
 
 def test_the_overlay_marks_the_line_of_centres():
-    stage = Stage(World.sample(3), renderer="ray")
+    stage = Stage(PumpWorld.sample(3), renderer="ray")
     location, pictures = locate(stage.camera, stage.true_camera, PART)
     image = annotate(pictures[1][0], specific=location)
     middle = np.mean([(hole.u, hole.v) for hole in location.holes], axis=0)
@@ -68,6 +68,6 @@ def test_the_overlay_marks_the_line_of_centres():
 
 
 def test_looking_twice_at_one_place_gives_the_same_view():
-    stage = Stage(World.sample(3), renderer="ray")
+    stage = Stage(PumpWorld.sample(3), renderer="ray")
     first = look(stage.camera, stage.true_camera, 0.025, PART.at[:3])
     assert look(stage.camera, stage.true_camera, 0.025, PART.at[:3]) == first

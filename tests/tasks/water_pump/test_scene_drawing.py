@@ -9,11 +9,11 @@ from handeye.arm.stanford import STANFORD
 from handeye.errors import InvalidInput
 from handeye.pose import planar
 from handeye.tasks.water_pump import scene
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.dimensions import dimensions, parse
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.scene.shapes import Bore
-from handeye.tasks.water_pump.variation import World
 from handeye.units import INCH
 
 
@@ -86,7 +86,7 @@ def test_blocks_touch_the_base_in_its_standard_position(bench):
 
 
 def test_fixtures_stand_off_their_places_by_the_worlds_error():
-    world = World.sample(4)
+    world = PumpWorld.sample(4)
     first, error = Bench(world), world.fixtures["rack"]
     away = first.data.body("driver").xpos[:2] - np.array([6, 33]) * INCH
     assert away == pytest.approx((error.x, error.y), abs=1e-9)

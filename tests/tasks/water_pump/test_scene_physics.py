@@ -5,14 +5,16 @@ import pytest
 from scene_bench import FREE, Bench, pinned_base, shift
 
 from handeye.pose import planar, translated
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
-from handeye.tasks.water_pump.variation import World
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "world", [World.nominal(), World.sample(1), World.sample(2)], ids=lambda w: f"seed{w.seed}"
+    "world",
+    [PumpWorld.nominal(), PumpWorld.sample(1), PumpWorld.sample(2)],
+    ids=lambda w: f"seed{w.drawn.spec.seed}",
 )
 def test_everything_stays_where_it_starts(world):
     bench = Bench(world)
@@ -67,7 +69,7 @@ def test_a_screw_cannot_enter_a_tapped_hole_by_itself():
 
 
 def test_the_scene_of_a_seed_is_always_the_same():
-    first, second = (Bench(World.sample(5)) for _ in range(2))
+    first, second = (Bench(PumpWorld.sample(5)) for _ in range(2))
     for bench in (first, second):
         bench.run(0.1)
     assert np.array_equal(first.data.qpos, second.data.qpos)

@@ -12,8 +12,8 @@ from handeye.pose import Array, Pose, hand, inverse, planar, pose
 from handeye.program.taught import load_taught
 from handeye.program.world_model import WorldModel
 from handeye.resources import plans
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import ARM, build
-from handeye.tasks.water_pump.variation import World
 from handeye.units import INCH
 
 TAUGHT = load_taught(plans() / "water_pump.toml")
@@ -25,7 +25,7 @@ GAP = 0.03
 
 @pytest.fixture(scope="module")
 def scene() -> tuple[mujoco.MjModel, mujoco.MjData]:
-    model = build(World.nominal())
+    model = build(PumpWorld.nominal())
     data = mujoco.MjData(model)
     for finger in ("finger_a", "finger_b"):
         data.joint(ARM + finger).qpos = GAP / 2

@@ -6,8 +6,8 @@ from math import cos, degrees, pi, sin, tan
 import mujoco
 import numpy as np
 
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Thread, Threads
-from handeye.tasks.water_pump.variation import World
 from handeye.units import JIFFY
 
 MOUTH = 0.05  # m, height of the hole's mouth
@@ -111,7 +111,7 @@ def drive_screw(
     *, offset: float = 0.0, tilt: float = 0.0, seconds: float = 8.0, press: float = 6.0
 ) -> Outcome:
     """Press and turn until the motor has to work too hard or the time is over; then switch it off."""
-    world = replace(World.nominal(), thread_phase=(1.0,) * 6)
+    world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6)
     model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
     data = mujoco.MjData(model)
     threads = Threads(model, data, world)

@@ -7,6 +7,7 @@ import mujoco
 from handeye.arm.stanford import STANFORD
 from handeye.pose import yaw
 from handeye.resources import scenes
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.base import add_base
 from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
 from handeye.tasks.water_pump.scene.fasteners import add_pins, add_screws
@@ -15,17 +16,16 @@ from handeye.tasks.water_pump.scene.room import add_room
 from handeye.tasks.water_pump.scene.shapes import Shaper
 from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.scene.tool import add_driver
-from handeye.tasks.water_pump.variation import World
 
 ARM = "stanford/"
 """Prefix of all names of the arm."""
 
 
-def specification(world: World) -> mujoco.MjSpec:
+def specification(world: PumpWorld) -> mujoco.MjSpec:
     """The scene before compilation, to add to or to save.
 
     Bodies: base (with carrier0..), gasket, top (with rotor), pin0, pin1, screw0.., driver (with bit), the
-    fixtures, and the arm's under `stanford/`. World frame: the table's.
+    fixtures, and the arm's under `stanford/`. PumpWorld frame: the table's.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     _add_arm(spec, world)  # first: free bodies before it would shift its joints
@@ -46,12 +46,12 @@ def specification(world: World) -> mujoco.MjSpec:
     return spec
 
 
-def build(world: World) -> mujoco.MjModel:
+def build(world: PumpWorld) -> mujoco.MjModel:
     """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
     return specification(world).compile()
 
 
-def _add_arm(spec: mujoco.MjSpec, world: World) -> None:
+def _add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
     """The arm on its riser, with the world's true masses, joint friction and pad friction."""
     arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
     for number, (mass, friction) in enumerate(zip(world.arm.link_mass, world.arm.friction, strict=True), 1):

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.pose import Array
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.dimensions import Dimensions, dimensions
 from handeye.tasks.water_pump.scene.drawing import Point, base_top, screw_holes
 from handeye.tasks.water_pump.scene.fasteners import screw_look
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia, box_moments
-from handeye.tasks.water_pump.variation import World
 
 _WEDGES = 24  # around the large holes; 15 degrees each
 
 
-def add_base(shaper: Shaper, world: World) -> None:
+def add_base(shaper: Shaper, world: PumpWorld) -> None:
     """The base on the belt, a free body; its threads are bodies inside it."""
     d = dimensions()
     body = shaper.spec.worldbody.add_body(

@@ -4,15 +4,15 @@ import math
 
 import mujoco
 
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.dimensions import Dimensions, dimensions
 from handeye.tasks.water_pump.scene.drawing import screw_holes, web_centre
 from handeye.tasks.water_pump.scene.fixtures import add_gasket_stand, add_top_stand
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
-from handeye.tasks.water_pump.variation import World
 
 
-def add_gasket(shaper: Shaper, world: World) -> None:
+def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     """The gasket on its stand: a rigid sheet that rests on a land at every screw."""
     d = dimensions()
     (x, y), turn, thick = d.all("gasket_stand.grasp"), d("standard.yaw"), d("gasket.thickness")
@@ -30,7 +30,7 @@ def add_gasket(shaper: Shaper, world: World) -> None:
     shaper.look(body, "gasket", "gasket", solids.surface(solids.gasket(len(world.holes))))
 
 
-def add_top(shaper: Shaper, world: World) -> None:
+def add_top(shaper: Shaper, world: PumpWorld) -> None:
     """The top on its stand: a flange with clearance holes, a hub with two flats to hold it by, the rotor."""
     d = dimensions()
     (x, y), turn, flange = d.all("top_stand.grasp"), d("standard.yaw"), d("top.flange")

@@ -8,15 +8,15 @@ from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but 
 from numpy.typing import NDArray
 
 from handeye.pose import Array
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import dispenser_places, pin_seat
 from handeye.tasks.water_pump.scene.fixtures import add_fixture
 from handeye.tasks.water_pump.scene.shapes import MESH, Bore, Shaper
-from handeye.tasks.water_pump.variation import World
 
 
-def add_pins(shaper: Shaper, world: World) -> None:
+def add_pins(shaper: Shaper, world: PumpWorld) -> None:
     """The holder, and a free stepped pin in each of its holes; a pin's origin is in its shoulder's plane."""
     d = dimensions()
     x0, y0, x1, y1 = d.all("pin_holder.places")
@@ -46,7 +46,7 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
         geom.material = "pin"
 
 
-def add_screws(shaper: Shaper, world: World) -> None:
+def add_screws(shaper: Shaper, world: PumpWorld) -> None:
     """The dispenser, and a free screw for each hole, hanging by its head in it; its origin is at its point."""
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import mujoco
 
 from handeye.pose import Pose, inverse, planar, yaw
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import Point
 from handeye.tasks.water_pump.scene.shapes import Shaper
-from handeye.tasks.water_pump.variation import World
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +39,7 @@ def upright(angle: float) -> list[float]:
     return [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
 
 
-def add_fixture(shaper: Shaper, world: World, name: str, middle: Point) -> Fixture:
+def add_fixture(shaper: Shaper, world: PumpWorld, name: str, middle: Point) -> Fixture:
     """An empty fixture; `name` is one of the world's fixtures, `middle` (m) what its error turns about."""
     error = world.fixtures[name]
     X = planar(middle[0] + error.x, middle[1] + error.y, 0.0, error.yaw) @ inverse(planar(*middle, 0.0, 0.0))
@@ -47,7 +47,7 @@ def add_fixture(shaper: Shaper, world: World, name: str, middle: Point) -> Fixtu
     return Fixture(body=body, X_WF=X)
 
 
-def add_blocks(shaper: Shaper, world: World) -> None:
+def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
     """The two aligning blocks: the base is pushed against the far one (+y), then the left one (-x)."""
     d = dimensions()
     far, left, height = d.all("blocks.far"), d.all("blocks.left"), d("blocks.height")
@@ -65,7 +65,7 @@ def _bolts(x0: float, y0: float, x1: float, y1: float) -> list[Point]:
     return [(x - long, y), (x + long, y)] if x1 - x0 > y1 - y0 else [(x, y - long), (x, y + long)]
 
 
-def add_gasket_stand(shaper: Shaper, world: World) -> Fixture:
+def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
     """Two rails under the gasket's rims, open in the middle for the fingers."""
     d = dimensions()
     (x, y), height = d.all("gasket_stand.grasp"), d("gasket_stand.height")
@@ -83,7 +83,7 @@ def add_gasket_stand(shaper: Shaper, world: World) -> Fixture:
     return fixture
 
 
-def add_top_stand(shaper: Shaper, world: World) -> Fixture:
+def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
     """A table for the pump's top."""
     d = dimensions()
     (x, y), height = d.all("top_stand.grasp"), d("top_stand.height")

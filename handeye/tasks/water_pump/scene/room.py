@@ -7,15 +7,15 @@ import numpy as np
 
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.pose import Array
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.shapes import Shaper
-from handeye.tasks.water_pump.variation import World
 
 TRAY = -2.0
 """Height (m) of a tray under the floor, out of every sight, for screws that have become part of a thread."""
 
 
-def add_room(shaper: Shaper, world: World) -> None:
+def add_room(shaper: Shaper, world: PumpWorld) -> None:
     """Everything that stands still, apart from the fixtures."""
     _add_table(shaper, world)
     _add_belt(shaper, world)
@@ -26,11 +26,11 @@ def add_room(shaper: Shaper, world: World) -> None:
     _add_cameras(shaper.spec)
 
 
-def _friction(world: World) -> list[float]:
+def _friction(world: PumpWorld) -> list[float]:
     return [0.25 * world.friction["table"], 0.002, 0.0001]  # assembly study
 
 
-def _add_table(shaper: Shaper, world: World) -> None:
+def _add_table(shaper: Shaper, world: PumpWorld) -> None:
     d = dimensions()
     body, (width, depth), thick = shaper.spec.worldbody, d.all("table.size"), d("table.thickness")
     table = shaper.box(body, "solid", (0, 0, -thick), (width, depth, 0), "table", "table")
@@ -46,7 +46,7 @@ def _add_table(shaper: Shaper, world: World) -> None:
     shaper.box(body, "look", (0.388, 0.134, 0.0), (0.628, 0.374, 0.1524), "iron")  # riser under the arm
 
 
-def _add_belt(shaper: Shaper, world: World) -> None:
+def _add_belt(shaper: Shaper, world: PumpWorld) -> None:
     """The belt with its end rollers, between side rails that stay below its surface."""
     d = dimensions()
     body, depth = shaper.spec.worldbody, d.all("table.size")[1]
@@ -134,7 +134,7 @@ def _towards(view: Array) -> list[float]:
     return [float(value) for value in quat]
 
 
-def _add_light(spec: mujoco.MjSpec, world: World) -> None:
+def _add_light(spec: mujoco.MjSpec, world: PumpWorld) -> None:
     """One lamp that throws shadows, as far from the work as in the vision study, and the room's own light."""
     d, light = dimensions(), world.light
     target, distance = np.array(d.all("camera.light_target")), d("camera.light_distance")

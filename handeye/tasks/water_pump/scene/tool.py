@@ -2,13 +2,13 @@
 
 import mujoco
 
+from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
-from handeye.tasks.water_pump.variation import World
 
 
-def add_driver(shaper: Shaper, world: World) -> None:
+def add_driver(shaper: Shaper, world: PumpWorld) -> None:
     """The rack, and the screwdriver hanging in it: a square grip block with a spindle below."""
     d = dimensions()
     x, y = d.all("rack.place")

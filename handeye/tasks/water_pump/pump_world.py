@@ -1,0 +1,160 @@
+"""The world of the pump by its devices and parts: what the simulated cell is built from."""
+
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
+from handeye.tasks.water_pump.variation import (
+    ARM_CENTRE,
+    ARM_PERIOD,
+    FIXTURES,
+    JOINT_UNITS,
+    RUBBING,
+    SEVENTH,
+    screws,
+    variation,
+)
+from handeye.units import UNITS
+from handeye.variation import Overrides, World, WorldSpec
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Light:
+    """The key light and what the room adds."""
+
+    zenith: float
+    """rad from the vertical."""
+    azimuth: float
+    """rad from table x: where the light comes from."""
+    strength: float
+    ambient: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Placing:
+    """An error of place: m and rad."""
+
+    x: float = 0.0
+    y: float = 0.0
+    yaw: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PumpWorld:
+    """One drawn world."""
+
+    drawn: World
+    base: Placing
+    """The pump base on the belt: its reference point and the direction of its line of centres, in W."""
+    arm: ArmErrors
+    hand: HandErrors
+    camera: CameraErrors
+    light: Light
+    fixtures: dict[str, Placing]
+    """Error of each fixture, by the names in FIXTURES."""
+    holes: tuple[tuple[float, float], ...]
+    """Error of each tapped hole in the base, m; as many as there are holes."""
+    part_mass: float
+    """Scale of the masses of base and top."""
+    friction: dict[str, float]
+    """Scales of the coefficients of friction, by the names in RUBBING."""
+    thread_phase: tuple[float, ...]
+    """Where each thread starts, rad."""
+
+    @classmethod
+    def of(cls, world: World) -> Self:
+        """The values of a drawn world, by what they belong to."""
+        holes = range(1, screws(world.spec.seed) + 1)
+        return cls(
+            drawn=world,
+            base=_placing(world, "base"),
+            arm=_arm(world),
+            hand=_hand(world),
+            camera=_camera(world),
+            light=Light(
+                zenith=world["light.zenith"],
+                azimuth=world["light.azimuth"],
+                strength=world["light.strength"],
+                ambient=world["light.ambient"],
+            ),
+            fixtures={name: _placing(world, f"fixtures.{name}") for name in FIXTURES},
+            holes=tuple((world[f"holes.{hole}.x"], world[f"holes.{hole}.y"]) for hole in holes),
+            part_mass=1 + world["part_mass"],
+            friction={name: 1 + world[f"friction.{name}"] for name in RUBBING},
+            thread_phase=world.numbered("thread_phase"),
+        )
+
+    @classmethod
+    def draw(cls, spec: WorldSpec) -> Self:
+        """The world of a specification.
+
+        Raises:
+            InvalidInput: it cannot be drawn here.
+        """
+        return cls.of(variation(spec.seed).draw(spec))
+
+    @classmethod
+    def sample(cls, seed: int) -> Self:
+        """The world of a seed, with errors as large as they usually are."""
+        return cls.draw(WorldSpec(seed=seed))
+
+    @classmethod
+    def nominal(cls, screws: int = 6) -> Self:
+        """The world as the plan and the controller think it is: no error, no noise, no friction in the joints."""
+        seed = 0 if screws == 6 else SEVENTH
+        table = variation(seed)
+        everything = tuple(sorted({name.split(".")[0] for name in table.quantities}))
+        smooth = {quantity.name: 0.0 for quantity in table.select("arm.friction")}
+        return cls.draw(WorldSpec(seed=seed, overrides=Overrides(without=everything, set=smooth)))
+
+    def generator(self, stream: str) -> np.random.Generator:
+        """A source of noise of this world; different `stream`s are independent."""
+        return self.drawn.generator(stream)
+
+
+def _placing(world: World, name: str) -> Placing:
+    return Placing(x=world[f"{name}.x"], y=world[f"{name}.y"], yaw=world[f"{name}.yaw"])
+
+
+def _arm(world: World) -> ArmErrors:
+    size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
+
+    def joints(name: str) -> np.ndarray:
+        return np.array(world.numbered(f"arm.{name}"))
+
+    return ArmErrors(
+        offset=joints("offset"),
+        scale=joints("scale"),
+        wave=joints("wave"),
+        period=np.array(ARM_PERIOD) * size,
+        phase=joints("wave_phase"),
+        centre=np.array(ARM_CENTRE) * size,
+        pot_noise=joints("pot_noise"),
+        tachometer_noise=joints("tachometer_noise"),
+        link_mass=1 + joints("link_mass"),
+        friction=joints("friction"),
+    )
+
+
+def _hand(world: World) -> HandErrors:
+    return HandErrors(
+        gap_offset=world["hand.gap_offset"],
+        gap_scale=world["hand.gap_scale"],
+        gap_noise=world["hand.gap_noise"],
+        switch_force=(world["hand.switch_force.plus_y"], world["hand.switch_force.minus_y"]),
+        torque_noise=world["screwdriver.torque_noise"],
+    )
+
+
+def _camera(world: World) -> CameraErrors:
+    def three(name: str, x: str, y: str, z: str) -> tuple[float, float, float]:
+        return world[f"camera.{name}.{x}"], world[f"camera.{name}.{y}"], world[f"camera.{name}.{z}"]
+
+    return CameraErrors(
+        place=three("place", "x", "y", "z"),
+        turn=three("turn", "pan", "tilt", "roll"),
+        focal_scale=(1 + world["camera.focal_length.25mm"], 1 + world["camera.focal_length.50mm"]),
+        pot_noise=world["camera.pot_noise"],
+    )

@@ -1,0 +1,182 @@
+"""Variation of the world: a task's table of quantities, and the worlds that are drawn from it.
+
+A quantity is one number with a dotted name, such as `camera.place.x`; what stands before a dot names a group of them
+(`camera.place`, `camera`). Each is drawn from a stream of its own, made from the seed and its name, so that a new
+quantity moves no other, and one can be switched off or set while all others stay as they are.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Annotated, Final, Literal
+from zlib import crc32
+
+import msgspec
+import numpy as np
+
+from handeye.diagnostics import quoted, suggestion
+from handeye.distributions import Distribution
+from handeye.errors import InvalidInput
+from handeye.units import UNITS, Unit
+
+DRAWING: Final = 1
+"""How a world comes from its seed: raised when equal seeds give other worlds than before."""
+
+Level = Literal["low", "nominal", "high"]
+SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}
+"""What the spread of every error is multiplied by."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """One number in which worlds differ."""
+
+    name: str
+    unit: str
+    """One of UNITS; that of all figures here."""
+    distribution: Distribution
+    nominal: float = 0.0
+    """Its value where it is switched off."""
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    """What it can be set to."""
+    source: str
+    """What it is, and where its figures come from."""
+
+    @property
+    def measure(self) -> Unit:
+        """Its unit, with its size."""
+        return UNITS[self.unit]
+
+
+class Overrides(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What of a world is not as drawn."""
+
+    without: tuple[str, ...] = ()
+    """Quantities and groups at their nominal values, in the order of their names."""
+    set: dict[str, float] = {}
+    """Values of quantities, SI; where both speak of one, this counts."""
+
+
+class WorldSpec(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All that a world is drawn from, as a run records it. Equal specifications give equal worlds."""
+
+    seed: Annotated[int, msgspec.Meta(ge=0)]
+    level: Level = "nominal"
+    overrides: Overrides = Overrides()
+    drawing: int = DRAWING
+    """How it is drawn: that of the handeye that drew it first."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class World:
+    """Values of the quantities of a task."""
+
+    spec: WorldSpec
+    values: Mapping[str, float]
+    """By name, SI."""
+
+    def __getitem__(self, name: str) -> float:
+        return self.values[name]
+
+    def numbered(self, group: str) -> tuple[float, ...]:
+        """The values of `group.1`, `group.2` and so on, SI."""
+        found: list[float] = []
+        while (name := f"{group}.{len(found) + 1}") in self.values:
+            found.append(self.values[name])
+        return tuple(found)
+
+    def generator(self, stream: str) -> np.random.Generator:
+        """A source of noise; streams of different names are independent."""
+        return random_numbers(self.spec.seed, stream)
+
+
+def random_numbers(seed: int, name: str) -> np.random.Generator:
+    """The stream of random numbers of a name in the world of a seed."""
+    return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))
+
+
+class Variation:
+    """The quantities in which the worlds of a task differ, in the order they are listed."""
+
+    def __init__(self, *quantities: Quantity) -> None:
+        self.quantities = {quantity.name: quantity for quantity in quantities}
+        """By name."""
+        assert len({crc32(name.encode()) for name in self.quantities}) == len(quantities), (
+            "two share a stream"
+        )
+        assert not self.groups & self.quantities.keys(), "a name stands for a quantity and for a group"
+
+    @cached_property
+    def groups(self) -> frozenset[str]:
+        """Names of groups of quantities."""
+        parts = [name.split(".") for name in self.quantities]
+        return frozenset(".".join(part[:n]) for part in parts for n in range(1, len(part)))
+
+    def select(self, name: str) -> tuple[Quantity, ...]:
+        """The quantity of a name, or those of a group.
+
+        Raises:
+            InvalidInput: there is none such.
+        """
+        found = tuple(q for q in self.quantities.values() if within(q.name, name))
+        if not found:
+            first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
+            near = suggestion(name, {*self.quantities, *self.groups})
+            known = near or f"there are {', '.join(map(quoted, first))}"
+            raise InvalidInput(f"no quantity of the world is called {quoted(name)}; {known}")
+        return found
+
+    def draw(self, spec: WorldSpec) -> World:
+        """The world of a specification.
+
+        Raises:
+            InvalidInput: it was drawn in another way, or speaks of quantities that this task does not have.
+        """
+        self.check(spec)
+        off = {q.name for name in spec.overrides.without for q in self.select(name)}
+        drawn = self.drawn(spec.seed)
+        values = {
+            name: quantity.nominal * quantity.measure.size
+            if name in off
+            else at_level(quantity, drawn[name], spec.level)
+            for name, quantity in self.quantities.items()
+        }
+        return World(spec=spec, values=values | spec.overrides.set)
+
+    def check(self, spec: WorldSpec) -> None:
+        """Make sure that a world is one that can be drawn here.
+
+        Raises:
+            InvalidInput: as `draw`.
+        """
+        if spec.drawing != DRAWING:
+            raise InvalidInput(
+                f"the world of seed {spec.seed} was drawn by another handeye; this one draws another world from that "
+                "seed, so begin the run again"
+            )
+        for name in spec.overrides.without:
+            self.select(name)
+        for name in spec.overrides.set:
+            if name not in self.quantities:
+                self.select(name)
+                raise InvalidInput(f"{quoted(name)} is a group of quantities, which cannot have one value")
+
+    def drawn(self, seed: int) -> Mapping[str, float]:
+        """What every quantity is in the world of a seed at the nominal level, SI."""
+        return {
+            name: q.distribution.draw(random_numbers(seed, name), q.nominal) * q.measure.size
+            for name, q in self.quantities.items()
+        }
+
+
+def within(name: str, group: str) -> bool:
+    """A name is that of a group, or of what is in it."""
+    return f"{name}.".startswith(f"{group}.")
+
+
+def at_level(quantity: Quantity, value: float, level: Level) -> float:
+    """What a quantity is at a level, given what it is at the nominal one, SI."""
+    if level == "nominal" or not quantity.distribution.is_error:
+        return value
+    nominal = quantity.nominal * quantity.measure.size
+    return nominal + SPREADS[level] * (value - nominal)

@@ -1,0 +1,118 @@
+"""The worlds drawn from seeds, and whether their errors are as large as they say."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from handeye.arm.kinematics import forward, solve
+from handeye.arm.stanford import STANFORD
+from handeye.pose import Array, hand
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, SEVENTH, variation
+from handeye.units import DEGREE, INCH
+from handeye.variation import Overrides, WorldSpec
+
+NEAR = np.array([-25.0, 105.0, 0.0, 0.0, 75.0, 20.0]) * DEGREE + np.array([0, 0, 31 * INCH, 0, 0, 0])
+
+
+@cache
+def work_area() -> Array:
+    """Joint positions with the hand pointing down at places all over the work area, shape (n, 6)."""
+    places = [(x, y, z) for x in (8, 16, 24, 32, 40, 46) for y in (28, 34, 40, 46) for z in (1, 4, 8)]
+    found = (
+        solve(STANFORD, hand(x * INCH, y * INCH, z * INCH, np.pi / 2, np.pi / 2, 0.0), NEAR)
+        for x, y, z in places
+    )
+    return np.array([result.q for result in found if result.q is not None])
+
+
+@cache
+def hand_errors(worlds: int = 150) -> Array:
+    """Distance between where the controller thinks the hand is and where it is, in, shape (worlds, n)."""
+    q = work_area()
+    true = forward(STANFORD, q)[:, :3, 3]
+    readings = [PumpWorld.sample(seed).arm.readings(q) for seed in range(worlds)]
+    return np.array([np.linalg.norm(forward(STANFORD, r)[:, :3, 3] - true, axis=1) for r in readings]) / INCH
+
+
+def test_the_hand_is_wrong_by_a_sixteenth_of_an_inch_in_the_median() -> None:
+    assert np.median(hand_errors()) == pytest.approx(0.060, abs=0.010)
+
+
+def test_ninety_five_percent_of_hand_errors_stay_under_an_eighth() -> None:
+    assert 0.09 < np.percentile(hand_errors(), 95) < 0.125
+
+
+def test_equal_seeds_give_equal_worlds() -> None:
+    assert repr(PumpWorld.sample(7)) == repr(PumpWorld.sample(7))
+
+
+def test_different_seeds_give_different_worlds() -> None:
+    assert PumpWorld.sample(7).base != PumpWorld.sample(8).base
+
+
+def test_readings_and_positions_are_inverse() -> None:
+    arm, q = PumpWorld.sample(3).arm, work_area()
+    assert np.abs(arm.positions(arm.readings(q)) - q).max() < 1e-12
+
+
+def test_the_nominal_world_reads_true() -> None:
+    q = work_area()
+    assert np.array_equal(PumpWorld.nominal().arm.readings(q), q)
+
+
+def test_every_base_lies_within_the_pick_up_area() -> None:
+    bases = [PumpWorld.sample(seed).base for seed in range(100)]
+    assert all(
+        BELT_X[0] <= base.x / INCH <= BELT_X[1] and BELT_Y[0] <= base.y / INCH <= BELT_Y[1] for base in bases
+    )
+    assert all(abs(base.yaw - np.pi / 2) <= 30 * DEGREE for base in bases)
+
+
+def test_noise_streams_of_a_world_are_independent() -> None:
+    world = PumpWorld.sample(1)
+    assert world.generator("sensors").random() != world.generator("camera").random()
+
+
+def test_from_the_seventh_screw_on_the_world_has_one_more_hole_and_thread() -> None:
+    more = variation(SEVENTH).quantities.keys() - variation(SEVENTH - 1).quantities.keys()
+    assert more == {"holes.7.x", "holes.7.y", "thread_phase.7"}
+
+
+@pytest.mark.parametrize("seed", [0, SEVENTH])
+def test_every_quantity_reaches_the_world(seed: int) -> None:
+    before = repr(PumpWorld.sample(seed))
+    for name, quantity in variation(seed).quantities.items():
+        moved = PumpWorld.draw(
+            WorldSpec(seed=seed, overrides=Overrides(set={name: 0.5 * quantity.measure.size}))
+        )
+        unlike = repr(replace(moved, drawn=PumpWorld.sample(seed).drawn))
+        assert unlike != before, name
+
+
+def test_no_error_shares_its_name_with_a_sense() -> None:
+    first = {name.split(".")[0] for name in variation(0).quantities}
+    assert not first & {"sight", "vision", "touch", "force", "search"}
+
+
+def test_high_errors_keep_masses_frictions_and_forces_positive() -> None:
+    for seed in range(50):
+        world = PumpWorld.draw(WorldSpec(seed=seed, level="high"))
+        scales = [*world.arm.link_mass, *world.friction.values(), *world.hand.switch_force, world.part_mass]
+        assert min(scales) > 0
+        assert world.arm.friction.min() >= 0
+
+
+def test_without_the_arm_the_hand_is_where_the_controller_thinks() -> None:
+    world = PumpWorld.draw(WorldSpec(seed=3, overrides=Overrides(without=("arm",))))
+    q = work_area()
+    assert np.array_equal(world.arm.readings(q), q)
+    assert world.arm.friction == pytest.approx([0.04, 0.04, 0.16, 0.008, 0.008, 0.004])
+
+
+def test_every_quantity_says_where_its_figures_come_from() -> None:
+    assert [
+        name for name, q in variation(SEVENTH).quantities.items() if not q.source.endswith((".", '".'))
+    ] == []
