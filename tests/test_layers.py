@@ -21,6 +21,7 @@ FOUNDATIONS = {
     "distributions",
     "world_options",
     "versions",
+    "records",
 }
 LAYERS = [
     {"__init__", *FOUNDATIONS},

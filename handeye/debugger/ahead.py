@@ -13,7 +13,7 @@ def is_ahead(stop: Stop, start: Checkpoint) -> bool:
     wanted = _steps(stop, plan)
     if wanted is None:
         return True
-    at = 0 if start.snapshot is None else start.snapshot.memory.at
+    at = 0 if start.snapshot is None else start.snapshot.state.at
     return at is not None and not wanted.isdisjoint(Graph(plan.program.steps).after([at]))
 
 

@@ -45,7 +45,7 @@ class AtSteps(_Watch):
     """What they are: `line 58`, `label L1`, `AOJ`."""
 
     def before(self, runner: Runner) -> str | None:
-        return f"break at {self.name}" if runner.executor.at in self.steps else None
+        return f"break at {self.name}" if runner.executor.state.at in self.steps else None
 
     def __str__(self) -> str:
         return self.name
@@ -89,7 +89,7 @@ class UntilStep(_Watch):
     step: int
 
     def before(self, runner: Runner) -> str | None:
-        return f"step {self.step} is the next" if runner.executor.at == self.step else None
+        return f"step {self.step} is the next" if runner.executor.state.at == self.step else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,7 +38,7 @@ def set_position(runner: Runner, text: str) -> None:
     world = runner.run.world
     name = _known(name, sorted(world.positions), "position")
     x, y, z = values[:3]
-    o, a, t = world.moved.get(name, world.positions[name]).at[3:]
+    o, a, t = world.state.moved.get(name, world.positions[name]).at[3:]
     if len(values) == 6:
         o, a, t = (angle * DEGREE for angle in values[3:])
     runner.set_position(name, (x * INCH, y * INCH, z * INCH, o, a, t))

@@ -56,7 +56,7 @@ class Retry:
 
     def answer(self, runner: Runner, sentence: str) -> Answer:
         """How to go on."""
-        done, stage = 0, runner.executor.stage
+        done, stage = 0, runner.executor.state.stage
         now = None
         for event in runner.events:
             if isinstance(event, StageStarted):
@@ -204,7 +204,7 @@ def beginnings(runner: Runner) -> dict[int, int]:
 
 def _begun(runner: Runner, text: str) -> int:
     """The stage a user names, the present one if none, that has begun."""
-    present = runner.executor.stage
+    present = runner.executor.state.stage
     stage = present if not text and present is not None else stage_number(text, runner.setup.plan)
     if stage not in beginnings(runner):
         raise InvalidInput(f"{numbered_stage(runner.setup.plan.program, stage)}, has not begun yet")
@@ -213,7 +213,7 @@ def _begun(runner: Runner, text: str) -> int:
 
 def _question(runner: Runner, sentence: str) -> list[str]:
     """What happened, where, and what can be said to it."""
-    program, stage = runner.setup.plan.program, runner.executor.stage
+    program, stage = runner.setup.plan.program, runner.executor.state.stage
     assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
     return [
@@ -227,8 +227,8 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 def _choices(runner: Runner) -> list[str]:
     """What can be said, and what it does here."""
     program, executor = runner.setup.plan.program, runner.executor
-    first = next(step.place for step in program.steps if step.stage == executor.stage)
-    onward = executor.onward
+    first = next(step.place for step in program.steps if step.stage == executor.state.stage)
+    onward = executor.state.onward
     where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"
     return [
         f"p          proceed behind it: {where}",

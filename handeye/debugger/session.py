@@ -150,7 +150,7 @@ class DebugSession:
     def stage(self) -> int | None:
         """The stage under way or about to begin, by index; None behind the last."""
         step = self.runner.next
-        present = self.runner.executor.stage
+        present = self.runner.executor.state.stage
         return present if present is not None or step is None else step.stage
 
     @property

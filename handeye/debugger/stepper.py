@@ -92,7 +92,7 @@ class Stepper:
             time=runner.run.time,
             stage=None if stage is None else hands.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
-            step=runner.executor.at,
+            step=runner.executor.state.at,
             script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,

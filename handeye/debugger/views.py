@@ -90,14 +90,14 @@ def _hand(runner: Runner) -> Hand:
 
 
 def _force(runner: Runner) -> Vector:
-    return _three(-runner.run.drive.wrench[:3] / OUNCE_FORCE)
+    return _three(-runner.run.drive.state.wrench[:3] / OUNCE_FORCE)
 
 
 # -- remembered -----------------------------------------------------------------------------------------
 
 
 def _error(runner: Runner) -> Error | None:
-    fault = runner.executor.pending
+    fault = runner.executor.state.pending
     if fault is None:
         return None
     sentence = ERRORS.get(fault.number, "unknown")
@@ -105,7 +105,7 @@ def _error(runner: Runner) -> Error | None:
 
 
 def _search(runner: Runner) -> Search | None:
-    search = runner.run.search
+    search = runner.run.state.search
     if search is None:
         return None
     x, y = search.offset()
@@ -116,7 +116,7 @@ def _parts(runner: Runner) -> dict[str, PartShown]:
     world = runner.run.world
     shown = {}
     for name, part in world.parts.items():
-        planned, measured = planned_pose(part), world.measured.get(name)
+        planned, measured = planned_pose(part), world.state.measured.get(name)
         shown[name] = PartShown(
             planned=_pose(planned),
             measured=None if measured is None else _pose(measured),
@@ -138,10 +138,10 @@ def _positions(runner: Runner) -> dict[str, Taught]:
     world = runner.run.world
     shown = {}
     for name, taught in world.positions.items():
-        position = world.moved.get(name, taught)
+        position = world.state.moved.get(name, taught)
         x, y, z = _inches(np.array(position.at[:3]))
         o, a, t = _three(np.array(position.at[3:]) / DEGREE)
-        shown[name] = Taught(at=(x, y, z, o, a, t), of=position.of, moved=name in world.moved)
+        shown[name] = Taught(at=(x, y, z, o, a, t), of=position.of, moved=name in world.state.moved)
     return shown
 
 
@@ -190,8 +190,8 @@ TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "gap": ("gap_in", lambda runner: _round(runner.run.drive.sensed.gap / INCH)),
     "switches": ("switches", lambda runner: tuple(map(bool, runner.run.drive.sensed.touch))),
     "error": ("error", _error),
-    "saved": ("saved_in", lambda runner: _named(runner.run.saved)),
-    "restored": ("restored_in", lambda runner: _named(runner.run.restored)),
+    "saved": ("saved_in", lambda runner: _named(runner.run.state.saved)),
+    "restored": ("restored_in", lambda runner: _named(runner.run.state.restored)),
     "search": ("search", _search),
     "parts": ("parts", _parts),
     "picture": ("picture", _picture),

@@ -16,6 +16,7 @@ from handeye.arm.model import ArmModel
 from handeye.arm.trajectory import Trajectory, move
 from handeye.errors import HandeyeError
 from handeye.execution.drive import ArmDrive
+from handeye.execution.state import DriveState
 from handeye.ports.camera import CLOSE_UP, WIDE
 from handeye.ports.workcell import Workcell
 from handeye.pose import hand
@@ -87,15 +88,15 @@ def calibrate_camera(
         CalibrationFailed: the lamp was seen too few times.
         Halted: the panic button was hit.
     """
-    drive = ArmDrive(cell=cell, arm=arm, halt=halt)
-    home = drive.q.copy()
+    drive = ArmDrive(cell=cell, arm=arm, state=DriveState.holding(cell.sense()), halt=halt)
+    home = drive.state.q.copy()
     sightings = [sighting for look in LOOKS for sighting in _sightings(drive, drawing, look)]
     for lens in {look.lens for look in LOOKS}:
         seen = sum(s.lens == lens for s in sightings)
         if seen < FEWEST:
             raise CalibrationFailed(f"the lamp was seen {seen} times with the {lens * 1000:.0f} mm lens; "
                                     f"{FEWEST} are needed to calibrate the camera")  # fmt: skip
-    back = move(arm, drive.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
+    back = move(arm, drive.state.q, forward(arm, home), departure=3 * INCH, approach=3 * INCH, speed=1.0)
     if not isinstance(back, IKResult):
         _go(drive, back)
     return calibrate(sightings, drawing)
@@ -119,15 +120,15 @@ def _sightings(drive: ArmDrive, drawing: CameraModel, look: _Look) -> Iterator[S
     for place in look.places:
         p_T = np.array(place) * INCH - R @ LAMP
         X_WT = hand(float(p_T[0]), float(p_T[1]), float(p_T[2]), HAND_ANGLE, 90 * DEGREE, 0)
-        trajectory = move(drive.arm, drive.q, X_WT, departure=0.0, approach=0.0, speed=1.0)
+        trajectory = move(drive.arm, drive.state.q, X_WT, departure=0.0, approach=0.0, speed=1.0)
         if isinstance(trajectory, IKResult):
             continue
         _go(drive, trajectory)
         dark, seconds = camera.digitise()
-        drive.lamp = True
+        drive.state.lamp = True
         drive.brake(seconds)
         lit, seconds = camera.digitise(hold_target=True)
-        drive.lamp = False
+        drive.state.lamp = False
         drive.brake(seconds)
         spot = find_spot(dark, lit)
         if spot is None:

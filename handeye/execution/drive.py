@@ -5,7 +5,7 @@ leave unexplained.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.servo import prepare, torque
 from handeye.execution.compliance import Course
+from handeye.execution.state import DriveState
 from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.pose import Array, Pose, displaced, translated
 from handeye.touch.guards import Guard, Reading, Trip
@@ -70,28 +71,12 @@ class ArmDrive:
 
     cell: Workcell
     arm: ArmModel
+    state: DriveState
+    """What it remembers: set-points, load and what is felt."""
     watch: Callable[[Sensed, Array], None] = lambda _, __: None
     """Called after every servo period with what is sensed and the torques put out, shape (6,)."""
     halt: Callable[[], bool] = lambda: False
     """The panic button, asked at every servo period."""
-    q: Array = field(init=False)
-    """Set-point the arm holds."""
-    gap: float = field(init=False)
-    sensed: Sensed = field(init=False)
-    grip: float = 80.0
-    load: float = 0.0
-    tool: float = 0.0
-    lamp: bool = False
-    cut: bool = field(default=False, init=False)
-    """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
-    tare: Array = field(default_factory=lambda: np.zeros(6))
-    wrench: Array = field(default_factory=lambda: np.zeros(6))
-    """External force and moment on the hand in W, less the tare."""
-
-    def __post_init__(self) -> None:
-        self.sensed = self.cell.sense()
-        self.q = self.sensed.q.copy()
-        self.gap = self.sensed.gap
 
     # -- time passes --------------------------------------------------------------------------------
 
@@ -99,7 +84,7 @@ class ArmDrive:
         """Set the brakes and let time pass; the set-point becomes where the arm then is."""
         for _ in range(round(seconds / JIFFY)):
             self._tick(np.zeros(6), brakes=True)
-        self.q = self.sensed.q.copy()
+        self.state.q = self.sensed.q.copy()
 
     def float(self, seconds: float) -> None:
         """Let go of the arm and let time pass: gravity is borne, and whoever pushes the hand moves it.
@@ -109,7 +94,7 @@ class ArmDrive:
         for _ in range(round(seconds / JIFFY)):
             q, qd = self.sensed.q, self.sensed.qd
             self._tick(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / OILED)
-        self.q = self.sensed.q.copy()
+        self.state.q = self.sensed.q.copy()
 
     def follow(self, samples: Samples, guard: Guard | None = None, direction: Array | None = None) -> Outcome:
         """Follow set-points; end early when `guard` trips.
@@ -121,17 +106,21 @@ class ArmDrive:
             return REACHED
         if guard is not None:
             self.zero()
-        motion = prepare(self.arm, self.q, samples)
-        J = jacobian(self.arm, motion.q) if guard is not None or self.load else _no_jacobian(len(motion))
+        motion = prepare(self.arm, self.state.q, samples)
+        J = (
+            jacobian(self.arm, motion.q)
+            if guard is not None or self.state.load
+            else _no_jacobian(len(motion))
+        )
         for i in range(len(motion)):
             here = _Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i])
             self._servo(here, motion.q[i], motion.qd[i], motion.qdd[i], estimate=guard is not None)
-            if self.cut:
+            if self.state.cut:
                 return CUT
-            self.q = samples.q[i]
-            lag = np.abs(self.sensed.q - self.q) > LAG
+            self.state.q = samples.q[i]
+            lag = np.abs(self.sensed.q - self.state.q) > LAG
             if lag.any():
-                self.q = self.sensed.q.copy()
+                self.state.q = self.sensed.q.copy()
                 joint = self.arm.joints[int(np.argmax(lag))].name
                 return Outcome(error=errors.SERVO_LAG, detail=f"{joint} stayed behind its set-point")
             along = _row(direction, i)
@@ -144,7 +133,7 @@ class ArmDrive:
 
     def _arrived(self) -> Outcome:
         """Whether the hand is where it is held."""
-        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.q)[:3, 3]))
+        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < SHORT:
             return REACHED
         return Outcome(error=errors.SERVO_LAG, detail=f"the hand is {off / INCH:.2f} in from its set-point")
@@ -155,19 +144,19 @@ class ArmDrive:
         A position servo in which the measured force moves the set-point: it needs no joint to be slack.
         """
         self.zero()
-        X_start = forward(self.arm, self.q)
+        X_start = forward(self.arm, self.state.q)
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(PRESS_TICKS)):
             if gone >= course.distance:
                 return REACHED if guard is not None else self._arrived()
-            gone += course.advance(self.wrench, tick) * JIFFY
-            given += course.yielding(self.wrench) * JIFFY
-            turn = course.turned(turn, self.wrench)
-            step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.q)
+            gone += course.advance(self.state.wrench, tick) * JIFFY
+            given += course.yielding(self.state.wrench) * JIFFY
+            turn = course.turned(turn, self.state.wrench)
+            step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.state.q)
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
             self._approach(self.dynamics(), step.q, estimate=True)
-            if self.cut:
+            if self.state.cut:
                 return CUT
             trip = guard.check(self._reading(course.direction)) if guard is not None else None
             if trip is not None:
@@ -179,38 +168,38 @@ class ArmDrive:
 
     def shift(self, here: _Dynamics, X_WT: Pose) -> Outcome:
         """One period towards a pose close by."""
-        step = solve(self.arm, X_WT, self.q)
+        step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
             return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
         self._approach(here, step.q, estimate=False)
-        return CUT if self.cut else REACHED
+        return CUT if self.state.cut else REACHED
 
     def hold(self, ticks: int) -> None:
         """Hold the set-point."""
         here = self.dynamics()
         for _ in range(ticks):
-            self._approach(here, self.q, estimate=False)
+            self._approach(here, self.state.q, estimate=False)
 
     def zero(self) -> None:
         """Hold still and take what is felt now as zero force."""
         here = self.dynamics()
         felt = []
-        self.tare = np.zeros(6)
+        self.state.tare = np.zeros(6)
         for _ in range(SETTLE_TICKS):
-            self._approach(here, self.q, estimate=True)
-            felt.append(self.wrench)
-        self.tare = np.mean(felt, axis=0)
-        self.wrench = np.zeros(6)
+            self._approach(here, self.state.q, estimate=True)
+            felt.append(self.state.wrench)
+        self.state.tare = np.mean(felt, axis=0)
+        self.state.wrench = np.zeros(6)
 
     def _approach(self, here: _Dynamics, q: Array, *, estimate: bool) -> None:
         """One servo period towards a set-point close by."""
-        self._servo(here, self.q, (q - self.q) / JIFFY, np.zeros(6), estimate=estimate)
-        self.q = q
+        self._servo(here, self.state.q, (q - self.state.q) / JIFFY, np.zeros(6), estimate=estimate)
+        self.state.q = q
 
     def _servo(self, here: _Dynamics, q: Array, qd: Array, qdd: Array, *, estimate: bool) -> None:
         """One servo period in which the arm should begin at `q` with rates `qd`."""
         before = self.sensed
-        load = here.J[2] * self.load
+        load = here.J[2] * self.state.load
         tau = torque(here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
         effort = constants(self.arm).effort
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
@@ -218,18 +207,24 @@ class ArmDrive:
         if estimate:
             acceleration = (self.sensed.qd - before.qd) / JIFFY
             unexplained = here.M @ acceleration + here.bias - tau
-            self.wrench = np.linalg.solve(here.J.T, unexplained) - self.tare
+            self.state.wrench = np.linalg.solve(here.J.T, unexplained) - self.state.tare
 
     def _tick(self, tau: Array, brakes: bool = False) -> None:
         """One servo period. Raises Halted after it, if the panic button is down."""
         halted = self.halt()
         if halted:
-            brakes, tau, self.tool = True, np.zeros(6), 0.0
+            brakes, tau, self.state.tool = True, np.zeros(6), 0.0
         self.cell.tick(
-            Drive(torque=tau, brakes=brakes, gap=self.gap, grip=self.grip, tool=self.tool, lamp=self.lamp)
+            Drive(
+                torque=tau,
+                brakes=brakes,
+                gap=self.state.gap,
+                grip=self.state.grip,
+                tool=self.state.tool,
+                lamp=self.state.lamp,
+            )
         )
-        self.sensed = self.cell.sense()
-        self.cut = self.sensed.braked and not brakes
+        self.state.cut = self.sensed.braked and not brakes
         self.watch(self.sensed, tau)
         if halted:
             raise Halted
@@ -238,12 +233,17 @@ class ArmDrive:
 
     def _freeze(self, direction: Array) -> None:
         """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
-        X_set, X_is = forward(self.arm, self.q), forward(self.arm, self.sensed.q)
+        X_set, X_is = forward(self.arm, self.state.q), forward(self.arm, self.sensed.q)
         along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
-        held = solve(self.arm, translated(X_set, along * direction), self.q)
-        self.q = self.sensed.q.copy() if held.q is None else held.q
+        held = solve(self.arm, translated(X_set, along * direction), self.state.q)
+        self.state.q = self.sensed.q.copy() if held.q is None else held.q
 
     # -- knowing ------------------------------------------------------------------------------------
+
+    @property
+    def sensed(self) -> Sensed:
+        """The reading of the interface in this servo period."""
+        return self.cell.sense()
 
     def hand(self) -> Pose:
         """`X_WT` by the arm's own sensors."""
@@ -252,13 +252,15 @@ class ArmDrive:
     def dynamics(self) -> _Dynamics:
         """Inertia, bias torques and Jacobian at rest at the present set-point."""
         return _Dynamics(
-            M=mass_matrix(self.arm, self.q), bias=gravity(self.arm, self.q), J=jacobian(self.arm, self.q)
+            M=mass_matrix(self.arm, self.state.q),
+            bias=gravity(self.arm, self.state.q),
+            J=jacobian(self.arm, self.state.q),
         )
 
     def _reading(self, direction: Array) -> Reading:
         """What guards look at."""
         return Reading(
-            force=-self.wrench[:3], moment=-self.wrench[3:], direction=direction,
+            force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
             tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,
         )  # fmt: skip
 

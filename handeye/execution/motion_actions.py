@@ -9,8 +9,9 @@ from handeye.arm.kinematics import IKResult, forward
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.events import Adjusted, GuardTripped, Restored
 from handeye.execution.compliance import Course
+from handeye.execution.context import ExecutionContext
 from handeye.execution.drive import Outcome
-from handeye.execution.state import ExecutionState, Fault, vector
+from handeye.execution.state import Fault, vector
 from handeye.planning.motions import (
     Unreachable,
     change_samples,
@@ -58,22 +59,22 @@ PLAN_TOLERANCE: Final = 1e-4
 __all__ = ["center", "change", "close", "move", "open_hand", "travel", "turn"]
 
 
-def move(run: ExecutionState, number: int, operation: Move) -> Fault | None:
+def move(run: ExecutionContext, number: int, operation: Move) -> Fault | None:
     """Move to a position by its measured place, shifted by what was saved and by the search."""
     X_WT = run.world.position(operation.goal)
-    run.restored = {}
+    run.state.restored = {}
     for restore in operation.restore:
-        difference = run.saved.get(restore.name, np.zeros(3)).copy()
+        difference = run.state.saved.get(restore.name, np.zeros(3)).copy()
         if restore.level:
             difference[2] = 0.0
         X_WT = translated(X_WT, difference)
-        run.restored[restore.name] = difference
+        run.state.restored[restore.name] = difference
         run.emit(
             Restored(time=run.time, name=restore.name, goal=operation.goal, difference=vector(difference))
         )  # fmt: skip
-    run.goal = X_WT[:3, 3].copy()
-    if operation.searching and run.search is not None:
-        X_WT = translated(X_WT, (*run.search.offset(), 0.0))
+    run.state.goal = X_WT[:3, 3].copy()
+    if operation.searching and run.state.search is not None:
+        X_WT = translated(X_WT, (*run.state.search.offset(), 0.0))
     via = [run.world.position(name) for name in operation.via]
     trajectory = _trajectory(run, number, operation, via, X_WT)
     if isinstance(trajectory, Unreachable):
@@ -81,16 +82,16 @@ def move(run: ExecutionState, number: int, operation: Move) -> Fault | None:
             number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
         )
     samples = trajectory.sample(JIFFY)
-    along = directions(samples, run.arm, run.drive.q)
+    along = directions(samples, run.arm, run.drive.state.q)
     return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
 
 
 def _trajectory(
-    run: ExecutionState, number: int, operation: Move, via: list[Pose], X_WT: Pose
+    run: ExecutionContext, number: int, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
     """The planned trajectory if the world is where the plan thought, else one adjusted to it."""
     knots = np.array(run.plan.motions[number].knots)
-    as_planned = np.abs(knots[0] - run.drive.q).max() < PLAN_TOLERANCE
+    as_planned = np.abs(knots[0] - run.drive.state.q).max() < PLAN_TOLERANCE
     names, planned = (*operation.via, operation.goal), (*knots[2:-2], knots[-1])
     for name, X, q in zip(names, (*via, X_WT), planned, strict=True):
         off = X - forward(run.arm, q)
@@ -99,23 +100,23 @@ def _trajectory(
             run.emit(Adjusted(time=run.time, goal=name, shift=vector(off[:3, 3])))
     if as_planned:
         return four_three_four(knots, np.array(run.plan.motions[number].times))
-    return move_trajectory(run.arm, run.drive.q, via, X_WT, operation, run.plan.speed)
+    return move_trajectory(run.arm, run.drive.state.q, via, X_WT, operation, run.plan.speed)
 
 
-def change(run: ExecutionState, operation: Change) -> Fault | None:
+def change(run: ExecutionContext, operation: Change) -> Fault | None:
     """Go straight from where the hand is, stopping on a force or torque, pressing if asked to."""
     start = run.drive.hand()[:3, 3]
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
     guard = _guard(operation.stop)
     if not complies(operation):
-        samples = change_samples(run.arm, run.drive.q, operation)
+        samples = change_samples(run.arm, run.drive.state.q, operation)
         if isinstance(samples, IKResult):
             return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
         outcome = run.drive.follow(samples, guard, displacement / distance)
     else:
         outcome = run.drive.comply(_course(operation), guard)
-    run.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
+    run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     return _finish(run, outcome, operation.stop)
 
 
@@ -138,16 +139,16 @@ def _axes(wanted: Vector | None) -> Array:
     return np.zeros(3) if wanted is None else (np.array(wanted) != 0).astype(float)
 
 
-def turn(run: ExecutionState, operation: Turn) -> Fault | None:
+def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     """Go round the vertical through a position."""
-    samples = turn_samples(run.arm, run.drive.q, run.world.position(operation.centre), operation)
+    samples = turn_samples(run.arm, run.drive.state.q, run.world.position(operation.centre), operation)
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
-    along = directions(samples, run.arm, run.drive.q)
+    along = directions(samples, run.arm, run.drive.state.q)
     return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
 
 
-def _finish(run: ExecutionState, outcome: Outcome, stop: Stop | None) -> Fault | None:
+def _finish(run: ExecutionContext, outcome: Outcome, stop: Stop | None) -> Fault | None:
     """Turn a motion's outcome into the language's convention: no trip where one was expected is an error."""
     if outcome.error is not None:
         return Fault(number=outcome.error, detail=outcome.detail)
@@ -179,31 +180,31 @@ def _guard(stop: Stop | None) -> Guard | None:
     return guards[0] if len(guards) == 1 else AnyGuard(guards=tuple(guards))
 
 
-def open_hand(run: ExecutionState, operation: Open) -> Fault | None:
+def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
     """Drive the fingers to a gap."""
     _to_gap(run, operation.gap)
     run.drive.hold(GRASP_TICKS)
     return None
 
 
-def _to_gap(run: ExecutionState, goal: float) -> None:
+def _to_gap(run: ExecutionContext, goal: float) -> None:
     drive = run.drive
-    start = drive.gap = drive.sensed.gap
+    start = drive.state.gap = drive.sensed.gap
     ticks = max(1, round(abs(goal - start) / (HAND_SPEED * JIFFY)))
     for i in range(1, ticks + 1):
-        drive.gap = start + (goal - start) * i / ticks
+        drive.state.gap = start + (goal - start) * i / ticks
         drive.hold(1)
 
 
-def close(run: ExecutionState, operation: Close) -> Fault | None:
+def close(run: ExecutionContext, operation: Close) -> Fault | None:
     """Close until both switches fire or the gap falls below the minimum, then see what is held."""
     drive = run.drive
-    drive.gap = drive.sensed.gap
-    floor = min(operation.minimum, drive.gap)
-    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.gap > -0.02:
-        drive.gap -= HAND_SPEED * JIFFY
+    drive.state.gap = drive.sensed.gap
+    floor = min(operation.minimum, drive.state.gap)
+    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > -0.02:
+        drive.state.gap -= HAND_SPEED * JIFFY
         drive.hold(1)
-    drive.gap = -0.02
+    drive.state.gap = -0.02
     drive.hold(GRASP_TICKS)
     return _held(drive.sensed.gap, operation.minimum, operation.maximum)
 
@@ -218,17 +219,17 @@ def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
     return None
 
 
-def center(run: ExecutionState, operation: Center) -> Fault | None:
+def center(run: ExecutionContext, operation: Center) -> Fault | None:
     """Close on an object, moving the arm so that the object stays where it is."""
     drive = run.drive
-    X_WT = forward(run.arm, drive.q)
+    X_WT = forward(run.arm, drive.state.q)
     line = X_WT[:3, 1]
     here = drive.dynamics()
-    drive.gap = drive.sensed.gap
+    drive.state.gap = drive.sensed.gap
     centring = Centring(minimum=operation.minimum, speed=CENTRE_SPEED)
     while not centring.done:
         step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=JIFFY)
-        drive.gap += step.gap
+        drive.state.gap += step.gap
         X_WT = translated(X_WT, step.hand * line)
         outcome = drive.shift(here, X_WT)
         if outcome.error is not None:
@@ -237,15 +238,15 @@ def center(run: ExecutionState, operation: Center) -> Fault | None:
     if centring.error:
         detail = f"the fingers do not both touch anything; the gap is {drive.sensed.gap / INCH:.2f} in"
         return Fault(number=centring.error, detail=detail)
-    run.finger_line = line
+    run.state.finger_line = line
     return _held(drive.sensed.gap, operation.minimum, None)
 
 
-def travel(run: ExecutionState, operation: Travel) -> Fault | None:
+def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
     """See how far the last straight motion went."""
-    if operation.minimum <= run.travel <= operation.maximum:
+    if operation.minimum <= run.state.travel <= operation.maximum:
         return None
     allowed = f"{operation.minimum / INCH:.2f} to {operation.maximum / INCH:.2f} in"
     return Fault(
-        number=errors.WRONG_TRAVEL, detail=f"it went {run.travel / INCH:.2f} in; {allowed} are right"
+        number=errors.WRONG_TRAVEL, detail=f"it went {run.state.travel / INCH:.2f} in; {allowed} are right"
     )

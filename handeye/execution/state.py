@@ -1,23 +1,31 @@
-"""What a run knows and remembers; the skills and the executor share it."""
+"""The state of a working phase: one record that executor, actions, servo loop and world model live in.
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+The plan, the arm and the cell are no part of it: they are given anew when a run is taken up again. A snapshot is a
+copy of the record (`handeye.records`).
+"""
 
+from dataclasses import dataclass
+from typing import Annotated
+
+import msgspec
 import numpy as np
 
 from handeye.arm.model import ArmModel
-from handeye.events import AnyEvent
-from handeye.execution.drive import ArmDrive
+from handeye.errors import InvalidInput
+from handeye.events import OperatorCalled
 from handeye.planfile.plan import Plan
-from handeye.ports.camera import FIRST_LENS, Picture
-from handeye.ports.workcell import Workcell
+from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
+from handeye.ports.workcell import Sensed
 from handeye.pose import Array
-from handeye.program.world_model import WorldModel
+from handeye.program.program import Look
+from handeye.program.world_model import WorldState
+from handeye.records import MutableRecord
 from handeye.touch.spiral import spiral
-from handeye.units import JIFFY
 from handeye.vision.base import GeneralLocation, SpecificLocation
-from handeye.vision.camera import CameraModel, View
+from handeye.vision.camera import View
 from handeye.vision.gasket import Inspection
+
+Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,8 +36,7 @@ class Fault:
     detail: str = ""
 
 
-@dataclass(slots=True, kw_only=True)
-class SearchState:
+class SearchState(MutableRecord, kw_only=True):
     """A spiral search under way."""
 
     step: float
@@ -59,54 +66,102 @@ class Found:
     inspection: Inspection | None = None
 
 
-@dataclass(slots=True, kw_only=True)
-class Clockwork:
-    """Where the time went: simulated seconds of the camera's mechanism, processor seconds of vision."""
+class DriveState(MutableRecord, kw_only=True):
+    """What the servo loop holds and feels."""
 
-    lens: float = 0.0
-    vision: float = 0.0
+    q: Array
+    """Set-point the arm holds, shape (n,), rad and m."""
+    gap: float
+    """Set-point of the finger gap, m."""
+    grip: float = 80.0
+    load: float = 0.0
+    tool: float = 0.0
+    lamp: bool = False
+    cut: bool = False
+    """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
+    tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
+    wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
+    """External force and moment on the hand in W, less the tare."""
+
+    @classmethod
+    def holding(cls, sensed: Sensed) -> "DriveState":
+        """Hold the arm and the fingers where they are."""
+        return cls(q=sensed.q.copy(), gap=sensed.gap)
 
 
-@dataclass(slots=True, kw_only=True)
-class ExecutionState:
-    """The mutable state of one working phase."""
+class ExecutionState(MutableRecord, kw_only=True):
+    """All that a working phase remembers from step to step."""
 
-    plan: Plan
-    arm: ArmModel
-    cell: Workcell
-    camera: CameraModel
-    """The calibrated camera."""
-    emit: Callable[[AnyEvent], None]
-    stopwatch: Callable[[], float] = lambda: 0.0
-    """Processor time for the timing table; the working phase itself never reads a clock of the host."""
-    drive: ArmDrive = field(init=False)
-    world: WorldModel = field(init=False)
-    saved: dict[str, Array] = field(default_factory=dict)
-    counters: dict[str, int] = field(default_factory=dict)
+    at: Natural | None = 0
+    """The step to do next; None when the program has ended or the operator was called."""
+    pending: Fault | None = None
+    """An error raised, which the next step tests."""
+    stage: Natural | None = None
+    """The stage under way; None between two stages."""
+    stopped: OperatorCalled | None = None
+    onward: Natural | None = None
+    """After a stop: the step that would have been next."""
+    idle: int = 0
+    """Steps since time last passed."""
+    clock: float = -1.0
+    """When the last step ended, s."""
+    saved: dict[str, Array] = msgspec.field(default_factory=dict)
+    counters: dict[str, int] = msgspec.field(default_factory=dict)
     search: SearchState | None = None
-    restored: dict[str, Array] = field(default_factory=dict)
+    restored: dict[str, Array] = msgspec.field(default_factory=dict)
     """What RESTOREs added to the goal of the last Move."""
-    goal: Array = field(default_factory=lambda: np.zeros(3))
+    goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
     """Goal of the last Move without its search offset, in W (m)."""
     travel: float = 0.0
     """How far the last straight motion went (m)."""
     finger_line: Array | None = None
     """Unit vector of the finger line when the last action was a Center."""
     lens: float = FIRST_LENS
-    shots: dict[str, Shot] = field(default_factory=dict)
-    general: dict[str, GeneralLocation] = field(default_factory=dict)
-    found: dict[str, Found] = field(default_factory=dict)
+    camera_busy: float = 0.0
+    """Simulated seconds that the camera's mechanism has taken."""
+    shots: dict[str, Shot] = msgspec.field(default_factory=dict)
+    general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
+    found: dict[str, Found] = msgspec.field(default_factory=dict)
     """What vision made of each picture."""
-    clockwork: Clockwork = field(default_factory=Clockwork)
+    world: WorldState = msgspec.field(default_factory=WorldState)
+    drive: DriveState
 
-    def __post_init__(self) -> None:
-        self.drive = ArmDrive(cell=self.cell, arm=self.arm)
-        self.world = WorldModel.of(self.plan.program)
 
-    @property
-    def time(self) -> float:
-        """The cell's clock, rounded to its period so that it prints the same everywhere."""
-        return round(round(self.drive.sensed.time / JIFFY) * JIFFY, 6)
+def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
+    """See that a state can be that of a plan, before anything in it is used.
+
+    Raises:
+        InvalidInput: it tells of steps, stages, parts, pictures or positions that the plan does not have, or its
+            vectors and pictures are of another size.
+    """
+    if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
+        raise InvalidInput("what the run remembers does not fit this plan")
+
+
+def _fits_program(state: ExecutionState, plan: Plan) -> bool:
+    program, world = plan.program, state.world
+    taken = {step.operation.picture for step in program.steps if isinstance(step.operation, Look)}
+    return (
+        all(step is None or step < len(program.steps) for step in (state.at, state.onward))
+        and (state.stage is None or state.stage < len(program.stages))
+        and (state.stopped is None or (state.stage is not None and state.at is None))
+        and {*world.measured, *state.general} <= set(program.parts)
+        and {*state.shots, *state.found} <= taken  # names that become file names
+        and set(world.moved) <= set(program.positions)
+        and all(p.of is None or p.of in program.parts for p in world.moved.values())
+    )
+
+
+def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
+    vectors = [state.goal, *state.saved.values(), *state.restored.values()]
+    vectors += [] if state.finger_line is None else [state.finger_line]
+    return (
+        all(vector.shape == (3,) for vector in vectors)
+        and state.drive.q.shape == (len(arm.joints),)
+        and all(values.shape == (6,) for values in (state.drive.tare, state.drive.wrench))
+        and all(X.shape == (4, 4) for X in state.world.measured.values())
+        and all(shot.picture.shape == (ROWS, COLUMNS) for shot in state.shots.values())
+    )
 
 
 def vector(p: Array) -> tuple[float, float, float]:

@@ -6,31 +6,32 @@ import numpy as np
 
 from handeye import errors
 from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
-from handeye.execution.state import ExecutionState, Fault, Found, Shot
+from handeye.execution.context import ExecutionContext
+from handeye.execution.state import Fault, Found, Shot
 from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.program import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.gasket import inspect as inspect_gasket
 
 
-def lens(run: ExecutionState, operation: Lens) -> Fault | None:
+def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
     """Turn the lens turret."""
     _wait(run, "lens", run.cell.camera.lens(operation.focal_length))
-    run.lens = operation.focal_length
+    run.state.lens = operation.focal_length
     return None
 
 
-def aim(run: ExecutionState, operation: Aim) -> Fault | None:
+def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
     """Point the camera at a part's face or at a hand position, and focus there."""
     p_W = _target(run, operation.target)
-    pan, tilt = run.camera.aim(p_W, run.lens)
+    pan, tilt = run.camera.aim(p_W, run.state.lens)
     _wait(run, "aim", run.cell.camera.aim(pan, tilt))
     distance = math.dist(run.camera.mount, p_W)
     _wait(run, "focus", run.cell.camera.focus(distance))
     return None
 
 
-def _target(run: ExecutionState, name: str) -> Array:
+def _target(run: ExecutionContext, name: str) -> Array:
     if name not in run.world.parts:
         return run.world.position(name)[:3, 3]
     part = run.world.parts[name]
@@ -45,22 +46,24 @@ def _middle(X_WP: Pose, x: float, y: float) -> Array:
     return np.asarray(X_WP[:2, :2] @ (x, y) + X_WP[:2, 3])
 
 
-def look(run: ExecutionState, operation: Look) -> Fault | None:
+def look(run: ExecutionContext, operation: Look) -> Fault | None:
     """Take a picture."""
     picture, seconds = run.cell.camera.digitise(hold_target=operation.hold_target)
     _wait(run, "digitise", seconds)
     pan, tilt = run.cell.camera.pots()
-    run.shots[operation.picture] = Shot(picture=picture, view=run.camera.view(run.lens, pan, tilt))
-    run.emit(PictureTaken(time=run.time, picture=operation.picture, lens=run.lens))
+    run.state.shots[operation.picture] = Shot(
+        picture=picture, view=run.camera.view(run.state.lens, pan, tilt)
+    )
+    run.emit(PictureTaken(time=run.time, picture=operation.picture, lens=run.state.lens))
     return None
 
 
-def _wait(run: ExecutionState, action: str, seconds: float) -> None:
+def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
     """Brakes on while the camera's mechanism is busy."""
     if seconds <= 0:
         return
     run.drive.brake(seconds)
-    run.clockwork.lens += seconds
+    run.state.camera_busy += seconds
     run.emit(CameraBusy(time=run.time, action=action, seconds=round(seconds, 6)))
 
 
@@ -68,56 +71,53 @@ def _no_picture(number: int, picture: str) -> Fault:
     return Fault(number=number, detail=f"no picture {picture} was taken")
 
 
-def general(run: ExecutionState, operation: General) -> Fault | None:
+def general(run: ExecutionContext, operation: General) -> Fault | None:
     """Find the outline of a part; its measured place becomes the middle of what was found."""
     part = run.world.parts[operation.part]
-    shot = run.shots.get(operation.picture)
+    shot = run.state.shots.get(operation.picture)
     if shot is None:
         return _no_picture(errors.PART_NOT_SEEN, operation.picture)
-    started = run.stopwatch()
-    found = locate_general(shot.picture, shot.view, part)
-    run.clockwork.vision += run.stopwatch() - started
+    with run.vision.running():
+        found = locate_general(shot.picture, shot.view, part)
     if isinstance(found, Failure):
         return Fault(number=errors.PART_NOT_SEEN, detail=found.reason)
-    run.general[operation.part] = found
-    run.found[operation.picture] = Found(general=found)
+    run.state.general[operation.part] = found
+    run.state.found[operation.picture] = Found(general=found)
     run.world.measure(operation.part, planar(found.x, found.y, part.at[2], part.at[3]))
     run.emit(PartSeen(time=run.time, part=operation.part, x=round(found.x, 6), y=round(found.y, 6), yaw=None))
     return None
 
 
-def specific(run: ExecutionState, operation: Specific) -> Fault | None:
+def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
     """Find the holes of a part; its pose is measured by them."""
     part = run.world.parts[operation.part]
-    shot = run.shots.get(operation.picture)
+    shot = run.state.shots.get(operation.picture)
     if shot is None:
         return _no_picture(errors.FEATURES_NOT_SEEN, operation.picture)
-    general = run.general.get(operation.part)
+    general = run.state.general.get(operation.part)
     if general is None:
         return Fault(number=errors.FEATURES_NOT_SEEN, detail="the part was not located generally before")
-    started = run.stopwatch()
-    found = locate_specific(shot.picture, shot.view, part, general)
-    run.clockwork.vision += run.stopwatch() - started
+    with run.vision.running():
+        found = locate_specific(shot.picture, shot.view, part, general)
     if isinstance(found, Failure):
         return Fault(number=errors.FEATURES_NOT_SEEN, detail=found.reason)
-    run.found[operation.picture] = Found(specific=found)
+    run.state.found[operation.picture] = Found(specific=found)
     x, y, angle = (round(value, 9) for value in found.pose)
     run.world.measure(operation.part, planar(x, y, part.at[2], angle))
     run.emit(PartSeen(time=run.time, part=operation.part, x=x, y=y, yaw=angle))
     return None
 
 
-def inspect(run: ExecutionState, operation: Inspect) -> Fault | None:
+def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     """Difference two pictures and see whether a part lies where it should."""
-    before, after = run.shots.get(operation.before), run.shots.get(operation.after)
+    before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
     if before is None or after is None:
         return _no_picture(errors.GASKET_WRONG, operation.after if before else operation.before)
-    started = run.stopwatch()
     part = run.world.parts[operation.part]
     X_WP = run.world.part(operation.part)
     pose = (float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP))
-    seen = inspect_gasket(before.picture, after.picture, after.view, part, pose)
-    run.clockwork.vision += run.stopwatch() - started
-    run.found[operation.after] = Found(inspection=seen)
+    with run.vision.running():
+        seen = inspect_gasket(before.picture, after.picture, after.view, part, pose)
+    run.state.found[operation.after] = Found(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, sentence=seen.sentence))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, detail=seen.sentence)

@@ -66,7 +66,7 @@ def make_plan(
     found = arranged(objections.found)
     if has_errors(found):
         return None, found
-    positions = {**walk.world.moved, **program.positions}
+    positions = {**walk.world.state.moved, **program.positions}
     plan = Plan(
         arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
         program=msgspec.structs.replace(program, positions=positions),
@@ -123,7 +123,7 @@ class _Walk:
     def _define(self, name: str) -> None:
         known = self.program.positions.get(name)
         of = None if known is None else known.of
-        self.world.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
+        self.world.state.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
 
     def _start(self) -> None:
         """Begin at the rest position, or at the first goal of a program that has none."""

@@ -2,9 +2,12 @@
 
 from dataclasses import dataclass, field
 
+import msgspec
+
 from handeye.errors import InvalidInput
 from handeye.pose import Pose, hand, hand_angles, inverse, planar
 from handeye.program.program import Part, Position, Program
+from handeye.records import MutableRecord
 
 
 def planned_pose(part: Part) -> Pose:
@@ -18,35 +21,42 @@ def place(X: Pose) -> tuple[float, float, float, float, float, float]:
     return x, y, z, o, a, t
 
 
+class WorldState(MutableRecord, kw_only=True):
+    """Departures from the plan: what was measured, and what was defined anew."""
+
+    measured: dict[str, Pose] = msgspec.field(default_factory=dict)
+    """`X_WP` of each part that was seen or felt."""
+    moved: dict[str, Position] = msgspec.field(default_factory=dict)
+    """Positions that `HERE`, or somebody for an experiment, has put elsewhere."""
+
+
 @dataclass(slots=True, kw_only=True)
 class WorldModel:
     """The one mutable picture of the cell; only the executor writes to it."""
 
     parts: dict[str, Part]
     positions: dict[str, Position]
-    measured: dict[str, Pose] = field(default_factory=dict)
-    moved: dict[str, Position] = field(default_factory=dict)
-    """Positions that `HERE`, or somebody for an experiment, has put elsewhere."""
+    state: WorldState = field(default_factory=WorldState)
 
     @classmethod
-    def of(cls, program: Program) -> "WorldModel":
-        """The world as planned, nothing measured yet."""
-        return cls(parts=program.parts, positions=program.positions)
+    def of(cls, program: Program, state: WorldState | None = None) -> "WorldModel":
+        """The world as planned, with these departures; by default nothing is measured yet."""
+        return cls(parts=program.parts, positions=program.positions, state=state or WorldState())
 
     def measure(self, part: str, X_WP: Pose) -> None:
         """A part has been seen or felt at this pose."""
         if part not in self.parts:
             raise InvalidInput(f"no part {part}; there are {', '.join(self.parts)}")
-        self.measured[part] = X_WP
+        self.state.measured[part] = X_WP
 
     def part(self, name: str) -> Pose:
         """`X_WP`, measured if it has been, else planned."""
-        measured = self.measured.get(name)
+        measured = self.state.measured.get(name)
         return planned_pose(self.parts[name]) if measured is None else measured
 
     def position(self, name: str) -> Pose:
         """`X_WT` of a hand position, by the measured pose of the part it belongs to."""
-        position = self.moved.get(name) or self.positions[name]
+        position = self.state.moved.get(name) or self.positions[name]
         X_PT = hand(*position.at)
         return X_PT if position.of is None else self.part(position.of) @ X_PT
 

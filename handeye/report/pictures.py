@@ -7,7 +7,8 @@ import cv2
 
 from handeye.cell.photograph import photograph_png
 from handeye.errors import InvalidInput
-from handeye.execution.state import ExecutionState, Found
+from handeye.execution.context import ExecutionContext
+from handeye.execution.state import Found
 from handeye.files import write_whole
 from handeye.runs.runner import Runner
 from handeye.vision.drawing import annotate
@@ -16,11 +17,11 @@ PHOTOGRAPHS: Final = ("studio", "pump")
 """Cameras of the scene whose view of the end is kept."""
 
 
-def annotated_png(run: ExecutionState, name: str) -> bytes:
+def annotated_png(run: ExecutionContext, name: str) -> bytes:
     """A picture the program took, with what it found in it, as a PNG file."""
-    found = run.found.get(name, Found())
+    found = run.state.found.get(name, Found())
     image = annotate(
-        run.shots[name].picture,
+        run.state.shots[name].picture,
         general=found.general,
         specific=found.specific,
         inspection=found.inspection,
@@ -40,7 +41,7 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
         raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
-    for name in runner.run.shots:
+    for name in runner.run.state.shots:
         write_whole(folder / f"{name.lower()}.png", annotated_png(runner.run, name))
     truth = runner.cell.truth
     if runner.cell.camera.renderer.startswith("OpenGL"):

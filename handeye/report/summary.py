@@ -32,7 +32,7 @@ def summary(
     """
     completed = pause.kind == "end"
     executor, names = runner.executor, runner.setup.plan.program.stages
-    stopped = executor.stopped
+    stopped = executor.state.stopped
     checks = {
         name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
         for name, f in (findings or {}).items()
@@ -41,7 +41,9 @@ def summary(
         assembled=None if findings is None else completed and assembled(findings),
         completed=completed,
         paused=pause.kind == "break",
-        stopped_at=names[executor.stage] if not completed and executor.stage is not None else None,
+        stopped_at=names[executor.state.stage]
+        if not completed and executor.state.stage is not None
+        else None,
         error=stopped.error if stopped else None,
         message=pause.sentence,
         interventions=tuple(interventions(runner.events)),
@@ -88,7 +90,7 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
 def _timing(runner: Runner, wall: float, planning: float) -> Timing:
     run = runner.run
     begun = next((e.time for e in runner.events if isinstance(e, RunStarted)), run.time)
-    simulated, lens, vision = run.time - begun, run.clockwork.lens, run.clockwork.vision
+    simulated, lens, vision = run.time - begun, run.state.camera_busy, runner.vision.seconds
     return Timing(
         planning_wall_s=planning,
         manipulation_s=round(simulated - lens, 3),

@@ -73,7 +73,7 @@ def _step(runner: Runner, stops: Sequence[Stop]) -> Pause | None:
 def _ended(runner: Runner) -> Pause:
     if runner.trouble is not None:
         return Pause(kind="trouble", sentence=runner.trouble)
-    called = runner.executor.stopped
+    called = runner.executor.state.stopped
     if called is not None:
         return Pause(kind="operator", sentence=called.message)
     return Pause(kind="end", sentence="the program came to its end")

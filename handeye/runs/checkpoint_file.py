@@ -25,7 +25,7 @@ from handeye.versions import versions
 from handeye.vision.calibration import Calibration
 
 MAGIC: Final = "handeye-checkpoint"
-VERSION: Final = 1
+VERSION: Final = 2
 ENDING: Final = ".checkpoint"
 CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
 LARGEST: Final = 1 << 28
@@ -173,6 +173,11 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
     words = first.decode("ascii", errors="replace").split(" ")
     if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):
         raise InvalidInput(f"{name} is not a checkpoint of handeye")
+    if int(words[1]) < VERSION:
+        raise InvalidInput(
+            f"{name} was kept by an older handeye, in checkpoint format version {words[1]}; this one reads version "
+            f"{VERSION}: begin the run anew, or go on with it there"
+        )
     if int(words[1]) > VERSION:
         raise InvalidInput(
             f"{name} has checkpoint format version {words[1]}; this handeye reads up to version {VERSION}"

@@ -85,7 +85,7 @@ class RunFolder(Observer):
 
     def _picture(self, name: str) -> Picture:
         assert self._runner is not None
-        return self._runner.run.shots[name].picture
+        return self._runner.run.state.shots[name].picture
 
     # -- looking on -----------------------------------------------------------------------------------
 

@@ -23,14 +23,15 @@ from handeye.events import (
     StepStarted,
 )
 from handeye.execution.camera_calibration import LAST_LENS, CalibrationFailed, calibrate_camera
+from handeye.execution.context import ExecutionContext
 from handeye.execution.drive import Halted
 from handeye.execution.executor import Choice, Executor
-from handeye.execution.memory import recall, remember
-from handeye.execution.state import ExecutionState
+from handeye.execution.stopwatch import Stopwatch
 from handeye.planfile.store import plan_digest
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.program import Look, Position, Step, Vector
+from handeye.records import copied
 from handeye.runs.observer import Observer
 from handeye.runs.snapshot import Checkpoint, Snapshot, arm_of, interfered
 from handeye.tasks.water_pump.pump_world import PumpWorld
@@ -83,18 +84,20 @@ class Runner:
         self.trouble: str | None = self._unable
         """Why the run cannot go on, if it is not a matter for the operator."""
         model = self.calibration.model if self.calibration else DRAWING
-        self.run = ExecutionState(
+        self.vision = Stopwatch(time.process_time)
+        """Processor time that vision has taken in all."""
+        self.run = ExecutionContext(
             plan=plan,
             arm=self.arm,
             cell=self.cell,
             camera=model,
             emit=self._emit,
-            stopwatch=time.process_time,
+            vision=self.vision,
         )
         if self.calibration is not None:
-            self.run.lens = LAST_LENS
+            self.run.state.lens = LAST_LENS
         self.run.drive.halt, self.run.drive.watch = halt, self._watch
-        self.executor = Executor(state=self.run)
+        self.executor = Executor(run=self.run)
         self.events: list[AnyEvent] = []
         """Everything that has happened and was not undone."""
         self.position = 0
@@ -118,17 +121,17 @@ class Runner:
     @property
     def ended(self) -> bool:
         """No step can be done, unless the operator says how to go on."""
-        return self.executor.at is None or self.trouble is not None
+        return self.executor.state.at is None or self.trouble is not None
 
     @property
     def called(self) -> bool:
         """The operator has been called and has not answered."""
-        return self.executor.stopped is not None
+        return self.executor.state.stopped is not None
 
     @property
     def next(self) -> Step | None:
         """The step to be done next."""
-        at = self.executor.at
+        at = self.executor.state.at
         return None if at is None else self.setup.plan.program.steps[at]
 
     @property
@@ -249,7 +252,7 @@ class Runner:
 
     def set_saved(self, name: str, difference: Vector) -> None:
         """Give a saved difference (m) a value of one's own."""
-        self.run.saved[name] = np.array(difference)
+        self.run.state.saved[name] = np.array(difference)
         self._experiment("saved", name, difference)
 
     def set_position(self, name: str, at: Taught) -> None:
@@ -261,7 +264,7 @@ class Runner:
         known = self.setup.plan.program.positions
         if name not in known:
             raise InvalidInput(f"no position {name}; there are {', '.join(known)}")
-        self.run.world.moved[name] = Position(at=at, of=known[name].of)
+        self.run.state.world.moved[name] = Position(at=at, of=known[name].of)
         self._experiment("position", name, at)
 
     def _try_again(self, made: ExperimentMade) -> None:
@@ -318,7 +321,11 @@ class Runner:
         self.cell.restore(state)
         self.history.append(
             Snapshot(
-                position=self.position, happened=len(self.events), cell=state, memory=remember(self.executor)
+                position=self.position,
+                happened=len(self.events),
+                cell=state,
+                state=copied(self.run.state),
+                vision_s=self.vision.seconds,
             )
         )
         if len(self.history) > RECENT:
@@ -329,13 +336,14 @@ class Runner:
         for index in range(1, len(self.history) - RECENT):
             before, here = self.history[index - 1 : index + 1]
             interfered = before.position == here.position  # no step led from one to the other
-            if here.memory.stage is not None and not interfered:
+            if here.state.stage is not None and not interfered:
                 del self.history[index]
                 return
 
     def _put(self, snapshot: Snapshot) -> None:
         self.cell.restore(snapshot.cell)
-        recall(self.executor, snapshot.memory)
+        self.run.restore(snapshot.state)
+        self.vision.seconds = snapshot.vision_s
         self.position, self.trouble = snapshot.position, self._unable
         del self.events[snapshot.happened :]
 

@@ -10,7 +10,7 @@ from handeye.arm.stanford import STANFORD
 from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
-from handeye.execution.memory import Memory
+from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.program.program import Record
 from handeye.vision.calibration import Calibration
@@ -37,7 +37,10 @@ class Snapshot(Record, frozen=True, kw_only=True):
     happened: Annotated[int, msgspec.Meta(ge=0)]
     """Events until then, undone ones not counted."""
     cell: CellState
-    memory: Memory
+    state: ExecutionState
+    """What the working phase remembers."""
+    vision_s: float = 0.0
+    """Processor time that vision has taken until then: beside the state, since no two runs take the same."""
 
 
 class Checkpoint(Record, frozen=True, kw_only=True):
@@ -66,18 +69,18 @@ class Checkpoint(Record, frozen=True, kw_only=True):
         """The next step begins a stage."""
         if self.snapshot is None:
             return False
-        memory = self.snapshot.memory
-        return memory.at is not None and memory.stage is None
+        state = self.snapshot.state
+        return state.at is not None and state.stage is None
 
     @property
     def stage(self) -> str | None:
         """The stage under way, or the one to come; None if the run has not begun or has ended."""
         if self.snapshot is None:
             return None
-        memory, program = self.snapshot.memory, self.setup.plan.program
-        if memory.stage is not None:
-            return program.stages[memory.stage]
-        return None if memory.at is None else program.stages[program.steps[memory.at].stage]
+        state, program = self.snapshot.state, self.setup.plan.program
+        if state.stage is not None:
+            return program.stages[state.stage]
+        return None if state.at is None else program.stages[program.steps[state.at].stage]
 
 
 def interfered(events: Iterable[AnyEvent]) -> bool:

@@ -10,12 +10,13 @@ from handeye.cell.simulated import PARK
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
 from handeye.execution.executor import Choice
-from handeye.execution.memory import Memory, remember
+from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
 from handeye.pose import Array
 from handeye.program.program import Look
 from handeye.program.taught import Taught
+from handeye.records import copied
 from handeye.runs.advance import Pause, advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
@@ -27,6 +28,10 @@ MOST: Final = 100
 _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
 """Programs that a workplace has before it is given one; they are not carried out."""
+_FORGOTTEN: Final = (
+    "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found"
+)  # fmt: skip
+"""What of a state is of one plan alone: where it is, and its pictures."""
 
 
 class Workplace:
@@ -74,17 +79,17 @@ class Workplace:
     @property
     def known(self) -> Taught:
         """Positions and parts as they are now: taught, and defined since by `HERE`."""
-        positions = {**self.taught.positions, **self.runner.run.world.moved}
+        positions = {**self.taught.positions, **self.runner.run.state.world.moved}
         return replace(self.taught, positions=positions)
 
     @property
     def q(self) -> Array:
         """Where the arm is held, shape (6,), rad and m."""
-        return self.runner.run.drive.q
+        return self.runner.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> Planned:
         """What the planning phase makes of a text here and now; `alone` as for `planned`."""
-        return planned(source, self.known, self.q, saved=self.runner.run.saved, alone=alone)
+        return planned(source, self.known, self.q, saved=self.runner.run.state.saved, alone=alone)
 
     def checkpoint(self) -> Checkpoint:
         """The present state, nothing that happened forgotten."""
@@ -93,7 +98,8 @@ class Workplace:
             position=runner.position,
             happened=len(runner.events),
             cell=runner.cell.capture(),
-            memory=remember(runner.executor),
+            state=copied(runner.run.state),
+            vision_s=runner.vision.seconds,
         )
         return Checkpoint(
             setup=runner.setup,
@@ -115,8 +121,8 @@ class Workplace:
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None
-        memory = _onward(here.snapshot.memory, plan)
-        snapshot = Snapshot(position=0, happened=1, cell=here.snapshot.cell, memory=memory)
+        state = _onward(here.snapshot.state, plan)
+        snapshot = msgspec.structs.replace(here.snapshot, position=0, happened=1, state=state)
         setup = Setup(plan=plan, seed=here.setup.seed, camera=here.setup.camera)
         start = Checkpoint(
             setup=setup, calibration=here.calibration, snapshot=snapshot, events=(self._started(plan),)
@@ -170,13 +176,13 @@ def _plan(text: str, taught: Taught) -> Plan:
     return plan
 
 
-def _onward(memory: Memory, plan: Plan) -> Memory:
+def _onward(state: ExecutionState, plan: Plan) -> ExecutionState:
     """What is remembered when another plan begins: all but where the last one was, and its pictures."""
-    program = plan.program
-    return msgspec.structs.replace(
-        memory,
-        at=0, pending=None, stage=None, stopped=None, onward=None, idle=0, clock=-1.0,
-        shots={}, general={}, found={},
-        measured={part: X for part, X in memory.measured.items() if part in program.parts},
-        moved={name: at for name, at in memory.moved.items() if name in program.positions},
-    )  # fmt: skip
+    program, kept = plan.program, copied(state)
+    fresh = ExecutionState(drive=kept.drive, world=kept.world)
+    for name in _FORGOTTEN:
+        setattr(kept, name, getattr(fresh, name))
+    world = kept.world
+    world.measured = {part: X for part, X in world.measured.items() if part in program.parts}
+    world.moved = {name: at for name, at in world.moved.items() if name in program.positions}
+    return kept

@@ -21,8 +21,8 @@ from handeye.arm.kinematics import solve
 from handeye.diagnostics import Diagnostic, arranged, render
 from handeye.editor.explain import SAMPLE
 from handeye.events import AnyEvent
+from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
-from handeye.execution.state import ExecutionState
 from handeye.inspection.inspection import inspection, inspection_text
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
@@ -105,9 +105,11 @@ def carried_out(plan: Plan, cell: str) -> list[AnyEvent]:
     at_rest = solve(ARM, world.planned_position("PARK"), middle).q if not begun else begun[0]
     assert at_rest is not None
     events: list[AnyEvent] = []
-    run = ExecutionState(plan=plan, arm=ARM, cell=cell_of(cell, at_rest), camera=DRAWING, emit=events.append)
-    executor = Executor(state=run)
-    while executor.at is not None:
+    run = ExecutionContext(
+        plan=plan, arm=ARM, cell=cell_of(cell, at_rest), camera=DRAWING, emit=events.append
+    )
+    executor = Executor(run=run)
+    while executor.state.at is not None:
         executor.step()
     executor.finish()
     return events

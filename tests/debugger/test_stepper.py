@@ -243,7 +243,7 @@ def test_measured_parts_are_shown_beside_their_plan(say: Say, runner: Runner) ->
 
 def test_the_last_picture_is_written_to_a_file_that_is_told(say: Say, runner: Runner, tmp_path: Path) -> None:
     picture = np.full((256, 333), 7, np.uint8)
-    runner.run.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
+    runner.run.state.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
     runner.events.append(PictureTaken(time=0.0, picture="CLOSE_UP", lens=0.05))
     shown = say("show picture")[0].show.picture
     assert (shown.name, shown.file) == ("CLOSE_UP", str(tmp_path / "pictures" / "close_up.png"))
@@ -255,7 +255,7 @@ def test_without_a_folder_a_picture_is_named_and_written_only_where_somebody_say
 ) -> None:
     monkeypatch.chdir(tmp_path)
     picture = np.full((256, 333), 7, np.uint8)
-    runner.run.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
+    runner.run.state.shots["CLOSE_UP"] = Shot(picture=picture, view=DRAWING.view(0.05, 0.0, 0.0))
     runner.events.append(PictureTaken(time=0.0, picture="CLOSE_UP", lens=0.05))
     stepper = Stepper(runner)
     assert as_text(stepper.do("show picture")).splitlines()[1:] == ["picture   CLOSE_UP"]

@@ -6,8 +6,8 @@ from pump_bench import SEATED, TAUGHT, at_standard, bench, shifted
 
 from handeye.errors import NO_FORCE, NOTHING_HELD
 from handeye.events import HandTold
-from handeye.execution.memory import recall, remember
 from handeye.program.program import Position
+from handeye.records import copied
 from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
@@ -46,7 +46,7 @@ def picking(up: float) -> dict[str, Position]:
 def test_pin_an_inch_lower_than_taught_is_found_at_the_second_try_and_goes_in() -> None:
     run = bench(LISTING, positions=picking(1.0), lay=at_standard()).go()
     assert run.errors == [NOTHING_HELD, NO_FORCE]
-    assert run.run.counters == {"TRIES": 1}
+    assert run.run.state.counters == {"TRIES": 1}
     assert run.called.message == "NO HOLE"
     assert run.place("pin0")[2] == pytest.approx(SEATED, abs=0.005)
 
@@ -71,7 +71,7 @@ def test_where_tells_what_trans_would_write() -> None:
 
 def test_counters_are_remembered_with_the_rest() -> None:
     run = bench(LISTING, positions=picking(0.0)).to("MOVE PIN")
-    memory = remember(run.executor)
-    run.run.counters["TRIES"] = 7
-    recall(run.executor, memory)
-    assert run.run.counters == {"TRIES": 2}
+    kept = copied(run.run.state)
+    run.run.state.counters["TRIES"] = 7
+    run.run.restore(kept)
+    assert run.run.state.counters == {"TRIES": 2}

@@ -57,4 +57,4 @@ def test_row_6_a_sideways_contact_of_eighty_ounces_does_not_stop_it() -> None:
 
     run.run.drive.watch = lean
     assert run.go().errors == [NO_FORCE]
-    assert run.run.drive.wrench[0] == pytest.approx(80 * OUNCE_FORCE, rel=0.05)
+    assert run.run.drive.state.wrench[0] == pytest.approx(80 * OUNCE_FORCE, rel=0.05)

@@ -5,8 +5,8 @@ import pytest
 from pump_bench import TAUGHT, bench, shifted
 
 from handeye.events import PositionDefined, StepFinished
-from handeye.execution.memory import recall, remember
 from handeye.program.program import Position
+from handeye.records import copied
 from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
@@ -39,8 +39,8 @@ def test_here_on_a_taught_position_of_a_part_keeps_to_the_part() -> None:
 
 def test_what_is_defined_here_is_remembered_with_the_rest() -> None:
     run = bench("CHANGE Z 1\nHERE PIN\nPARK").to("PARK")
-    memory = remember(run.executor)
-    there = run.run.world.moved["PIN"]
-    run.run.world.moved["PIN"] = Position(at=(0.0,) * 6)
-    recall(run.executor, memory)
-    assert run.run.world.moved == {"PIN": there}
+    kept = copied(run.run.state)
+    there = run.run.world.state.moved["PIN"]
+    run.run.world.state.moved["PIN"] = Position(at=(0.0,) * 6)
+    run.run.restore(kept)
+    assert run.run.world.state.moved == {"PIN": there}

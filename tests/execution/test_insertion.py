@@ -131,6 +131,6 @@ def test_a_search_that_finds_no_hole_ends_with_the_operator() -> None:
     """The hole is half an inch away, beyond the spiral's reach."""
     run = hole_off(0.0, 0.5)
     run.go(lambda: run.tries > 2)
-    assert run.run.search is not None
-    run.run.search.limit = 5  # the rest of the 49 places would be no different
+    assert run.run.state.search is not None
+    run.run.state.search.limit = 5  # the rest of the 49 places would be no different
     assert run.go().called.error == SEARCH_EXHAUSTED

@@ -40,7 +40,7 @@ def test_the_hand_passes_the_place_and_does_not_stop_there() -> None:
 
 def test_a_place_on_a_part_is_passed_where_the_part_was_seen() -> None:
     run = led()
-    run.run.world.measured["TRAY"] = planar(22 * INCH, 31 * INCH, 0.0, 0.0)
+    run.run.world.state.measured["TRAY"] = planar(22 * INCH, 31 * INCH, 0.0, 0.0)
     assert passing(run, (22, 31, 9))[0] < 0.1
     (adjusted,) = run.all(Adjusted)
     assert adjusted.goal == "OVER"
@@ -49,7 +49,7 @@ def test_a_place_on_a_part_is_passed_where_the_part_was_seen() -> None:
 
 def test_a_place_that_has_come_out_of_reach_is_told_by_its_name() -> None:
     run = led()
-    run.run.world.moved["OVER"] = written(20, 15, 5, 90)
+    run.run.world.state.moved["OVER"] = written(20, 15, 5, 90)
     run.go()
     assert run.called.error == NO_SOLUTION
     assert "(OVER: the wrist would have to be" in run.called.message

@@ -17,8 +17,8 @@ from handeye.al import compile_text
 from handeye.arm.stanford import STANFORD
 from handeye.editor.explain import SAMPLE
 from handeye.events import AnyEvent, to_line
+from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
-from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.source import Source
@@ -46,9 +46,9 @@ def carried_out(plan: Plan) -> bytes:
     events: list[AnyEvent] = []
     cell = FakeWorkcell(q=np.array(plan.motions[0].knots[0]))
     executor = Executor(
-        state=ExecutionState(plan=plan, arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
+        run=ExecutionContext(plan=plan, arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
     )
-    while executor.at is not None:
+    while executor.state.at is not None:
         executor.step()
     assert executor.finish()
     return b"".join(map(to_line, events))

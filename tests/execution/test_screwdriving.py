@@ -48,4 +48,4 @@ def test_row_60_a_crossed_thread_ends_by_torque_too(crossed: Bench) -> None:
 
 def test_row_60_a_crossed_thread_is_told_by_its_depth(crossed: Bench) -> None:
     assert crossed.called.error == WRONG_TRAVEL
-    assert crossed.run.travel < 0.15 * INCH
+    assert crossed.run.state.travel < 0.15 * INCH

@@ -61,4 +61,4 @@ def test_without_force_stops_no_pin_is_taken_for_inserted() -> None:
     positions = {"P": TAUGHT.positions["P1"], "T": TAUGHT.positions["T1"]}
     run = bench("OPEN 1\n" + without("STOP", INSERT), positions=positions, lay=at_standard()).go()
     assert run.called.error is not None
-    assert "H" not in run.run.saved
+    assert "H" not in run.run.state.saved

@@ -87,7 +87,7 @@ def test_a_moment_that_nothing_takes_turns_the_hand() -> None:
 def test_a_moment_that_something_takes_turns_the_hand_no_more() -> None:
     run = twisted(f"FORCE NIL [100 0 0]\n{DOWN}", (-100 * OUNCE_INCH, 0.0, 0.0))
     assert abs(turned(run)[0]) < 2
-    assert run.run.drive.wrench[3] / OUNCE_INCH == pytest.approx(-100, abs=10)
+    assert run.run.drive.state.wrench[3] / OUNCE_INCH == pytest.approx(-100, abs=10)
 
 
 def test_a_moment_beyond_the_limit_stops_the_motion() -> None:
@@ -109,7 +109,7 @@ def test_a_hand_that_presses_and_may_spin_comes_to_rest() -> None:
     wall = Position(at=(0.0, 1.5625 * INCH, 1.85 * INCH, 0.0, 90 * DEGREE, 0.0), of="PUMP")
     script = "MOVE T\nFREE 2 X Y\nSPIN 3 X Y Z\nFORCE [0 0 -30]\nCHANGE Z -.6"
     run, felt = bench(script, positions={"T": wall}, lay=at_standard()).to("CHANGE"), []
-    run.run.drive.watch = lambda _, __: felt.append(run.run.drive.wrench[2] / OUNCE_FORCE)
+    run.run.drive.watch = lambda _, __: felt.append(run.run.drive.state.wrench[2] / OUNCE_FORCE)
     assert run.go().errors == [SERVO_LAG]
     assert felt[-60:] == pytest.approx([30] * 60, abs=0.5)
 

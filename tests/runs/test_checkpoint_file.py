@@ -1,6 +1,5 @@
 """Checkpoints on disk: whole, sound and of this arm, or refused with one sentence."""
 
-import dataclasses
 import hashlib
 import zlib
 from pathlib import Path
@@ -10,13 +9,15 @@ import pytest
 from short_runs import GRASP, begin, history, through
 
 from handeye.errors import InvalidInput
-from handeye.execution.drive import ArmDrive
-from handeye.execution.executor import Executor
-from handeye.execution.memory import DriveMemory, Memory
-from handeye.execution.state import ExecutionState
-from handeye.program.world_model import WorldModel
 from handeye.runs import checkpoint_file
-from handeye.runs.checkpoint_file import decode, encode, read_checkpoint, read_head, write_checkpoint
+from handeye.runs.checkpoint_file import (
+    VERSION,
+    decode,
+    encode,
+    read_checkpoint,
+    read_head,
+    write_checkpoint,
+)
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 
@@ -37,7 +38,7 @@ def data(runner: Runner) -> bytes:
     return encode(runner.checkpoint())
 
 
-def sealed(rest: bytes, version: int = 1) -> bytes:
+def sealed(rest: bytes, version: int = VERSION) -> bytes:
     """A file with a right checksum, whatever is in it."""
     return f"handeye-checkpoint {version} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
 
@@ -82,8 +83,18 @@ def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
 
 def test_a_newer_version_is_refused(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
-    with pytest.raises(InvalidInput, match="checkpoint format version 2; this handeye reads up to version 1"):
-        decode(sealed(rest, version=2), "it")
+    with pytest.raises(InvalidInput, match="checkpoint format version 3; this handeye reads up to version 2"):
+        decode(sealed(rest, version=3), "it")
+
+
+def test_a_checkpoint_of_before_is_refused_with_what_to_do(data: bytes) -> None:
+    rest = data.partition(b"\n")[2]
+    with pytest.raises(
+        InvalidInput,
+        match=r"^it was kept by an older handeye, in checkpoint format version 1; this one reads version 2: "
+        r"begin the run anew, or go on with it there$",
+    ):
+        decode(sealed(rest, version=1), "it")
 
 
 def test_a_version_of_thousands_of_digits_is_no_version(data: bytes) -> None:
@@ -127,7 +138,7 @@ def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.
 def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str) -> None:
     _, _, packed = data.split(b"\n", 2)
     body = msgspec.msgpack.decode(zlib.decompress(packed))
-    body["snapshot"]["memory"]["goal"] = [dtype, [3], b"\0" * 48]
+    body["snapshot"]["state"]["goal"] = [dtype, [3], b"\0" * 48]
     with pytest.raises(InvalidInput, match="belongs in a checkpoint"):
         decode(changed(data, snapshot=body["snapshot"]), "it")
 
@@ -135,11 +146,13 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
 @pytest.mark.parametrize(
     ("path", "value", "sentence"),
     [
-        (("memory", "at"), 999, "does not fit this plan"),
-        (("memory", "stage"), 99, "does not fit this plan"),
-        (("memory", "goal"), ["<f8", [2], b"\0" * 16], "does not fit this plan"),
-        (("memory", "measured"), {"moon": ["<f8", [4, 4], b"\0" * 128]}, "does not fit this plan"),
-        (("memory", "found"), {"../../x": {}}, "does not fit this plan"),
+        (("state", "at"), 999, "does not fit this plan"),
+        (("state", "stage"), 99, "does not fit this plan"),
+        (("state", "goal"), ["<f8", [2], b"\0" * 16], "does not fit this plan"),
+        (("state", "world", "measured"), {"moon": ["<f8", [4, 4], b"\0" * 128]}, "does not fit this plan"),
+        (("state", "found"), {"../../x": {}}, "does not fit this plan"),
+        (("state", "drive", "q"), ["<f8", [5], b"\0" * 40], "does not fit this plan"),
+        (("state", "drive", "tare"), ["<f8", [7], b"\0" * 56], "does not fit this plan"),
         (("cell", "sensed", "time"), 1e300, "what they cannot"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
         (("cell", "figures"), {}, "figures that change"),
@@ -182,24 +195,6 @@ def test_a_checkpoint_that_cannot_be_written_leaves_the_one_before(
         write_checkpoint(path, Checkpoint(setup=runner.setup))
     assert [p.name for p in tmp_path.iterdir()] == ["a.checkpoint"]
     assert path.read_bytes() == data
-
-
-GIVEN = {"plan", "arm", "cell", "camera", "emit", "stopwatch"}
-"""What a run is given anew when it is taken up."""
-
-
-def test_nothing_that_a_run_remembers_is_left_out() -> None:
-    remembered = {field.name for field in msgspec.structs.fields(Memory)}
-    run = {field.name for field in dataclasses.fields(ExecutionState)} - GIVEN - {"world", "drive"}
-    executor = {field.name for field in dataclasses.fields(Executor)} - {"state"}
-    world = {field.name for field in dataclasses.fields(WorldModel)} - {"parts", "positions"}
-    assert remembered == run | executor | world | {"drive"}
-
-
-def test_nothing_that_the_servo_loop_holds_is_left_out() -> None:
-    remembered = {field.name for field in msgspec.structs.fields(DriveMemory)}
-    held = {field.name for field in dataclasses.fields(ArmDrive)}
-    assert remembered == held - {"cell", "arm", "watch", "halt", "sensed"}
 
 
 @pytest.mark.parametrize("path", ["/dev/zero", "/", "/nowhere"])

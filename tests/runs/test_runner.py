@@ -146,9 +146,9 @@ def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> Non
     runner.step()
     runner.set_saved("D", (0.01, 0.0, 0.0))
     kept = Runner(runner.checkpoint())
-    assert kept.run.saved["D"] == pytest.approx([0.01, 0, 0])
+    assert kept.run.state.saved["D"] == pytest.approx([0.01, 0, 0])
     runner.back_to(0)
-    assert "D" not in runner.run.saved
+    assert "D" not in runner.run.state.saved
     assert not runner.touched
 
 
@@ -231,6 +231,6 @@ def test_going_back_over_what_people_did_does_it_again() -> None:
     late = Runner(runner.checkpoint())
     late.back_to(3, lambda _: first)
     assert history(late.events) == history(runner.events[: len(late.events)])
-    assert late.run.saved["D"] == pytest.approx([0.01, 0, 0])
+    assert late.run.state.saved["D"] == pytest.approx([0.01, 0, 0])
     late.step()
     assert history(late.events) == history(runner.events)

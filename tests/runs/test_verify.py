@@ -22,7 +22,7 @@ def recorded(path: Path, *, secretly: bool, start: Checkpoint | None = None) -> 
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
     advance(runner, steps=5)
     if secretly:
-        runner.run.drive.load = 0.5
+        runner.run.drive.state.load = 0.5
     advance(runner)
     runner.finish()
     folder.close()

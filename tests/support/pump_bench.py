@@ -16,8 +16,8 @@ from handeye.al import compile_text
 from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
+from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
-from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.ports.workcell import Drive
@@ -92,7 +92,7 @@ class Bench:
 
     def go(self, until: Callable[[], bool] = lambda: False) -> "Bench":
         """Do steps until the program ends, the operator is called, or `until` says so."""
-        while self.executor.at is not None and not until():
+        while self.executor.state.at is not None and not until():
             self.executor.step()
         return self
 
@@ -103,12 +103,12 @@ class Bench:
     @property
     def text(self) -> str:
         """The statement to be done next."""
-        assert self.executor.at is not None
-        return self.run.plan.program.steps[self.executor.at].text
+        assert self.executor.state.at is not None
+        return self.run.plan.program.steps[self.executor.state.at].text
 
     @property
-    def run(self) -> ExecutionState:
-        return self.executor.state
+    def run(self) -> ExecutionContext:
+        return self.executor.run
 
     # -- what happened ------------------------------------------------------------------------------
 
@@ -129,17 +129,17 @@ class Bench:
     @property
     def finished(self) -> bool:
         """The program came to its end."""
-        return self.executor.at is None and self.executor.stopped is None
+        return self.executor.state.at is None and self.executor.state.stopped is None
 
     @property
     def called(self) -> OperatorCalled:
         """What the operator was told."""
-        assert self.executor.stopped is not None, self.events[-5:]
-        return self.executor.stopped
+        assert self.executor.state.stopped is not None, self.events[-5:]
+        return self.executor.state.stopped
 
     def saved(self, name: str) -> Array:
         """A saved difference in inches."""
-        return self.run.saved[name] / INCH
+        return self.run.state.saved[name] / INCH
 
     # -- what is really so --------------------------------------------------------------------------
 
@@ -205,9 +205,9 @@ def bench(
         put(cell, part, X_WP)
     settle(cell)
     events: list[Event] = []
-    run = ExecutionState(plan=edited(plan), arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
+    run = ExecutionContext(plan=edited(plan), arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
-    return Bench(cell=cell, executor=Executor(state=run), events=events, first=first)
+    return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
 
 
 def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:

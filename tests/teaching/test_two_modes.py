@@ -64,7 +64,7 @@ def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what
     apart.type("DO OPEN 3", "DO PARK")
     assert [text.split("\n")[0] for text in plannings] == ["OPEN 3", "PARK"]
     assert apart.repl.functions == ["OPEN 1"]
-    ends = [s.repl.workplace.runner.run.drive.q for s in (together, apart)]
+    ends = [s.repl.workplace.runner.run.drive.state.q for s in (together, apart)]
     assert ends[0] == pytest.approx(ends[1], abs=1e-3)
     assert together.gap == pytest.approx(apart.gap, abs=0.01)
 

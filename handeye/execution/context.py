@@ -1,0 +1,52 @@
+"""The surroundings of a working phase: what its operations are carried out with, and the state they live in."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from handeye.arm.model import ArmModel
+from handeye.events import AnyEvent
+from handeye.execution.drive import ArmDrive
+from handeye.execution.state import DriveState, ExecutionState, check_fits
+from handeye.execution.stopwatch import Stopwatch
+from handeye.planfile.plan import Plan
+from handeye.ports.workcell import Workcell
+from handeye.program.world_model import WorldModel
+from handeye.records import put_back
+from handeye.units import JIFFY
+from handeye.vision.camera import CameraModel
+
+
+@dataclass(slots=True, kw_only=True)
+class ExecutionContext:
+    """Plan, arm and cell of one working phase; its drive and world model live in parts of its state."""
+
+    plan: Plan
+    arm: ArmModel
+    cell: Workcell
+    camera: CameraModel
+    """The calibrated camera."""
+    emit: Callable[[AnyEvent], None]
+    vision: Stopwatch = field(default_factory=Stopwatch)
+    """Processor time of vision; the working phase itself never reads a clock of the host."""
+    state: ExecutionState = field(init=False)
+    drive: ArmDrive = field(init=False)
+    world: WorldModel = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.state = ExecutionState(drive=DriveState.holding(self.cell.sense()))
+        self.drive = ArmDrive(cell=self.cell, arm=self.arm, state=self.state.drive)
+        self.world = WorldModel.of(self.plan.program, self.state.world)
+
+    @property
+    def time(self) -> float:
+        """The cell's clock, rounded to its period so that it prints the same everywhere."""
+        return round(round(self.drive.sensed.time / JIFFY) * JIFFY, 6)
+
+    def restore(self, state: ExecutionState) -> None:
+        """Go on from a copy of a state; the cell must be as it was then.
+
+        Raises:
+            InvalidInput: it is not a state of this plan.
+        """
+        check_fits(state, self.plan, self.arm)
+        put_back(self.state, state)
