@@ -6,7 +6,7 @@ from fakes import FakeWorkcell, Wall
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.ports.workcell import Drive
 from handeye.pose import Array
 from handeye.units import DEGREE, INCH, JIFFY

@@ -1,6 +1,6 @@
 """The chain of frames, and what joint rates do to points on it.
 
-Serves any six-joint arm without common-normal offsets (a = 0 in every row), of revolute and prismatic joints.
+Serves any arm without common-normal offsets (a = 0 in every row), of revolute and prismatic joints.
 Everything is vectorised over leading dimensions, so that a whole motion costs little more than one set-point.
 """
 
@@ -12,23 +12,24 @@ from handeye.pose import Array
 
 
 def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
-    """DH frames 0 (base) to 6 (tool) in the world: rotations (..., 7, 3, 3) and origins (..., 7, 3).
+    """DH frames 0 (base) to n (tool) in the world: rotations (..., n + 1, 3, 3) and origins (..., n + 1, 3).
 
-    `q` has shape (..., 6), in rad and m.
+    `q` has shape (..., n), in rad and m.
     """
     k = constants(arm)
     q = np.asarray(q, dtype=np.float64)
-    angle = np.where(k.prismatic, 0.0, q)
+    angle = np.where(k.prismatic, k.theta, q)
     shift = np.where(k.prismatic, q, k.d)
     c, s = np.cos(angle), np.sin(angle)
     step = np.zeros((*q.shape, 3, 3))
     step[..., 0, 0], step[..., 0, 1], step[..., 0, 2] = c, -s * k.cos_alpha, s * k.sin_alpha
     step[..., 1, 0], step[..., 1, 1], step[..., 1, 2] = s, c * k.cos_alpha, -c * k.sin_alpha
     step[..., 2, 1], step[..., 2, 2] = k.sin_alpha, k.cos_alpha
-    R = np.empty((*q.shape[:-1], 7, 3, 3))
-    p = np.empty((*q.shape[:-1], 7, 3))
+    n = len(arm.joints)
+    R = np.empty((*q.shape[:-1], n + 1, 3, 3))
+    p = np.empty((*q.shape[:-1], n + 1, 3))
     R[..., 0, :, :], p[..., 0, :] = arm.X_WB[:3, :3], arm.X_WB[:3, 3]
-    for i in range(6):
+    for i in range(n):
         np.matmul(R[..., i, :, :], step[..., i, :, :], out=R[..., i + 1, :, :])
         p[..., i + 1, :] = p[..., i, :] + shift[..., i, None] * R[..., i, :, 2]
     return R, p
@@ -39,13 +40,13 @@ def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Ar
 
     Args:
         R, p: the chain.
-        points: shape (..., n, 3), world.
+        points: shape (..., m, 3), world.
     Returns:
-        velocity of each point per joint rate, (..., n, 6, 3); angular velocity per joint rate, (..., 6, 3).
+        velocity of each point per joint rate, (..., m, n, 3); angular velocity per joint rate, (..., n, 3).
     """
     prismatic = constants(arm).prismatic[:, None]
-    axes = R[..., :6, :, 2]
-    lever = points[..., :, None, :] - p[..., None, :6, :]
+    axes = R[..., :-1, :, 2]
+    lever = points[..., :, None, :] - p[..., None, :-1, :]
     linear = np.where(prismatic, axes[..., None, :, :], cross(axes[..., None, :, :], lever))
     return linear, np.where(prismatic, 0.0, axes)
 
@@ -56,23 +57,24 @@ def centripetal(
     """Accelerations at joint rates `qd` without joint accelerations.
 
     Args:
-        points: (..., n, 3), the k-th fixed in link `links[k]` (from 0).
+        points: (..., m, 3), the k-th fixed in link `links[k]` (from 0).
     Returns:
-        of the points, (..., n, 3), and angular of their links, (..., n, 3).
+        of the points, (..., m, 3), and angular of their links, (..., m, 3).
     """
-    prismatic = constants(arm).prismatic[:, None]
-    axes = R[..., :6, :, 2]
+    k = constants(arm)
+    prismatic = k.prismatic[:, None]
+    axes = R[..., :-1, :, 2]
     turning = np.where(prismatic, 0.0, axes) * qd[..., None]
     after = np.cumsum(turning, axis=-2)  # angular velocity of each link
     before = after - turning
     swing = cross(before, axes)  # rate of change of each joint axis
-    carried = np.tri(6)[links][:, :, None]  # joints that move link k
+    carried = k.carried[links][:, :, None]  # joints that move link k
 
     linear, _ = point_jacobian(arm, R, p, points)
-    origins, _ = point_jacobian(arm, R, p, p[..., :6, :])
+    origins, _ = point_jacobian(arm, R, p, p[..., :-1, :])
     v_point = ((linear * carried) * qd[..., None, :, None]).sum(axis=-2)
-    v_origin = ((origins * np.tri(6, k=-1)[:, :, None]) * qd[..., None, :, None]).sum(axis=-2)
-    lever = points[..., :, None, :] - p[..., None, :6, :]
+    v_origin = ((origins * np.tri(len(k.d), k=-1)[:, :, None]) * qd[..., None, :, None]).sum(axis=-2)
+    lever = points[..., :, None, :] - p[..., None, :-1, :]
     rate = v_point[..., :, None, :] - v_origin[..., None, :, :]
     # a revolute joint's column is axis x lever, and both change; a prismatic one's is the axis alone
     column = np.where(

@@ -15,39 +15,37 @@ from handeye.pose import Array
 GRAVITY = 9.81
 """m/s2, downwards along world z."""
 
-_LINKS = np.arange(6)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Links:
-    """The six links in the world, as functions of the joint positions."""
+    """The links in the world, as functions of the joint positions."""
 
     R: Array
     p: Array
     centre: Array
-    """Mass centres, (..., 6, 3)."""
+    """Mass centres, (..., n, 3)."""
     linear: Array
-    """Velocity of each mass centre per joint rate, (..., 6, 6, 3)."""
+    """Velocity of each mass centre per joint rate, (..., n, n, 3)."""
     angular: Array
-    """Angular velocity of each link per joint rate, (..., 6, 6, 3)."""
+    """Angular velocity of each link per joint rate, (..., n, n, 3)."""
     inertia: Array
-    """Inertia tensors about the mass centres in world axes, (..., 6, 3, 3)."""
+    """Inertia tensors about the mass centres in world axes, (..., n, 3, 3)."""
 
 
 def mass_matrix(arm: ArmModel, q: Array) -> Array:
-    """M(q), drive inertia included; shape (..., 6) to (..., 6, 6)."""
+    """M(q), drive inertia included; shape (..., n) to (..., n, n)."""
     return _mass_matrix(arm, _links(arm, q))
 
 
 def inverse_dynamics(arm: ArmModel, q: Array, qd: Array, qdd: Array) -> Array:
-    """Torques M qdd + h(q, qd) that give these accelerations, friction apart; each of shape (..., 6)."""
+    """Torques M qdd + h(q, qd) that give these accelerations, friction apart; each of shape (..., n)."""
     links = _links(arm, q)
     inertial = (_mass_matrix(arm, links) @ np.asarray(qdd, dtype=np.float64)[..., None])[..., 0]
     return np.asarray(inertial + _bias(arm, links, np.asarray(qd, dtype=np.float64)))
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
-    """Torques that hold the arm up at rest, shape (..., 6); gravity itself pulls with the opposite ones."""
+    """Torques that hold the arm up at rest, shape (..., n); gravity itself pulls with the opposite ones."""
     return _bias(arm, _links(arm, q), None)
 
 
@@ -63,7 +61,7 @@ def _links(arm: ArmModel, q: Array) -> _Links:
     rotation = R[..., 1:, :, :]
     centre = p[..., 1:, :] + (rotation @ k.centre[..., None])[..., 0]
     linear, angular = point_jacobian(arm, R, p, centre)
-    carried = np.tri(6)[:, :, None]  # a joint moves its own link and those after it
+    carried = k.carried[:, :, None]  # a joint moves its own link and those after it
     return _Links(
         R=R, p=p, centre=centre, linear=linear * carried, angular=angular[..., None, :, :] * carried,
         inertia=(rotation * k.inertia[:, None, :]) @ np.swapaxes(rotation, -1, -2),
@@ -83,7 +81,7 @@ def _bias(arm: ArmModel, links: _Links, qd: Array | None) -> Array:
     force[..., 2] = GRAVITY
     turning = None
     if qd is not None:
-        acceleration, spin = centripetal(arm, links.R, links.p, links.centre, _LINKS, qd)
+        acceleration, spin = centripetal(arm, links.R, links.p, links.centre, np.arange(qd.shape[-1]), qd)
         force = force + acceleration
         omega = (links.angular * qd[..., None, :, None]).sum(axis=-2)
         momentum = (links.inertia @ omega[..., None])[..., 0]

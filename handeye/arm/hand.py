@@ -1,29 +1,48 @@
-"""The hand as boxes in the tool frame T, for what is checked before anything moves.
+"""A two-finger hand as data: what it weighs, how wide it opens, and the boxes it is made of.
 
-Sizes: those of the fingers and the palm that meet things in the simulated cell; a test compares them. The wrist
-above the palm, round in the drawing, is a box around it.
+The boxes are in the tool frame T, for what is checked before anything moves. They are those of the fingers and the
+palm that meet things in the simulated cell; a test compares them. The wrist above the palm, round in the drawing, is
+a box around it.
 """
 
-from typing import Final
+from dataclasses import dataclass
 
 from handeye.boxes import Box
 
-FINGER_WIDTH: Final = 0.01905
-"""m, across the finger line."""
-FINGER_THICKNESS: Final = 0.01016
-"""m, along the finger line."""
-FINGER_LENGTH: Final = 0.0782
-"""m, from the tip to the palm."""
-PALM: Final[Box] = (-0.0381, -0.0635, -0.1055, 0.0381, 0.0635, -0.0815)
-WRIST: Final[Box] = (-0.039, -0.050, -0.2540, 0.039, 0.050, -0.1055)
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HandModel:
+    """Two fingers that open and close together, and what carries them."""
 
-def hand_boxes(gap: float) -> tuple[Box, ...]:
-    """Both fingers at an opening (m) between them, the palm and the wrist."""
-    x, inner, outer = FINGER_WIDTH / 2, gap / 2, gap / 2 + FINGER_THICKNESS
-    return (
-        (-x, inner, -FINGER_LENGTH, x, outer, 0.0),
-        (-x, -outer, -FINGER_LENGTH, x, -inner, 0.0),
-        PALM,
-        WRIST,
-    )
+    length: float
+    """From the wrist centre to the finger tips, m."""
+    mass: float
+    """Of both fingers, kg; a part of the last link that its `mass` does not include."""
+    centre: float
+    """From the wrist centre to the fingers' mass centre along the approach direction, m."""
+    gap_max: float
+    """Greatest opening of the fingers, m."""
+    gap_speed: float
+    """Greatest rate of the opening, m/s."""
+    grip: float
+    """Greatest force of each finger, N."""
+    finger_width: float
+    """Across the finger line, m."""
+    finger_thickness: float
+    """Along the finger line, m."""
+    finger_length: float
+    """From the tip to the palm, m."""
+    palm: Box
+    wrist: Box
+    lamp: tuple[float, float, float] | None = None
+    """Where the lamp is that shows the camera the hand, in T, m."""
+
+    def boxes(self, gap: float) -> tuple[Box, ...]:
+        """Both fingers at an opening (m) between them, the palm and the wrist."""
+        x, inner, outer = self.finger_width / 2, gap / 2, gap / 2 + self.finger_thickness
+        return (
+            (-x, inner, -self.finger_length, x, outer, 0.0),
+            (-x, -outer, -self.finger_length, x, -inner, 0.0),
+            self.palm,
+            self.wrist,
+        )

@@ -15,25 +15,22 @@ _HARDEST: Final = 5.774
 """Its greatest acceleration, as a multiple of distance over duration squared."""
 
 
-def jog(
-    arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float, period: float
-) -> Samples | IKResult:
+def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Samples | IKResult:
     """Set-points of a smooth motion of one joint to `goal` (rad, or m), or why there are none.
 
     Args:
-        q: where the arm stands, shape (6,).
+        q: where the arm stands, shape (n,).
         joint: its index from 0.
         speed: share of the joint's greatest rate; its square of the acceleration.
-        period: s between two set-points.
     """
-    distance, limits = goal - q[joint], arm.joints[joint]
+    distance, limits, period = goal - q[joint], arm.joints[joint], arm.servo.period
     least = max(
         _FASTEST * abs(distance) / (speed * limits.speed),
         float(np.sqrt(_HARDEST * abs(distance) / (speed**2 * limits.acceleration))),
     )
     count = max(1, int(np.ceil(least / period)))
     duration, s = count * period, np.arange(1, count + 1) / count
-    one = np.eye(6)[joint] * distance
+    one = np.eye(len(q))[joint] * distance
     samples = Samples(
         q=q + np.outer(10 * s**3 - 15 * s**4 + 6 * s**5, one),
         qd=np.outer(30 * s**2 - 60 * s**3 + 30 * s**4, one) / duration,

@@ -24,17 +24,17 @@ SLACK = 1e-9
 
 
 def forward(arm: ArmModel, q: Array) -> Pose:
-    """`X_WT` at joint positions `q`, shape (..., 6) to (..., 4, 4)."""
+    """`X_WT` at joint positions `q`, shape (..., n) to (..., 4, 4)."""
     R, p = chain(arm, q)
     X = np.zeros((*R.shape[:-3], 4, 4))
-    X[..., :3, :3], X[..., :3, 3], X[..., 3, 3] = R[..., 6, :, :], p[..., 6, :], 1.0
+    X[..., :3, :3], X[..., :3, 3], X[..., 3, 3] = R[..., -1, :, :], p[..., -1, :], 1.0
     return X
 
 
 def jacobian(arm: ArmModel, q: Array) -> Array:
-    """Geometric Jacobian at T in world axes, shape (..., 6) to (..., 6, 6): linear rows, then angular."""
+    """Geometric Jacobian at T in world axes, shape (..., n) to (..., 6, n): linear rows, then angular."""
     R, p = chain(arm, q)
-    linear, angular = point_jacobian(arm, R, p, p[..., 6:, :])
+    linear, angular = point_jacobian(arm, R, p, p[..., -1:, :])
     return np.concatenate(
         [np.swapaxes(linear[..., 0, :, :], -1, -2), np.swapaxes(angular, -1, -2)], axis=-2
     )  # fmt: skip
@@ -43,7 +43,7 @@ def jacobian(arm: ArmModel, q: Array) -> Array:
 def drift(arm: ArmModel, q: Array, qd: Array) -> Array:
     """Acceleration of T at joint rates `qd` and no joint accelerations (dJ/dt qd), shape (..., 6)."""
     R, p = chain(arm, q)
-    linear, angular = centripetal(arm, R, p, p[..., 6:, :], np.full(1, 5), qd)
+    linear, angular = centripetal(arm, R, p, p[..., -1:, :], np.full(1, len(arm.joints) - 1), qd)
     return np.concatenate([linear[..., 0, :], angular[..., 0, :]], axis=-1)
 
 
@@ -125,12 +125,6 @@ def branches(arm: ArmModel, X_WT: Pose) -> tuple[Array, NDArray[np.bool_]]:
     return turned, np.broadcast_to(exists[..., None], q.shape[:-1])
 
 
-def within_limits(arm: ArmModel, q: Array) -> NDArray[np.bool_]:
-    """Whether all joints are inside their limits, shape (..., 6) to (...)."""
-    inside = (q >= arm.lower - SLACK) & (q <= arm.upper + SLACK)
-    return np.asarray(inside.all(axis=-1))
-
-
 def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     """Joint positions that put the hand at `X_WT`: the branch inside the limits that is nearest to `near`.
 
@@ -210,7 +204,7 @@ def _nearest_turn(joint: Joint, x: float, near: float) -> float:
 def _wrist_centre(arm: ArmModel, rows: Any) -> Any:
     """Wrist centre seen from the shoulder, in the base frame."""
     (_, _, ax, px), (_, _, ay, py), (_, _, az, pz) = rows
-    d = arm.hand_length
+    d = arm.hand.length
     return px - d * ax, py - d * ay, pz - d * az - arm.joints[0].d
 
 

@@ -9,10 +9,9 @@ from handeye.arm.kinematics import IKResult, branches, drift, forward, jacobian,
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples, length
 from handeye.pose import Array, Pose, displaced, rotation_z, translated
-from handeye.units import JIFFY
 
 RAMP = 0.1
-"""Time to reach and to leave the cruising speed, s. Chosen: six servo periods."""
+"""Time to reach and to leave the cruising speed, s. Chosen: six periods of the servo of 1973."""
 SINGULAR = 0.02
 """Sine of joint 5 below which a hand that must keep its orientation would need absurd speeds of joint 4."""
 
@@ -23,13 +22,13 @@ def straight(
     """Set-points of a straight motion of the tool point with the orientation kept, or why there are none.
 
     Args:
-        q_start: shape (6,).
+        q_start: shape (n,).
         displacement: shape (3,), m, world.
         speed: m/s while cruising, at most; a short motion is slower.
     """
     displacement = np.asarray(displacement, dtype=np.float64)
     distance = float(np.linalg.norm(displacement))
-    s, sd, sdd = _profile(distance, speed, ramp)
+    s, sd, sdd = _profile(distance, speed, ramp, arm.servo.period)
     u = displacement / distance if distance else displacement
     X = np.tile(forward(arm, q_start), (len(s), 1, 1))
     X[:, :3, 3] += s[:, None] * u
@@ -47,7 +46,7 @@ def arc(
         angle: rad, counter-clockwise seen from above.
         speed: rad/s while cruising, at most.
     """
-    s, sd, sdd = _profile(abs(angle), speed, ramp)
+    s, sd, sdd = _profile(abs(angle), speed, ramp, arm.servo.period)
     s, sd, sdd = (math.copysign(1.0, angle) * x for x in (s, sd, sdd))
     X_start = forward(arm, q_start)
     centre = np.array([centre_xy[0], centre_xy[1], 0.0])
@@ -68,7 +67,7 @@ def pivot(arm: ArmModel, q_start: Array, turn: Array, speed: float, ramp: float 
         speed: rad/s while cruising, at most.
     """
     angle = float(np.linalg.norm(turn))
-    s, sd, sdd = _profile(angle, speed, ramp)
+    s, sd, sdd = _profile(angle, speed, ramp, arm.servo.period)
     u = turn / angle if angle else turn
     X_start, still = forward(arm, q_start), np.zeros(3)
     X = np.stack([displaced(X_start, still, a * u) for a in s]) if len(s) else np.zeros((0, 4, 4))
@@ -82,7 +81,7 @@ def _turned(X: Pose, centre: Array, angle: float) -> Pose:
     return translated(Y, centre)
 
 
-def _profile(distance: float, speed: float, ramp: float) -> tuple[Array, Array, Array]:
+def _profile(distance: float, speed: float, ramp: float, period: float) -> tuple[Array, Array, Array]:
     """Way, speed and acceleration at ticks 1 to N: a cruise between two ramps without jolt at their ends.
 
     The speed on a ramp is v (3 r2 - 2 r3) of its share r, so that a ramp covers half of what cruising would.
@@ -90,10 +89,10 @@ def _profile(distance: float, speed: float, ramp: float) -> tuple[Array, Array, 
     if distance == 0.0:
         return np.zeros(0), np.zeros(0), np.zeros(0)
     cruise = max(distance / speed - ramp, 0.0)
-    count = math.ceil((cruise + 2 * ramp) / JIFFY - 1e-9)
-    duration = count * JIFFY
+    count = math.ceil((cruise + 2 * ramp) / period - 1e-9)
+    duration = count * period
     v = distance / (duration - ramp)
-    t = np.arange(1, count + 1) * JIFFY
+    t = np.arange(1, count + 1) * period
     r = np.clip(np.minimum(t, duration - t) / ramp, 0.0, 1.0)
     rising = t < duration / 2
     ramped = v * ramp * (r**3 - r**4 / 2)
@@ -104,7 +103,8 @@ def _profile(distance: float, speed: float, ramp: float) -> tuple[Array, Array, 
 def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Samples | IKResult:
     """Joint positions, rates and accelerations for hand poses (N, 4, 4), twists and their rates (N, 6)."""
     if len(X) == 0:
-        return Samples(q=np.zeros((0, 6)), qd=np.zeros((0, 6)), qdd=np.zeros((0, 6)))
+        none = np.zeros((0, len(q_start)))
+        return Samples(q=none, qd=none, qdd=none)
     found, exists = branches(arm, X)
     if not exists.all():
         tick = int(np.argmin(exists.all(axis=1)))

@@ -1,14 +1,19 @@
 """An arm as a value: a chain of joints with their limits, masses and drives."""
 
 import hashlib
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.arm.hand import HandModel
 from handeye.pose import Array, Pose, inverse
+
+Structure = Literal["spherical wrist", "gantry", "cartesian"]
+"""How an arm is built, as far as its inverse kinematics go; `handeye.arm.ik` has a solver for each."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,7 +21,7 @@ class Joint:
     """A joint and the link it moves, in standard Denavit-Hartenberg form with a = 0.
 
     DH frame i is reached from frame i-1 by a turn of theta about z, a shift of d along z and a turn of
-    `alpha` about x. A revolute joint varies theta, a prismatic one varies d (and has theta = 0).
+    `alpha` about x. A revolute joint varies theta, a prismatic one varies d.
     Rates and limits are in rad for a revolute joint, in m for a prismatic one.
     """
 
@@ -26,6 +31,8 @@ class Joint:
     """m; 0 for a prismatic joint, whose position takes its place."""
     alpha: float
     """rad"""
+    theta: float = 0.0
+    """rad; 0 for a revolute joint, whose position takes its place."""
     lower: float
     upper: float
     speed: float
@@ -44,47 +51,71 @@ class Joint:
     """Inertia of the drive seen at the joint: kg m2, or kg."""
     damping: float
     """Viscous friction of the joint: N m s, or N s/m."""
+    brake: float
+    """Torque (N m) or force (N) at which the set brake gives way."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ServoModel:
+    """How the arm is held to its set-points, and what counts as a failure to."""
+
+    period: float
+    """s between two torque updates."""
+    frequency: tuple[float, ...]
+    """Natural frequency of each joint's position error, rad/s, critically damped."""
+    lag: tuple[float, ...]
+    """Following error of each joint that means collision, rad or m."""
+    short: float
+    """Distance of the hand from its set-point at the end of a free motion that means it stands on something, m."""
+    settle: int
+    """Periods held at the end of a motion, and averaged for the tare of the force estimate."""
+    drag: float
+    """s in which the floating arm comes to rest once nobody pushes it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ArmModel:
-    """A six-joint arm with a two-finger hand.
+    """An arm of n joints with a two-finger hand.
 
-    DH frame 6 is the tool frame T: midway between the finger tips, z along the approach direction, y along
-    the finger line. Its distance from the wrist centre is the hand length, which is also the last joint's d.
+    The last DH frame is the tool frame T: midway between the finger tips, z along the approach direction, y along
+    the finger line.
     """
 
     name: str
-    joints: tuple[Joint, Joint, Joint, Joint, Joint, Joint]
+    structure: Structure
+    joints: tuple[Joint, ...]
     X_WB: Pose
     """Base of the arm in the world, shape (4, 4)."""
-    hand_length: float
-    """m"""
-    hand_mass: float
-    """Mass of both fingers, kg; a part of link 6 that its `mass` does not include."""
-    hand_centre: float
-    """Distance of the fingers' mass centre from the wrist centre along the approach direction, m."""
-    gap_max: float
-    """Greatest opening of the fingers, m."""
-    gap_speed: float
-    """Greatest rate of the opening, m/s."""
+    hand: HandModel
+    servo: ServoModel
+    held: Mapping[str, float] = field(default_factory=dict)
+    """Joints that are no part of the inverse kinematics, by name, and where each is held, rad or m."""
 
     @property
     def lower(self) -> Array:
-        """Lower joint limits, shape (6,)."""
+        """Lower joint limits, shape (n,)."""
         return constants(self).lower
 
     @property
     def upper(self) -> Array:
-        """Upper joint limits, shape (6,)."""
+        """Upper joint limits, shape (n,)."""
         return constants(self).upper
 
 
 def digest(arm: ArmModel) -> str:
-    """Twelve hexadecimal digits that change with any figure of the model."""
-    figures = [getattr(arm, field.name) for field in fields(arm)]
-    text = repr([figure.tolist() if isinstance(figure, np.ndarray) else figure for figure in figures])
-    return hashlib.sha256(text.encode()).hexdigest()[:12]
+    """Twelve hexadecimal digits that change with any figure of the model, whatever its fields are called."""
+    return hashlib.sha256(repr(_figures(arm)).encode()).hexdigest()[:12]
+
+
+def _figures(value: object) -> object:
+    """The figures of a model as nested lists."""
+    if is_dataclass(value):
+        return [_figures(getattr(value, each.name)) for each in fields(value)]
+    if isinstance(value, Mapping):
+        return sorted(value.items())
+    if isinstance(value, tuple):
+        return [_figures(each) for each in value]
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -93,8 +124,9 @@ class Constants:
 
     X_BW: Pose
     prismatic: NDArray[np.bool_]
-    """Shape (6,), as d to damping."""
+    """Shape (n,), as d to frequency."""
     d: Array
+    theta: Array
     cos_alpha: Array
     sin_alpha: Array
     lower: Array
@@ -104,18 +136,34 @@ class Constants:
     effort: Array
     armature: Array
     damping: Array
+    brake: Array
+    lag: Array
+    frequency: Array
     mass: Array
-    """kg of each link, the fingers included in link 6."""
+    """kg of each link, the fingers included in the last."""
     centre: Array
-    """Mass centre of each link in its DH frame, shape (6, 3), m."""
+    """Mass centre of each link in its DH frame, shape (n, 3), m."""
     inertia: Array
-    """About the mass centre along the axes of the DH frame, shape (6, 3), kg m2."""
+    """About the mass centre along the axes of the DH frame, shape (n, 3), kg m2."""
+    carried: Array
+    """1 where a joint (column) moves a link (row): its own and those after it; shape (n, n)."""
 
 
 @lru_cache(maxsize=16)
 def constants(arm: ArmModel) -> Constants:
     """The arrays of an arm."""
-    names = ("d", "lower", "upper", "speed", "acceleration", "effort", "armature", "damping")
+    names = (
+        "d",
+        "theta",
+        "lower",
+        "upper",
+        "speed",
+        "acceleration",
+        "effort",
+        "armature",
+        "damping",
+        "brake",
+    )
     columns = {name: np.array([getattr(joint, name) for joint in arm.joints]) for name in names}
     alpha = np.array([joint.alpha for joint in arm.joints])
     mass = np.array([joint.mass for joint in arm.joints])
@@ -126,16 +174,17 @@ def constants(arm: ArmModel) -> Constants:
         X_BW=inverse(arm.X_WB),
         prismatic=np.array([joint.kind == "prismatic" for joint in arm.joints]),
         cos_alpha=np.cos(alpha), sin_alpha=np.sin(alpha),
-        mass=mass, centre=centre, inertia=inertia, **columns,
+        lag=np.array(arm.servo.lag), frequency=np.array(arm.servo.frequency),
+        mass=mass, centre=centre, inertia=inertia, carried=np.tri(len(arm.joints)), **columns,
     )  # fmt: skip
 
 
 def _add_fingers(arm: ArmModel, mass: Array, centre: Array, inertia: Array) -> None:
-    """Make the fingers, a point mass on the approach axis, part of link 6."""
-    own, p = mass[5], centre[5].copy()
-    fingers, f = arm.hand_mass, np.array([0.0, 0.0, arm.hand_centre - arm.hand_length])
-    mass[5] = own + fingers
-    centre[5] = (own * p + fingers * f) / mass[5]
+    """Make the fingers, a point mass on the approach axis, part of the last link."""
+    own, p = mass[-1], centre[-1].copy()
+    fingers, f = arm.hand.mass, np.array([0.0, 0.0, arm.hand.centre - arm.hand.length])
+    mass[-1] = own + fingers
+    centre[-1] = (own * p + fingers * f) / mass[-1]
     gap = p - f
     # two point masses about their common centre; products vanish with both centres on the approach axis
-    inertia[5] += own * fingers / mass[5] * (gap @ gap - gap * gap)
+    inertia[-1] += own * fingers / mass[-1] * (gap @ gap - gap * gap)

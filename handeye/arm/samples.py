@@ -11,7 +11,7 @@ from handeye.pose import Array, Pose
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Samples:
-    """Where the joints are to be at the end of servo periods 1 to N; each shape (N, 6), rad and m, per s."""
+    """Where the joints are to be at the end of servo periods 1 to N; each shape (N, n), rad and m, per s."""
 
     q: Array
     qd: Array

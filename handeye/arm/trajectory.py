@@ -17,7 +17,7 @@ from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
 from handeye.pose import Array, Pose, translated
-from handeye.units import INCH, JIFFY
+from handeye.units import INCH
 
 __all__ = ["Samples", "Trajectory", "arc", "check_samples", "four_three_four", "move", "straight"]
 
@@ -37,11 +37,11 @@ class Trajectory:
     """Joint positions as functions of time: a polynomial per joint and segment."""
 
     knots: Array
-    """Positions at the start, between the segments and at the end, shape (N + 1, 6), N at least 3."""
+    """Positions at the start, between the segments and at the end, shape (N + 1, n), N at least 3."""
     times: Array
     """Duration of each segment, shape (N,), s."""
     coefficients: Array
-    """Shape (N, 5, 6): segment, ascending power of the time since its beginning, joint."""
+    """Shape (N, 5, n): segment, ascending power of the time since its beginning, joint."""
 
     @property
     def duration(self) -> float:
@@ -68,7 +68,7 @@ def four_three_four(knots: Array, times: Array) -> Trajectory:
     """The trajectory at rest at the first and last knot that passes those between, smooth to the second derivative.
 
     Args:
-        knots: shape (N + 1, 6), rad and m, N at least 3.
+        knots: shape (N + 1, n), rad and m, N at least 3.
         times: duration of each segment between them, shape (N,), s.
     """
     knots = np.array(knots, dtype=np.float64)
@@ -83,8 +83,8 @@ def move(
     """The free motion to a hand pose, or why there is none.
 
     Args:
-        q_start: where the arm is, shape (6,).
-        via: what it passes on the way without stopping, in this order, each of shape (6,).
+        q_start: where the arm is, shape (n,).
+        via: what it passes on the way without stopping, in this order, each of shape (n,).
         departure, approach: heights of the lift-off and set-down points over the ends, m; 0 for none. What is
             out of reach is lowered by quarters.
         speed: share of the joints' greatest speeds, with its square of their accelerations.
@@ -103,7 +103,7 @@ def move(
         q1 = _raised(arm, forward(arm, q_start), q_start, share * departure)
         q2 = _raised(arm, X_WT_goal, goal.q, share * approach)
         trajectory = _quickest(arm, _knots(q_start, q1, via, q2, goal.q), speed)
-        beyond = check_samples(arm, trajectory.sample(JIFFY), floor=0.0 if via else None)
+        beyond = check_samples(arm, trajectory.sample(arm.servo.period), floor=0.0 if via else None)
         if beyond is None:
             return trajectory
         fault = beyond  # the polynomials swing a little beyond their knots
@@ -128,17 +128,17 @@ def _knots(q0: Array, q1: Array | None, via: Sequence[Array], q2: Array | None, 
 
 def _quickest(arm: ArmModel, knots: Array, speed: float) -> Trajectory:
     """The quickest division of time among the tried ones that keeps the limits, in whole servo periods."""
-    k = constants(arm)
+    k, period = constants(arm), arm.servo.period
     ways = np.abs(np.diff(knots, axis=0))
     least = np.max(np.maximum(ways / k.speed, np.sqrt(ways / k.acceleration)), axis=1)
-    between = np.maximum(least[1:-1], JIFFY)
+    between = np.maximum(least[1:-1], period)
     between = between / between.max()
     shares = np.array([(a, *between, b) for a in _SHARES for b in _SHARES])
-    times = shares * max(float(least.max()), JIFFY)
+    times = shares * max(float(least.max()), period)
     times *= _stretch(arm, knots, times)[:, None]
     best = times[np.argmin(times.sum(axis=1))] / speed
     duration = float(best.sum())
-    best *= math.ceil(duration / JIFFY - 1e-9) * JIFFY / duration
+    best *= math.ceil(duration / period - 1e-9) * period / duration
     return four_three_four(knots, best)
 
 
@@ -164,7 +164,7 @@ def _powers(t: Array, order: int) -> Array:
 
 
 def _coefficients(knots: Array, times: Array) -> Array:
-    """The coefficients of each joint, as (..., N, 5, 6), for segment times of shape (..., N)."""
+    """The coefficients of each joint, as (..., N, 5, n), for segment times of shape (..., N)."""
     count = times.shape[-1]
     A = np.zeros((*times.shape[:-1], 5 * count, 5 * count))
     b = np.zeros((5 * count, knots.shape[-1]))

@@ -89,7 +89,7 @@ def compiled(file: Path) -> Plan:
     Raises:
         InvalidInput: the script has errors; they have been shown.
     """
-    from handeye.arm.stanford import STANFORD
+    from handeye.arm.robots.stanford import STANFORD
     from handeye.planning.planner import make_plan
 
     source = read_script(file)

@@ -114,7 +114,7 @@ def _version(path: Path) -> Version:
 
 
 def _check(file: Path, *, json: bool, strict: bool) -> int:
-    from handeye.arm.stanford import STANFORD
+    from handeye.arm.robots.stanford import STANFORD
     from handeye.planning.planner import make_plan
 
     source = read_script(file)

@@ -1,6 +1,6 @@
 """Everything there is to say about a script, the arm's reach included."""
 
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.planning.planner import make_plan
 from handeye.program.program import Program

@@ -13,7 +13,7 @@ from handeye.al.scanner import Kind, Line, Token
 from handeye.al.syntax import Number, Vector
 from handeye.arm.kinematics import solve
 from handeye.arm.model import ArmModel
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
 from handeye.editor.places import Place, instruction, places

@@ -14,7 +14,7 @@ from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.kinematics import forward, jacobian, solve
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
-from handeye.arm.servo import prepare, torque
+from handeye.arm.servo import external_wrench, prepare, torque
 from handeye.execution.compliance import Course
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Drive, Sensed, Workcell
@@ -200,14 +200,14 @@ class ArmDrive:
         """One servo period in which the arm should begin at `q` with rates `qd`."""
         before = self.sensed
         load = here.J[2] * self.state.load
-        tau = torque(here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
+        tau = torque(self.arm, here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
         effort = constants(self.arm).effort
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
         self._tick(tau)
         if estimate:
             acceleration = (self.sensed.qd - before.qd) / JIFFY
             unexplained = here.M @ acceleration + here.bias - tau
-            self.state.wrench = np.linalg.solve(here.J.T, unexplained) - self.state.tare
+            self.state.wrench = external_wrench(here.J, unexplained) - self.state.tare
 
     def _tick(self, tau: Array, brakes: bool = False) -> None:
         """One servo period. Raises Halted after it, if the panic button is down."""

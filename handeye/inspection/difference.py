@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
 from handeye.inspection.place_changes import PlaceChange, place_changes
 from handeye.inspection.wording import conditions, one_line

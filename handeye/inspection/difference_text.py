@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.difference import Difference, MotionChange, StepChange
 from handeye.inspection.place_changes import PlaceChange
 from handeye.inspection.wording import degrees, figure, inches

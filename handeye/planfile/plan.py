@@ -10,11 +10,12 @@ from handeye.program.program import Program, Record
 VERSION: Final = 1
 """Version of the format on disk."""
 
-Joints = tuple[float, float, float, float, float, float]
+Joints = tuple[float, ...]
+"""One for each joint of the arm, rad or m."""
 
 
 class Motion(Record, frozen=True, kw_only=True):
-    """A planned motion: joint positions it passes (rad, joint 3 in m) and the seconds between them."""
+    """A planned motion: joint positions it passes (rad, m) and the seconds between them."""
 
     knots: tuple[Joints, ...]
     """Start, lift-off, what it passes, set-down and goal of a Move; start and goal of a straight motion or an arc."""

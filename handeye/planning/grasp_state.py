@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from handeye.arm.hand import hand_boxes
+from handeye.arm.hand import HandModel
 from handeye.boxes import Box
 from handeye.program.program import Center, Close, Move, Open, Program, Step
 
@@ -12,6 +12,7 @@ class GraspState:
     """The hand after the steps it has followed; at first closed and empty."""
 
     program: Program
+    hand: HandModel
     gap: float = 0.0
     """m; after a grasp the least that the script says the thing is thick, for nothing tells more."""
     held: str | None = None
@@ -38,7 +39,7 @@ class GraspState:
     @property
     def fingers(self) -> tuple[Box, ...]:
         """The hand, as boxes in T."""
-        return hand_boxes(self.gap)
+        return self.hand.boxes(self.gap)
 
     @property
     def load(self) -> tuple[Box, ...]:

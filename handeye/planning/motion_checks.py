@@ -59,12 +59,12 @@ class Checks:
     """Weight (N), and the step that says so; None once it was found too heavy."""
 
     def __post_init__(self) -> None:
-        self._grip = GraspState(self.program)
+        self._grip = GraspState(self.program, self.arm.hand)
         self._surroundings = Surroundings(self.program)
 
     def forget(self) -> None:
         """The next step is come to by a jump: whatever the hand held, it may hold something else."""
-        self._grip, self._load = GraspState(self.program), None
+        self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, step: Step) -> None:
         """What a step does to the hand, and to what is in it."""
@@ -73,7 +73,7 @@ class Checks:
             self._load = (step.operation.weight, step) if step.operation.weight > 0 else None
 
     def clear(self, step: Step, q: Array) -> None:
-        """Whether the hand and its load are clear of everything over configurations `q`, shape (N, 6)."""
+        """Whether the hand and its load are clear of everything over configurations `q`, shape (N, n)."""
         X_WT, grip = forward(self.arm, q), self._grip
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
             goal = held is None and isinstance(step.operation, Move)

@@ -34,7 +34,6 @@ from handeye.program.program import (
     Turn,
 )
 from handeye.program.world_model import WorldModel
-from handeye.units import JIFFY
 
 SPEED = 0.40
 """Free motions use this share of the arm's speeds, and its square of the accelerations. Fitted: with the
@@ -42,8 +41,9 @@ invented acceleration limits it makes the whole job take about the four minutes 
 5); one datum, so no evidence of how slow the real arm was."""
 HOME = "PARK"
 """The position a program starts from."""
-_LOOK = 2 * JIFFY
-"""s between the places of a free motion at which its surroundings are looked at; under .6 in at the pump's speeds."""
+_LOOK = 2
+"""Servo periods between the places of a free motion at which its surroundings are looked at; under .6 in at the pump's
+speeds."""
 
 
 def make_plan(
@@ -54,7 +54,7 @@ def make_plan(
     A position that only a `HERE` defines is in the plan where the hand is planned to be then.
 
     Args:
-        start: where the arm stands when the program begins, shape (6,), rad and m; by default at `HOME`, or at
+        start: where the arm stands when the program begins, shape (n,), rad and m; by default at `HOME`, or at
             the first goal of a program that has none.
     """
     objections = PlanningFindings(arm=arm, whole=program.whole, positions=program.positions)
@@ -159,7 +159,7 @@ class _Walk:
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
         begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is always that one
-        count = 2 + int((trajectory.duration - begin) / _LOOK)
+        count = 2 + int((trajectory.duration - begin) / (_LOOK * self.arm.servo.period))
         q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
         if operation.stop is None:
             self.checks.clear(step, q)
@@ -180,9 +180,8 @@ class _Walk:
             if not guarded:
                 self.checks.clear(step, q)
             self.checks.strong(step, q, demands)
-        self.motions[number] = Motion(
-            knots=(_joints(self.q), _joints(q[-1])), times=(len(samples.q) * JIFFY,)
-        )
+        seconds = len(samples.q) * self.arm.servo.period
+        self.motions[number] = Motion(knots=(_joints(self.q), _joints(q[-1])), times=(seconds,))
         self.q = q[-1]
 
 
@@ -209,5 +208,4 @@ def _facing(operation: Change) -> Stop | None:
 
 
 def _joints(q: Array) -> Joints:
-    a, b, c, d, e, f = (float(x) for x in q)
-    return a, b, c, d, e, f
+    return tuple(float(x) for x in q)

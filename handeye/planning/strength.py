@@ -23,7 +23,7 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """Whether the hand cannot exert a force in any of the configurations `q`, shape (N, 6).
+    """Whether the hand cannot exert a force in any of the configurations `q`, shape (N, n).
 
     Args:
         wanted: N, table axes, shape (3,); a moment (N m) if `turning`.

@@ -6,7 +6,7 @@ from typing import Annotated, Final
 import msgspec
 
 from handeye.arm.model import ArmModel, digest
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered

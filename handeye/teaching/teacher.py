@@ -26,7 +26,6 @@ from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED
 from handeye.teaching.plan_and_run import carry_out
 from handeye.teaching.workplace import Workplace
-from handeye.units import JIFFY
 
 REST = 0.5
 """s that a floating arm is given to come to rest when it is let go."""
@@ -82,7 +81,7 @@ class Teacher:
             InvalidInput: it cannot go there, or something is in the way.
         """
         arm = self.workplace.runner.arm
-        self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED, period=JIFFY))
+        self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector) -> None:
         """Move the hand straight by a way (m, table coordinates), its angles kept.

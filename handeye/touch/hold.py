@@ -14,8 +14,3 @@ def at_least(gap: float, thickness: float) -> bool:
 def within(gap: float, least: float, most: float) -> bool:
     """Something with a thickness in this range is held (m)."""
     return least <= gap <= most
-
-
-def anything(gap: float) -> bool:
-    """Anything at all is held: the gap (m) is not nearly zero."""
-    return gap > NEARLY_ZERO

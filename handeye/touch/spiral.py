@@ -1,7 +1,6 @@
 """The square spiral in which nearby places are searched."""
 
 import math
-from collections.abc import Iterator
 
 
 def spiral(k: int) -> tuple[int, int]:
@@ -22,10 +21,3 @@ def spiral(k: int) -> tuple[int, int]:
         case 2:
             return -ring, ring - 1 - along
     return along - ring + 1, -ring
-
-
-def places(step: float, limit: int) -> Iterator[tuple[float, float]]:
-    """The first `limit` places of a search as horizontal offsets from its centre, in the unit of `step`."""
-    for k in range(limit):
-        i, j = spiral(k)
-        yield i * step, j * step

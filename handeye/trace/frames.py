@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.model import ArmModel
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.truth import Truth
 from handeye.trace.messages import Poses
 from handeye.trace.scene import LATENT, looks, scene

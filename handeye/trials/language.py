@@ -15,7 +15,7 @@ from typing import Final
 from msgspec.structs import replace
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.planning.planner import make_plan
 from handeye.program.program import Position
 from handeye.program.taught import Taught, load_taught

@@ -25,7 +25,7 @@ import numpy as np
 from fakes import FakeWorkcell, Wall
 from pump_bench import at_standard, put, settle
 
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.ports.workcell import Workcell
 from handeye.pose import Array

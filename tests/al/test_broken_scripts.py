@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans

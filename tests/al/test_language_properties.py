@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from handeye import al
 from handeye.al.parser import parse
 from handeye.al.scanner import scan
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import has_errors, render
 from handeye.errors import InvalidInput
 from handeye.planning.planner import make_plan

@@ -4,7 +4,7 @@ import pytest
 from al_support import diagnose
 
 from handeye.al import compile_text, sewn_of
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.editor.explain import SAMPLE
 from handeye.planning.planner import make_plan
 from handeye.source import Source

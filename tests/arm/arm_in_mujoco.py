@@ -5,7 +5,7 @@ import numpy as np
 
 from handeye.arm.dynamics import GRAVITY
 from handeye.arm.model import ArmModel, Joint
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import rotation_x
 
 
@@ -18,8 +18,8 @@ def build(arm: ArmModel, *, damping: bool = True, timestep: float = 1 / 960) -> 
         bodies += f"<body {frame}>{_inertial(joint)}{_joint(i, joint, damping)}"
         R = rotation_x(joint.alpha)
         frame = f'pos="0 0 {joint.d}" xyaxes="{_text([*R[:, 0], *R[:, 1]])}"'
-    point = f'<inertial pos="0 0 0" mass="{arm.hand_mass}" diaginertia="1e-12 1e-12 1e-12"/>'
-    fingers = f'<body pos="0 0 {arm.hand_centre - arm.hand_length}">{point}</body>'
+    point = f'<inertial pos="0 0 0" mass="{arm.hand.mass}" diaginertia="1e-12 1e-12 1e-12"/>'
+    fingers = f'<body pos="0 0 {arm.hand.centre - arm.hand.length}">{point}</body>'
     tool = f'<body {frame}><site name="T"/>{fingers}</body>'
     motors = "".join(f'<motor joint="j{i + 1}"/>' for i in range(6))
     return mujoco.MjModel.from_xml_string(

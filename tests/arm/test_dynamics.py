@@ -7,7 +7,7 @@ from arm_in_mujoco import build, postures
 
 from handeye.arm.dynamics import bias, gravity, inverse_dynamics, mass_matrix
 from handeye.arm.model import digest
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.units import INCH
 
 
@@ -47,14 +47,14 @@ def test_bias_counts_friction() -> None:
 def test_gravity_pulls_joint_2_as_the_reference_lists(boom: float, torque: float) -> None:
     """The listed figures put the three wrist links at the wrist centre and leave the fingers away."""
     lumped = tuple(replace(j, centre=(0.0, 0.0, -j.d)) for j in STANFORD.joints[3:])
-    arm = replace(STANFORD, joints=STANFORD.joints[:3] + lumped, hand_mass=0.0)
+    arm = replace(STANFORD, joints=STANFORD.joints[:3] + lumped, hand=replace(STANFORD.hand, mass=0.0))
     pull = -gravity(arm, np.array([0, np.pi / 2, boom * INCH, 0, 0, 0]))[1]
     assert pull == pytest.approx(torque, abs=0.1)
 
 
 def test_fingers_weigh_on_every_joint_that_carries_them() -> None:
     q = np.array([0.3, np.pi / 2, 0.7, 0.0, np.pi / 2, 0.0])  # hand straight down: they hang below the wrist
-    bare = replace(STANFORD, hand_mass=0.0)
+    bare = replace(STANFORD, hand=replace(STANFORD.hand, mass=0.0))
     more = gravity(bare, q)[1] - gravity(STANFORD, q)[1]
     assert more == pytest.approx(0.24 * 9.81 * 0.7)
 
@@ -67,5 +67,6 @@ def test_inertia_of_every_link_is_physically_possible() -> None:
 
 def test_digest_changes_with_any_figure() -> None:
     assert digest(STANFORD) == digest(replace(STANFORD, X_WB=STANFORD.X_WB.copy()))
-    assert digest(STANFORD) != digest(replace(STANFORD, hand_mass=0.25))
+    assert digest(STANFORD) != digest(replace(STANFORD, hand=replace(STANFORD.hand, mass=0.25)))
     assert digest(STANFORD) != digest(replace(STANFORD, X_WB=np.eye(4)))
+    assert digest(STANFORD) != digest(replace(STANFORD, held={"boom": 0.5}))

@@ -5,8 +5,8 @@ import pytest
 
 from handeye.arm.jog import jog
 from handeye.arm.kinematics import IKResult, solve
+from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
-from handeye.arm.stanford import STANFORD
 from handeye.cell.simulated import PARK
 from handeye.pose import hand
 from handeye.units import INCH
@@ -15,7 +15,7 @@ PERIOD = 1 / 60
 
 
 def moved(joint: int, by: float) -> Samples:
-    found = jog(STANFORD, PARK, joint, PARK[joint] + by, speed=0.4, period=PERIOD)
+    found = jog(STANFORD, PARK, joint, PARK[joint] + by, speed=0.4)
     assert isinstance(found, Samples)
     return found
 
@@ -42,7 +42,7 @@ def test_rates_are_those_of_the_positions() -> None:
 
 
 def test_a_joint_beyond_its_limit_is_refused_with_the_limit() -> None:
-    found = jog(STANFORD, PARK, 2, 3.0, speed=0.4, period=PERIOD)
+    found = jog(STANFORD, PARK, 2, 3.0, speed=0.4)
     assert isinstance(found, IKResult)
     assert found.joint == 2
 
@@ -50,6 +50,6 @@ def test_a_joint_beyond_its_limit_is_refused_with_the_limit() -> None:
 def test_a_joint_that_would_push_the_hand_through_the_table_is_refused() -> None:
     low = solve(STANFORD, hand(0.6, 0.9, 0.5 * INCH, np.pi / 2, np.pi / 2, 0.0), PARK).q
     assert low is not None
-    found = jog(STANFORD, low, 1, low[1] + 0.1, speed=0.4, period=PERIOD)
+    found = jog(STANFORD, low, 1, low[1] + 0.1, speed=0.4)
     assert isinstance(found, IKResult)
     assert found.reason == "below the table"

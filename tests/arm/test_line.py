@@ -3,7 +3,7 @@ import pytest
 
 from handeye.arm.kinematics import forward, solve
 from handeye.arm.line import pivot
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.trajectory import arc, straight
 from handeye.pose import hand, rotation, rotation_z
 from handeye.units import DEGREE, INCH, JIFFY

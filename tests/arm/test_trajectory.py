@@ -3,7 +3,7 @@ import pytest
 
 from handeye.arm.kinematics import IKResult, forward, jacobian, solve
 from handeye.arm.model import constants
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.trajectory import Trajectory, check_samples, four_three_four, move
 from handeye.pose import hand
 from handeye.units import DEGREE, INCH, JIFFY

@@ -9,7 +9,7 @@ import pytest
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import solve
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
 from handeye.ports.workcell import Drive, Sensed

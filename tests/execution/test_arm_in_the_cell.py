@@ -5,7 +5,7 @@ import pytest
 from pump_bench import Bench, bench, written
 
 from handeye.arm.dynamics import gravity
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.errors import WATCHDOG
 from handeye.ports.workcell import Drive, Sensed

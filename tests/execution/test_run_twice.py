@@ -14,7 +14,7 @@ import pytest
 from fakes import FakeWorkcell
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.editor.explain import SAMPLE
 from handeye.events import AnyEvent, to_line
 from handeye.execution.context import ExecutionContext

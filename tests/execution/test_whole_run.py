@@ -7,7 +7,7 @@ import pytest
 from pump_bench import SCRIPT, TAUGHT
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.events import (
     CameraBusy,
     Event,

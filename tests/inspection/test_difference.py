@@ -8,7 +8,7 @@ import pytest
 from conftest import Command
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.difference import Difference, difference
 from handeye.inspection.difference_text import difference_text
 from handeye.planfile.plan import Plan

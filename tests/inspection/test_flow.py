@@ -8,7 +8,7 @@ import pytest
 from conftest import Command
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.drawing import flow_svg
 from handeye.inspection.flow import Flow, flow, flow_dot
 from handeye.inspection.layout import Layout, layout

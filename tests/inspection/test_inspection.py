@@ -7,7 +7,7 @@ import pytest
 from conftest import Command
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.dependence import dependences
 from handeye.inspection.inspection import InspectedStep, depends_text, inspection, inspection_text
 from handeye.inspection.wording import direction

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import VERSION, Plan
 from handeye.planfile.store import decode, encode, read_plan, write_plan

@@ -4,7 +4,7 @@ import msgspec
 import pytest
 
 from handeye.al import compile_text, sewn_of
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.errors import InvalidInput
 from handeye.inspection.difference import difference

@@ -1,7 +1,7 @@
 """What the planner says about short scripts, in a cell with a stand and a stick."""
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.planning.planner import make_plan
 from handeye.program.program import Fixture, Held, Position

@@ -5,7 +5,7 @@ import pytest
 
 from handeye.al import compile_text
 from handeye.arm.kinematics import forward, solve
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import has_errors
 from handeye.planning.planner import make_plan
 from handeye.source import Source

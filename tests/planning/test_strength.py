@@ -6,7 +6,7 @@ from checking import message, said
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian, solve
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.planning.strength import weakness
 from handeye.pose import hand
 from handeye.units import INCH, OUNCE_FORCE

@@ -7,7 +7,7 @@ import numpy as np
 
 from handeye.arm.dynamics import inverse_dynamics, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.ports.camera import COLUMNS, ROWS, Picture, TvCamera
 from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.pose import Array
@@ -106,7 +106,7 @@ class FakeWorkcell(Workcell):
             self.qd = np.zeros(6)
         else:
             self._move(drive.torque)
-        step = STANFORD.gap_speed * JIFFY
+        step = STANFORD.hand.gap_speed * JIFFY
         self.gap = max(self.gap + min(max(drive.gap - self.gap, -step), step), self.thickness(self.tcp))
         self.time += JIFFY
 

@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
 from handeye.execution.context import ExecutionContext

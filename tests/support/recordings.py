@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from handeye import events as happened
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.events import Event, RunStarted, StageFinished
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest

@@ -3,7 +3,7 @@
 from functools import cache
 
 from handeye.al import compile_text, sewn_of
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.events import AnyEvent, to_line
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan

@@ -8,7 +8,7 @@ from conftest import Command
 from pump_bench import bench, stacked, stage
 
 from handeye.al import compile_text
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan

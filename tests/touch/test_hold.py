@@ -1,4 +1,4 @@
-from handeye.touch.hold import anything, at_least, within
+from handeye.touch.hold import at_least, within
 from handeye.units import INCH
 
 
@@ -11,8 +11,3 @@ def test_a_range_accepts_what_lies_in_it_and_rejects_both_sides() -> None:
     assert within(0.24 * INCH, 0.2 * INCH, 0.3 * INCH)
     assert not within(0.35 * INCH, 0.2 * INCH, 0.3 * INCH)
     assert not within(0.1 * INCH, 0.2 * INCH, 0.3 * INCH)
-
-
-def test_anything_is_more_than_nearly_nothing() -> None:
-    assert anything(0.05 * INCH)
-    assert not anything(0.0002)

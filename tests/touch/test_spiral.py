@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from handeye.touch.spiral import places, spiral
+from handeye.touch.spiral import spiral
 
 LISTED = [
     (0, 0), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (2, -1), (2, 0), (2, 1),
@@ -9,6 +9,11 @@ LISTED = [
     (1, -2), (2, -2), (3, -2),
 ]  # fmt: skip
 STEP, CATCH = 0.07, 0.0495
+
+
+def places(count: int) -> np.ndarray:
+    """The first places of a search as offsets from its centre, in the unit of the step."""
+    return STEP * np.array([spiral(k) for k in range(count)])
 
 
 def test_the_spiral_goes_through_the_listed_places() -> None:
@@ -26,7 +31,7 @@ def test_each_place_is_one_step_from_the_one_before() -> None:
 
 
 def test_every_point_is_within_the_catch_radius_of_a_place() -> None:
-    grid = np.array(list(places(STEP, 49)))
+    grid = places(49)
     points = np.random.default_rng(1).uniform(-0.2, 0.2, (2000, 2))
     nearest = np.linalg.norm(points[:, None] - grid, axis=-1).min(axis=1)
     assert nearest.max() <= CATCH
@@ -38,7 +43,7 @@ def test_an_error_in_a_disc_takes_at_most_the_computed_number_of_tries(error: fl
     rng = np.random.default_rng(2)
     angle, radius = rng.uniform(0, 2 * np.pi, 20_000), error * np.sqrt(rng.uniform(0, 1, 20_000))
     hole = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
-    grid = np.array(list(places(STEP, 60)))
+    grid = places(60)
     caught = np.linalg.norm(hole[:, None] - grid, axis=-1) <= CATCH
     assert caught.any(axis=1).all()
     assert caught.argmax(axis=1).max() + 1 <= tries

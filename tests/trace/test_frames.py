@@ -7,7 +7,7 @@ import zstandard
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from handeye.arm.kinematics import forward
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import PARK, SimulatedCell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.trace.frames import Frames
@@ -36,7 +36,7 @@ def test_every_body_but_the_world_has_a_frame_where_it_is(cell: SimulatedCell, f
 def test_the_last_link_is_where_the_arm_model_has_it(frames: Frames) -> None:
     X_WT = forward(STANFORD, PARK)
     pose = frames.poses()[frames.names.index("stanford/link6")]
-    wrist = X_WT[:3, 3] - STANFORD.hand_length * X_WT[:3, 2]
+    wrist = X_WT[:3, 3] - STANFORD.hand.length * X_WT[:3, 2]
     assert np.allclose(pose[:3], wrist, atol=1e-5)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.kinematics import forward, jacobian, solve
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.ports.workcell import Drive, Workcell
 from handeye.pose import Array, hand
 from handeye.units import DEGREE, INCH, JIFFY

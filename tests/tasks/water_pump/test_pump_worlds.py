@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from handeye.arm.kinematics import forward, solve
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import Array, hand
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, SEVENTH, variation

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.arm.hand import hand_boxes
+from handeye.arm.robots.stanford import STANFORD
 from handeye.boxes import Box
 from handeye.pose import Array, Pose, hand, inverse, planar, pose
 from handeye.program.taught import load_taught
@@ -155,7 +155,7 @@ def test_fingers_and_palm_are_those_of_the_drawing(scene: tuple[mujoco.MjModel, 
     site = data.site(ARM + "tool")
     X_WT = pose(site.xmat.reshape(3, 3), site.xpos)
     parts = [["bar_a", "pad_a"], ["bar_b", "pad_b"], ["palm"]]
-    for names, box in zip(parts, corners(hand_boxes(GAP))[:3], strict=True):
+    for names, box in zip(parts, corners(STANFORD.hand.boxes(GAP))[:3], strict=True):
         cloud = np.vstack([points(model, data, model.geom(ARM + name).id) for name in names])
         np.testing.assert_allclose(box, around(cloud, X_WT), atol=1e-4)
 
@@ -166,7 +166,7 @@ def test_the_wrist_is_a_box_around_what_is_drawn_over_the_palm(
     model, data = scene
     site = data.site(ARM + "tool")
     X_WT = pose(site.xmat.reshape(3, 3), site.xpos)
-    palm, wrist = corners(hand_boxes(GAP))[2:]
+    palm, wrist = corners(STANFORD.hand.boxes(GAP))[2:]
     for geom in geoms(model, [ARM + "link6"], met=False):
         low, high = around(points(model, data, geom), X_WT)
         if high[2] < palm[0, 2] + 1e-4:

@@ -4,7 +4,7 @@ import math
 
 import mujoco
 
-from handeye.arm.stanford import STANFORD
+from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import yaw
 from handeye.resources import scenes
 from handeye.tasks.water_pump.pump_world import PumpWorld

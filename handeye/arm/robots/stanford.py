@@ -8,9 +8,10 @@ placeholder.
 from math import pi
 from typing import Final, Literal
 
-from handeye.arm.model import ArmModel, Joint
+from handeye.arm.hand import HandModel
+from handeye.arm.model import ArmModel, Joint, ServoModel
 from handeye.pose import pose, rotation_z
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, JIFFY
 
 HAND_LENGTH: Final = 10 * INCH
 """Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""
@@ -42,6 +43,7 @@ def _joint(
     tensor: Triple,
     armature: float,
     damping: float,
+    brake: float,
     wrist: float = 0.0,
 ) -> Joint:
     """A joint from published figures; `wrist` is where their frame's origin lies in ours along z."""
@@ -51,7 +53,7 @@ def _joint(
         name=name, kind=kind, d=d, alpha=alpha, lower=limits[0], upper=limits[1],
         speed=speed, acceleration=acceleration, effort=effort,
         mass=mass, centre=(x, y, z + wrist), inertia=_moments_about_centre(tensor, mass, centre),
-        armature=armature, damping=damping,
+        armature=armature, damping=damping, brake=brake,
     )  # fmt: skip
 
 
@@ -66,53 +68,71 @@ def _joint(
 # drive = (speed, acceleration, effort). Accelerations: chosen, no source; they make a careful arm (J1 needs
 # 10-19 N m for its 3 rad/s2 with 2 kg and the boom .6-1 m out). Efforts: placeholder, enough to hold the
 # arm's own weight and the data sheet's greatest load (4.5 kg within .5 m) at these accelerations, not much
-# more. Damping: placeholder.
+# more. Damping: placeholder. Brakes: placeholder, over twice what the drives can do.
 _JOINTS: Final = (
     _joint(
         "column", "revolute", d=0.412, alpha=-pi / 2, limits=(-170 * DEGREE, 170 * DEGREE),
         drive=(3.0, 3.0, 50.0), mass=9.29, centre=(0.0, 0.0175, -0.1105), tensor=(0.276, 0.255, 0.071),
-        armature=0.953, damping=2.0,
+        armature=0.953, damping=2.0, brake=200.0,
     ),
     _joint(
         "shoulder", "revolute", d=0.154, alpha=pi / 2, limits=(-170 * DEGREE, 170 * DEGREE),
         drive=(1.5, 2.5, 70.0), mass=5.01, centre=(0.0, -0.1054, 0.0), tensor=(0.108, 0.018, 0.100),
-        armature=2.193, damping=2.0,
+        armature=2.193, damping=2.0, brake=200.0,
     ),
     # a3 = 0 and theta3 = 0 as in Paul (1981); the toolbox has .0203 m and -90 degrees.
     _joint(
         "boom", "prismatic", d=0.0, alpha=0.0, limits=(12 * INCH, 50 * INCH),
         drive=(1.0, 60 * INCH, 200.0), mass=4.25, centre=(0.0, 0.0, -0.6447), tensor=(2.51, 2.51, 0.006),
-        armature=0.782, damping=5.0,
+        armature=0.782, damping=5.0, brake=600.0,
     ),
     _joint(
         "wrist roll", "revolute", d=0.0, alpha=-pi / 2, limits=(-170 * DEGREE, 170 * DEGREE),
         drive=(6.0, 12.0, 15.0), mass=1.08, centre=(0.0, 0.0092, -0.0054), tensor=(0.002, 0.001, 0.001),
-        armature=0.106, damping=0.3,
+        armature=0.106, damping=0.3, brake=30.0,
     ),
     # 220 degrees by the data sheet; the toolbox has +-90, with which the hand could point down only while the
     # boom slopes down.
     _joint(
         "wrist bend", "revolute", d=0.0, alpha=pi / 2, limits=(-110 * DEGREE, 110 * DEGREE),
         drive=(6.0, 12.0, 15.0), mass=0.63, centre=(0.0, 0.0003, 0.0566), tensor=(0.003, 0.003, 0.0004),
-        armature=0.097, damping=0.3,
+        armature=0.097, damping=0.3, brake=30.0,
     ),
     _joint(
         "hand roll", "revolute", d=HAND_LENGTH, alpha=0.0, limits=(-170 * DEGREE, 170 * DEGREE),
         drive=(6.0, 12.0, 10.0), mass=0.51, centre=(0.0, 0.0, 0.1554), tensor=(0.013, 0.013, 0.0003),
-        armature=0.020, damping=0.1, wrist=-HAND_LENGTH,
+        armature=0.020, damping=0.1, brake=20.0, wrist=-HAND_LENGTH,
     ),
+)  # fmt: skip
+
+# Sizes of the hand as drawn. Fingers of .12 kg: placeholder, as their mass centre (they reach from .175 to .254 m).
+# Opening, 10.5 cm, and its rate, 8 cm/s free (3 loaded): data sheet of 1974. Grip: the strongest the assembly study
+# measured.
+_HAND: Final = HandModel(
+    length=HAND_LENGTH, mass=0.24, centre=0.20, gap_max=0.105, gap_speed=0.08, grip=80.0,
+    finger_width=0.01905, finger_thickness=0.01016, finger_length=0.0782,
+    palm=(-0.0381, -0.0635, -0.1055, 0.0381, 0.0635, -0.0815),
+    wrist=(-0.039, -0.050, -0.2540, 0.039, 0.050, -0.1055), lamp=(-0.045, 0.062, -0.088),
+)  # fmt: skip
+
+# Frequencies: torque held over 1/60 s becomes unstable between 50 and 60 rad/s (measured); at 20 to 30 the arm
+# follows to a fraction of a millimetre. The wrist has little inertia and would bend under a push of a few pounds,
+# hence more there. Lag: placeholder, twenty times what free motions show. Short: placeholder, five times the .032 in
+# that whole runs show; the servo is soft. Drag: chosen; with the little friction of its joints alone the arm would
+# go on.
+_SERVO: Final = ServoModel(
+    period=JIFFY, frequency=(25.0, 25.0, 25.0, 40.0, 40.0, 40.0), lag=(0.05, 0.05, 0.03, 0.15, 0.15, 0.15),
+    short=0.004, settle=8, drag=0.1,
 )  # fmt: skip
 
 STANFORD: Final = ArmModel(
     name="Stanford",
+    structure="spherical wrist",
     joints=_JOINTS,
     # The base at (20, 10) in is the period's; the 6 in riser and the turn are chosen, so that the hand
     # reaches all stations pointing down and the dead sector of joint 1 faces the near edge of the table.
     X_WB=pose(rotation_z(pi / 2), (20 * INCH, 10 * INCH, 6 * INCH)),
-    hand_length=HAND_LENGTH,
-    hand_mass=0.24,  # two fingers of .12 kg. Placeholder.
-    hand_centre=0.20,  # Placeholder: fingers reach from .175 to .254 m.
-    gap_max=0.105,  # data sheet of 1974: 10.5 cm
-    gap_speed=0.08,  # data sheet of 1974: 8 cm/s free, 3 cm/s loaded
+    hand=_HAND,
+    servo=_SERVO,
 )
 """The arm of the pump assembly."""
