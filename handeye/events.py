@@ -6,6 +6,7 @@ import msgspec
 
 from handeye.program.program import Record
 from handeye.source import line_name
+from handeye.variation import WorldSpec
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
@@ -23,7 +24,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     """Digest of the plan."""
     arm: str
     arm_digest: str
-    seed: int
+    world: WorldSpec
     camera: str
     """How pictures are made."""
     versions: dict[str, str]

@@ -66,6 +66,12 @@ class WorldSpec(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     drawing: int = DRAWING
     """How it is drawn: that of the handeye that drew it first."""
 
+    def __str__(self) -> str:
+        level = "" if self.level == "nominal" else f"level {self.level}"
+        without = f"without {', '.join(self.overrides.without)}" if self.overrides.without else ""
+        changed = f"{', '.join(self.overrides.set)} set" if self.overrides.set else ""
+        return ", ".join(filter(None, (f"seed {self.seed}", level, without, changed)))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:

@@ -17,6 +17,7 @@ from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
 from handeye.trace.account import account
+from handeye.variation import WorldSpec
 
 DOC = (Path(__file__).parent.parent / "docs" / "stepping.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
@@ -49,7 +50,7 @@ def plan() -> Plan:
 @pytest.fixture(scope="module")
 def stepper(plan: Plan) -> Stepper:
     """The run of the walk, where its commands begin."""
-    runner = Runner(Checkpoint(setup=Setup(plan=plan, seed=SEED, camera="auto")))
+    runner = Runner(Checkpoint(setup=Setup(plan=plan, world=WorldSpec(seed=SEED), camera="auto")))
     if not runner.cell.camera.renderer.startswith("OpenGL"):
         pytest.skip("the walk was made with pictures by OpenGL")
     advance(runner, [ToStage(stage_number("insert", plan) - 1)])

@@ -32,7 +32,7 @@ def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     with Progress(plan, notes) as progress:
         finished = run_plan(
             plan,
-            seed=world(seed),
+            world=world(seed),
             camera=camera,
             planning_wall_s=planning,
             referee=False,
@@ -52,7 +52,7 @@ def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     from handeye.trials.overhead import measure
 
     plan = compiled(plans() / "water_pump.al")
-    setup = Setup(plan=plan, seed=world(seed), camera=camera)
+    setup = Setup(plan=plan, world=world(seed), camera=camera)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan, notes):
         cost = measure(setup, Path(folder) / "run")
     screen.print(f"working phase without them   {cost.run:6.2f} s of this computer's clock")

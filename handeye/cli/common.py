@@ -15,6 +15,7 @@ from handeye.files import beside
 from handeye.planfile.plan import Plan
 from handeye.program.taught import Taught, load_taught
 from handeye.source import Source
+from handeye.variation import WorldSpec
 
 Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
 PlanFile = Annotated[Path, Parameter(help="A plan, as `handeye plan` makes one (.plan.json).")]
@@ -72,15 +73,15 @@ def complain(error: object) -> None:
     notes.print(visible(f"handeye: {error}"), style="red", markup=False, soft_wrap=True)
 
 
-def world(seed: int) -> int:
-    """A seed that can be used.
+def world(seed: int) -> WorldSpec:
+    """The world of a seed.
 
     Raises:
         InvalidInput: it is negative.
     """
     if seed < 0:
         raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
-    return seed
+    return WorldSpec(seed=seed)
 
 
 def compiled(file: Path) -> Plan:

@@ -67,7 +67,7 @@ def assemble(
     started = time.process_time()
     plan = compiled(plans() / "water_pump.al")
     planning = time.process_time() - started
-    setup = Setup(plan=plan, seed=world(seed), camera=camera, judged=True)
+    setup = Setup(plan=plan, world=world(seed), camera=camera, judged=True)
     return work(
         Job(
             start=Checkpoint(setup=setup),
@@ -118,7 +118,7 @@ def run(
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
-    start = Checkpoint(setup=Setup(plan=plan, seed=world(seed), camera=camera, judged=judge))
+    start = Checkpoint(setup=Setup(plan=plan, world=world(seed), camera=camera, judged=judge))
     stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
     _check_order(plan, first, to)
     kept = _checkpoint_folder(checkpoints, out)

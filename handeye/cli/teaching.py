@@ -167,7 +167,7 @@ def _workplace(
         return Workplace.at(read_checkpoint(first), taught, panic)
     known = load_taught(plans() / "water_pump.toml") if taught is None else taught
     try:
-        return Workplace(seed=world(seed), camera=camera, taught=known, look=look, halt=panic)
+        return Workplace(world=world(seed), camera=camera, taught=known, look=look, halt=panic)
     except Halted:
         raise KeyboardInterrupt from None
 

@@ -80,12 +80,13 @@ def photograph(
         raise InvalidInput(
             f"{file} is an event list, which does not say where things were; take the trace.mcap"
         )
+    trace.check_repeatable()
     replay = Replay(trace)
     begin, end = trace.head.time, max(replay.times[-1], trace.events[-1].time)
     if not begin - SHOWN <= at <= end + SHOWN:
         raise InvalidInput(f"{file} tells of {begin:.2f} to {end:.2f} s; {at:g} s is not among them")
     state = replay.seek(at)
-    model, data = posed(PumpWorld.sample(trace.head.seed), state.poses)
+    model, data = posed(PumpWorld.draw(trace.head.world), state.poses)
     write_over(output, photograph_png(model, data, camera, width, height), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {state.time:.2f} s{doing}")

@@ -40,7 +40,7 @@ def render(
     from handeye.tasks.water_pump.pump_world import PumpWorld
 
     check_place(output, PNG)
-    cell = SimulatedCell(PumpWorld.sample(world(seed)), camera="ray")
+    cell = SimulatedCell(PumpWorld.draw(world(seed)), camera="ray")
     write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0
@@ -66,7 +66,8 @@ def assembly_trials(
     if out is not None:
         check_place(out, RESULTS)
     results = []
-    for result in assemble_many(compiled(plans() / "water_pump.al"), chosen, camera=camera, jobs=jobs):
+    worlds = [world(seed) for seed in chosen]
+    for result in assemble_many(compiled(plans() / "water_pump.al"), worlds, camera=camera, jobs=jobs):
         results.append(result)
         word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
         detail = "" if result.exit_code == 0 else f"{result.stopped_at or ''}: {result.message}"
@@ -166,7 +167,7 @@ def breaking_trials(
     _some(count, "time")
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folder = Path(name)
-        whole = breaking.whole_run(folder / "whole", world(seed))
+        whole = breaking.whole_run(folder / "whole", world(seed).seed)
         ways = {
             "killed": lambda: breaking.killed(whole, folder, jobs),
             "interrupted": lambda: breaking.interrupted(whole, folder, count, jobs),

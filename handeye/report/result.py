@@ -5,6 +5,7 @@ from typing import Final
 import msgspec
 
 from handeye.program.program import Record
+from handeye.variation import WorldSpec
 
 PERIOD: Final = {"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0}
 """The timing table of 1973, s: Bolles and Paul, STAN-CS-73-396. Total is that of the working phase."""
@@ -76,6 +77,7 @@ class Result(Record, frozen=True, kw_only=True):
     referee: dict[str, Check]
     program: str
     seed: int
+    world: WorldSpec
     camera: CameraReport
     versions: dict[str, str]
 

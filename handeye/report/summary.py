@@ -51,7 +51,8 @@ def summary(
         timing=_timing(runner, wall, planning),
         referee=checks,
         program=runner.setup.plan.program.name,
-        seed=runner.setup.seed,
+        seed=runner.setup.world.seed,
+        world=runner.setup.world,
         camera=_camera(runner),
         versions=versions(),
     )

@@ -8,7 +8,7 @@ import hashlib
 import re
 import zlib
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Any, Final
 
 import msgspec
 import numpy as np
@@ -21,6 +21,7 @@ from handeye.planfile.store import encode as encode_plan
 from handeye.planfile.store import plan_digest
 from handeye.program.program import Record
 from handeye.runs.snapshot import Checkpoint, Setup, Snapshot, arm_of
+from handeye.variation import WorldSpec
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
 
@@ -42,7 +43,7 @@ class Head(Record, frozen=True, kw_only=True):
     """Digest of the plan."""
     arm: str
     arm_digest: str
-    seed: Annotated[int, msgspec.Meta(ge=0)]
+    world: WorldSpec
     camera: str
     versions: dict[str, str]
     position: int
@@ -73,7 +74,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         plan=plan_digest(setup.plan),
         arm=setup.plan.arm,
         arm_digest=setup.plan.arm_digest,
-        seed=setup.seed,
+        world=setup.world,
         camera=setup.camera,
         versions=versions(),
         position=checkpoint.position,
@@ -103,7 +104,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     """The checkpoint in some bytes.
 
     Raises:
-        InvalidInput: not a checkpoint, not whole, of a newer version, or for another arm.
+        InvalidInput: not a checkpoint, not whole, of another version, or for another arm.
     """
     head, packed = _opened(data, name)
     try:
@@ -121,7 +122,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     ):
         raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
-        setup=Setup(plan=plan, seed=head.seed, camera=head.camera, judged=head.judged),
+        setup=Setup(plan=plan, world=head.world, camera=head.camera, judged=head.judged),
         calibration=body.calibration,
         snapshot=body.snapshot,
         events=body.events,

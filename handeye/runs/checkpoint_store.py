@@ -69,9 +69,9 @@ class CheckpointStore:
         for path, head in self.heads():
             if head.plan != plan_digest(setup.plan):
                 raise InvalidInput(f"{path} is of another plan ({head.program}, {head.plan})")
-            if (head.seed, head.camera) != (setup.seed, setup.camera):
+            if (head.world, head.camera) != (setup.world, setup.camera):
                 raise InvalidInput(
-                    f"{path} is of another run (seed {head.seed}, camera {head.camera}); choose another folder"
+                    f"{path} is of another run ({head.world}, camera {head.camera}); choose another folder"
                 )
 
     def claim(self, setup: Setup) -> None:
@@ -155,7 +155,7 @@ def leave(folder: Path, checkpoint: Checkpoint) -> Path:
     if _holds(folder / name, state):
         return folder / name
     program = re.sub(r"[^A-Za-z0-9_.-]+", "-", setup.plan.program.name).lstrip(".")
-    stem = f"{program}-{setup.seed}-{name.removesuffix(ENDING)}"
+    stem = f"{program}-{setup.world.seed}-{name.removesuffix(ENDING)}"
     names = (stem if number == 1 else f"{stem}-{number}" for number in count(1))
     path = next(path for path in (folder / f"{name}{ENDING}" for name in names) if _free(path, state))
     write_whole(path, state)

@@ -74,7 +74,7 @@ class Runner:
         self.setup = start.setup
         plan = start.setup.plan
         self.arm = arm_of(plan)
-        self.cell = SimulatedCell(PumpWorld.sample(start.setup.seed), camera=start.setup.camera)
+        self.cell = SimulatedCell(PumpWorld.draw(start.setup.world), camera=start.setup.camera)
         self._unable: str | None = None
         self.calibration = start.calibration
         if start.snapshot is None:
@@ -293,7 +293,7 @@ class Runner:
                 plan=plan_digest(plan),
                 arm=plan.arm,
                 arm_digest=plan.arm_digest,
-                seed=self.setup.seed,
+                world=self.setup.world,
                 camera=self.cell.camera.renderer,
                 versions=versions(),
             )

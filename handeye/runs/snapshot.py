@@ -13,6 +13,7 @@ from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.program.program import Record
+from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration
 
 ARMS: Final = {STANFORD.name: STANFORD}
@@ -22,7 +23,7 @@ class Setup(Record, frozen=True, kw_only=True):
     """What decides a run, as long as nobody interferes."""
 
     plan: Plan
-    seed: Annotated[int, msgspec.Meta(ge=0)]
+    world: WorldSpec
     camera: str
     """How to make pictures: `auto`, `gl` or `ray`."""
     judged: bool = False

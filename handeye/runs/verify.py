@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
-from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
     PanicStopped,
@@ -25,14 +24,8 @@ RAYS: Final = "ray casting"
 
 
 def setup_of(begun: RunStarted, plan: Plan) -> Setup:
-    """What a recorded run began with; its pictures are made in the way they were.
-
-    Raises:
-        InvalidInput: there is no such world.
-    """
-    if begun.seed < 0:
-        raise InvalidInput(f"the run was begun in the world of seed {begun.seed}, which there is not")
-    return Setup(plan=plan, seed=begun.seed, camera="ray" if begun.camera == RAYS else "gl")
+    """What a recorded run began with; its pictures are made in the way they were."""
+    return Setup(plan=plan, world=begun.world, camera="ray" if begun.camera == RAYS else "gl")
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
@@ -51,6 +44,7 @@ def difference(trace: Trace, folder: Path) -> str | None:
     Raises:
         InvalidInput: it cannot be carried out here.
     """
+    trace.check_repeatable()
     wanted = trace.events[: settled(trace.events)]
     start = Checkpoint(setup=setup_of(trace.head, decode(trace.plan, f"the plan in {trace.name}")))
     keeping = open_new(folder, start)

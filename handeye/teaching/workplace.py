@@ -22,6 +22,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
 from handeye.source import Source
 from handeye.teaching.functions import TYPED, Planned, planned
+from handeye.variation import WorldSpec
 
 MOST: Final = 100
 """States that can be gone back to."""
@@ -38,7 +39,7 @@ class Workplace:
     """The cell, what is taught, and what the working phase remembers."""
 
     def __init__(
-        self, *, seed: int, camera: str, taught: Taught, look: bool = False, halt: Callable[[], bool]
+        self, *, world: WorldSpec, camera: str, taught: Taught, look: bool = False, halt: Callable[[], bool]
     ) -> None:
         """Build the cell of a world.
 
@@ -52,7 +53,7 @@ class Workplace:
         """
         self.taught, self.halt = taught, halt
         start = _plan(_PICTURE if look else _NOTHING, taught)
-        self.runner = Runner(Checkpoint(setup=Setup(plan=start, seed=seed, camera=camera)), halt=halt)
+        self.runner = Runner(Checkpoint(setup=Setup(plan=start, world=world, camera=camera)), halt=halt)
         if self.runner.trouble is not None:
             raise InvalidInput(self.runner.trouble)
         self.before: list[Checkpoint] = []
@@ -123,7 +124,7 @@ class Workplace:
         assert here.snapshot is not None
         state = _onward(here.snapshot.state, plan)
         snapshot = msgspec.structs.replace(here.snapshot, position=0, happened=1, state=state)
-        setup = Setup(plan=plan, seed=here.setup.seed, camera=here.setup.camera)
+        setup = Setup(plan=plan, world=here.setup.world, camera=here.setup.camera)
         start = Checkpoint(
             setup=setup, calibration=here.calibration, snapshot=snapshot, events=(self._started(plan),)
         )  # fmt: skip

@@ -18,8 +18,8 @@ from google.protobuf.message import Message
 from handeye.events import AnyEvent
 
 FORMAT: Final = "handeye trace"
-VERSION: Final = 1
-"""Version of the format; a reader reads up to its own."""
+VERSION: Final = 2
+"""Version of the format; a reader reads up to its own. The first did not say how the world was drawn."""
 METADATA: Final = "handeye"
 """Name of the metadata record that says what the file is and what the run depended on."""
 PLAN: Final = "plan.json"

@@ -8,8 +8,7 @@ import msgspec
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, WentBack
 from handeye.files import read_whole
-
-_decode = msgspec.json.Decoder(AnyEvent).decode
+from handeye.trace.events_read import read_event
 
 
 def read_events(path: Path) -> list[AnyEvent]:
@@ -24,7 +23,7 @@ def read_events(path: Path) -> list[AnyEvent]:
         if not line.endswith(b"\n"):
             raise InvalidInput(f"line {number} of {path} is cut short")
         try:
-            events.append(_decode(line))
+            events.append(read_event(line))
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
             raise InvalidInput(f"line {number} of {path} is not an event: {error}") from None
     return events

@@ -70,6 +70,7 @@ class GrowingFile:
         """Write what stands before all messages: what the file is, the plan, the channels."""
         said = msgspec.to_builtins(head)
         versions = said.pop("versions")
+        said |= {"seed": head.world.seed, "world": msgspec.json.encode(head.world).decode()}
         said |= {f"versions.{name}": value for name, value in sorted(versions.items())}
         metadata = {"format": FORMAT, "version": VERSION, **said}
         with self._complaining():

@@ -7,16 +7,15 @@ from pathlib import Path
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, RunStarted
+from handeye.events import RunStarted
 from handeye.files import read_whole
 from handeye.planfile.store import decode, plan_digest
 from handeye.trace.channels import EVENTS, FORMAT, VERSION
+from handeye.trace.events_read import read_event
 from handeye.trace.records import Unsound, check, front, is_mcap, read_messages
 from handeye.trace.trace import Trace
 
 __all__ = ["Trace", "read_trace"]
-
-_decode = msgspec.json.Decoder(AnyEvent).decode
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
@@ -30,7 +29,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
     """
     data = read_whole(path)
     try:
-        plan = _identify(path, data)
+        plan, version = _identify(path, data)
         if not lenient:
             check(data)
         counts: Counter[str] = Counter()
@@ -38,7 +37,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         for message in read_messages(data, lenient=lenient):
             counts[message.topic] += 1
             if message.topic == EVENTS:
-                events.append(_decode(message.data))
+                events.append(read_event(message.data))
     except Unsound as error:
         raise InvalidInput(f"{path} {error}") from None
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
@@ -49,6 +48,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         raise InvalidInput(f"the plan in {path} is not the one that was carried out")
     return Trace(
         name=str(path),
+        version=version,
         head=events[0],
         plan=plan,
         events=tuple(events),
@@ -58,8 +58,8 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
     )
 
 
-def _identify(path: Path, data: bytes) -> bytes:
-    """The plan in a file that says it is a trace this program can read.
+def _identify(path: Path, data: bytes) -> tuple[bytes, int]:
+    """The plan in a file that says it is a trace this program can read, and the version of its format.
 
     Raises:
         InvalidInput: it does not say so.
@@ -79,4 +79,4 @@ def _identify(path: Path, data: bytes) -> bytes:
         )
     if start.plan is None:
         raise Unsound("has no plan in it")
-    return start.plan
+    return start.plan, int(version)

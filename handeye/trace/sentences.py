@@ -54,7 +54,7 @@ def sentence(event: Event) -> str:
     """What happened, without the time."""
     match event:
         case happened.RunStarted():
-            world = f"the world of seed {event.seed}, pictures by {event.camera}"
+            world = f"the world of {event.world}, pictures by {event.camera}"
             steps = f"{event.steps} step{'' if event.steps == 1 else 's'}"
             return f"{event.program}: {steps} on the {event.arm} arm, {world}"
         case happened.StageStarted():

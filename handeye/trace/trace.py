@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
-import msgspec
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
@@ -15,14 +14,14 @@ from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, PictureTaken, RunStarted
 from handeye.ports.camera import Picture
 from handeye.pose import Array
-from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE
+from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE, VERSION
+from handeye.trace.events_read import read_event
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage, read_messages
 
 Pose7 = tuple[float, float, float, float, float, float, float]
 """Place of a frame in W (m) and its unit quaternion w, x, y, z."""
 
-_decode = msgspec.json.Decoder(AnyEvent).decode
 Read = TypeVar("Read")
 
 
@@ -59,6 +58,8 @@ class Trace:
     """A trace that was read, and found sound."""
 
     name: str
+    version: int
+    """Of the format."""
     head: RunStarted
     plan: bytes
     """`plan.json` of the run."""
@@ -81,6 +82,18 @@ class Trace:
                 break
             events += message.topic == EVENTS
         return events
+
+    def check_repeatable(self) -> None:
+        """Make sure that the cell of the run can be built again.
+
+        Raises:
+            InvalidInput: an older handeye recorded it.
+        """
+        if self.version < VERSION:
+            raise InvalidInput(
+                f"{self.name} was recorded by an older handeye, whose cell this one cannot build again: `trace show` "
+                "and `trace stats` tell of it; for the rest, carry the plan out again"
+            )
 
     def messages(self) -> Iterator[RawMessage]:
         """All messages, in the order they were written."""
@@ -116,7 +129,7 @@ class Trace:
             if message.topic == PICTURE:
                 picture = self._read(_picture, message)
             elif message.topic == EVENTS and picture is not None:
-                event = _decode(message.data)
+                event = read_event(message.data)
                 if isinstance(event, PictureTaken):
                     yield TakenPicture(time=event.time, name=event.picture, picture=picture)
                     picture = None

@@ -2,16 +2,16 @@
 
 from typing import Final
 
-import msgspec
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
-from handeye.events import AnyEvent, Event, RunStarted, StepStarted
+from handeye.events import Event, RunStarted, StepStarted
 from handeye.ports.camera import Picture
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.trace import messages
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, LOG, PICTURE, SCENE, nanoseconds
+from handeye.trace.events_read import read_event
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
@@ -23,8 +23,6 @@ MOVED: Final = 1e-6
 """Change of a pose (m, or of a component of its quaternion) that is worth writing down."""
 PUT_AWAY: Final = -1.0
 """Height (m) below which parts lie that have become something else; the floor is higher."""
-
-_decode = msgspec.json.Decoder(AnyEvent).decode
 
 
 class Writing:
@@ -96,7 +94,7 @@ class Writing:
         self.file.write(message.topic, message.time, message.data)
         if message.topic == EVENTS:
             self.events += 1
-            event = _decode(message.data)
+            event = read_event(message.data)
             self._place = (event.file, event.line) if isinstance(event, StepStarted) else self._place
         elif message.topic == FRAMES:
             for frame in FrameTransforms.FromString(message.data).transforms:

@@ -12,6 +12,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
 from handeye.tasks.water_pump.referee import judge
+from handeye.variation import WorldSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,19 +26,19 @@ class Finished:
 def run_plan(
     plan: Plan,
     *,
-    seed: int,
+    world: WorldSpec,
     camera: str = "auto",
     planning_wall_s: float = 0.0,
     referee: bool = True,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
 ) -> Finished:
-    """Carry out a plan in the world of a seed, with no operator there, and have it judged.
+    """Carry out a plan in a world, with no operator there, and have it judged.
 
     Raises:
         InvalidInput: the plan is for another arm, or the camera cannot work as asked.
     """
     begun = time.perf_counter()
-    start = Checkpoint(setup=Setup(plan=plan, seed=seed, camera=camera))
+    start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
     runner = Runner(start, observers=observers)
     pause = advance(runner)
     completed = runner.finish()

@@ -1,10 +1,12 @@
 """How well the eye does: the base on the belt and the gasket, over many worlds, counted."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from msgspec.structs import replace
 
 from handeye.cell.staging import Stage
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
@@ -15,6 +17,7 @@ from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.units import DEGREE, INCH
+from handeye.variation import WorldSpec
 from handeye.vision.base import (
     Failure,
     GeneralLocation,
@@ -105,15 +108,15 @@ def locate(
     return locate_specific(picture, view, part, general), pictures
 
 
-def base_trials(n: int, seed: int, *, renderer: str = "auto", camera: str = "true") -> BaseCounts:
-    """Locate the base in `n` worlds from `seed` on.
+def base_trials(n: int, first: WorldSpec, *, renderer: str = "auto", camera: str = "true") -> BaseCounts:
+    """Locate the base in `n` worlds from `first` on.
 
     Args:
         camera: what the program knows of it: `true`, `drawn` or `calibrated`.
     """
     part = pump_base()
     errors, failures, wrong = [], [], 0
-    for world in (PumpWorld.sample(seed + k) for k in range(n)):
+    for world in _worlds(first, n):
         stage = Stage(world, renderer=renderer)
         location, _ = locate(stage.camera, _known(camera, stage, part), part)
         if isinstance(location, Failure):
@@ -133,17 +136,23 @@ def base_trials(n: int, seed: int, *, renderer: str = "auto", camera: str = "tru
     )
 
 
+def _worlds(first: WorldSpec, n: int) -> Iterator[PumpWorld]:
+    """So many worlds, of this seed and those that follow it."""
+    for seed in range(first.seed, first.seed + n):
+        yield PumpWorld.draw(replace(first, seed=seed))
+
+
 def _known(camera: str, stage: Stage, part: Part) -> CameraModel:
     if camera == "true":
         return stage.true_camera
     return DRAWING if camera == "drawn" else simulated_calibration(stage, part).model
 
 
-def gasket_trials(n: int, seed: int, *, renderer: str = "auto") -> GasketCounts:
-    """Inspect the gasket in `n` worlds from `seed` on, in every one of GASKETS; with a calibrated camera."""
+def gasket_trials(n: int, first: WorldSpec, *, renderer: str = "auto") -> GasketCounts:
+    """Inspect the gasket in `n` worlds from `first` on, in every one of GASKETS; with a calibrated camera."""
     part = pump_base(_standard())
     accepted = dict.fromkeys(GASKETS, 0)
-    for world in (PumpWorld.sample(seed + k) for k in range(n)):
+    for world in _worlds(first, n):
         stage = Stage(world, renderer=renderer)
         rng = world.generator("trial.gasket")
         base = _jittered(part.at, rng, 0.03)

@@ -24,6 +24,7 @@ from handeye.planning.planner import make_plan
 from handeye.source import Source
 from handeye.tasks.water_pump.referee import judge
 from handeye.trials.assembly import Finished, run_plan
+from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 
@@ -56,7 +57,7 @@ def whole() -> Whole:
     assert program is not None
     plan, _ = make_plan(program, STANFORD)
     assert plan is not None
-    finished = run_plan(plan, seed=1)
+    finished = run_plan(plan, world=WorldSpec(seed=1))
     return Whole(finished=finished, events=tuple(finished.runner.events))
 
 

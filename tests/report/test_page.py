@@ -7,6 +7,7 @@ from rich.console import Console
 
 from handeye.report.page import clock, timing, verdict
 from handeye.report.result import CameraReport, Check, Result, Timing
+from handeye.variation import WorldSpec
 
 
 def result(
@@ -22,8 +23,8 @@ def result(
     return Result(
         assembled=assembled, completed=completed, paused=False, interventions=(),
         stopped_at=None if completed else "check the gasket",
-        error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program, seed=0,
-        versions={},
+        error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program,
+        seed=0, world=WorldSpec(seed=0), versions={},
         timing=Timing(
             planning_wall_s=planning, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1,
             real_time_factor=factor,

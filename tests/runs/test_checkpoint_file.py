@@ -62,7 +62,7 @@ def test_the_same_state_gives_the_same_bytes(runner: Runner, data: bytes) -> Non
 def test_the_second_line_tells_people_what_it_is(data: bytes, tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(data)
     head = read_head(tmp_path / "a")
-    assert (head.program, head.seed, head.position, head.stage) == ("short", 0, 4, "take the pin")
+    assert (head.program, head.world.seed, head.position, head.stage) == ("short", 0, 4, "take the pin")
     assert (head.between_stages, head.touched) == (False, False)
 
 

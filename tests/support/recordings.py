@@ -25,6 +25,7 @@ from handeye.trace.frames import Frames
 from handeye.trace.messages import Poses
 from handeye.trace.recorder import Recorder
 from handeye.units import JIFFY
+from handeye.variation import WorldSpec
 
 SCRIPT: Final = 'STAGE "open"\nOPEN 1\nSTAGE "close"\nCLOSE .1\nSTAGE "again"\nOPEN 2\n'
 BODIES: Final = ("base", "finger", "screw", "carrier")
@@ -106,7 +107,7 @@ def started(time: float = 10.0) -> RunStarted:
     """The beginning of the run."""
     return RunStarted(
         time=time, program="short", steps=3, plan=plan_digest(plan()), arm=STANFORD.name, arm_digest="0" * 16,
-        seed=7, camera="none", versions={"handeye": "0", "mujoco": "4"},
+        world=WorldSpec(seed=7), camera="none", versions={"handeye": "0", "mujoco": "4"},
     )  # fmt: skip
 
 

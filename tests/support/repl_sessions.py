@@ -8,13 +8,14 @@ from handeye.teaching.answers import Answer, text
 from handeye.teaching.commands import ReplSession
 from handeye.teaching.repl import Repl
 from handeye.teaching.workplace import Workplace
+from handeye.variation import WorldSpec
 
 TAUGHT = load_taught(plans() / "water_pump.toml")
 
 
 def workplace() -> Workplace:
     """The cell of world 0, in which nothing has been done."""
-    return Workplace(seed=0, camera="ray", taught=TAUGHT, halt=lambda: False)
+    return Workplace(world=WorldSpec(seed=0), camera="ray", taught=TAUGHT, halt=lambda: False)
 
 
 class Console:

@@ -12,6 +12,7 @@ from handeye.resources import plans
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
 from handeye.source import Source
+from handeye.variation import WorldSpec
 
 GRASP = """
         STAGE   "go to the pin"
@@ -47,7 +48,7 @@ def plan_of(script: str, files: tuple[tuple[str, str], ...] = ()) -> Plan:
 
 def begin(script: str = GRASP, seed: int = 0, files: tuple[tuple[str, str], ...] = ()) -> Checkpoint:
     """A run that has not begun."""
-    return Checkpoint(setup=Setup(plan=plan_of(script, files), seed=seed, camera="ray"))
+    return Checkpoint(setup=Setup(plan=plan_of(script, files), world=WorldSpec(seed=seed), camera="ray"))
 
 
 def through(runner: Runner) -> Runner:

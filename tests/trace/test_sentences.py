@@ -9,14 +9,32 @@ from hypothesis import strategies as st
 from handeye import events as happened
 from handeye.events import AnyEvent, Event
 from handeye.trace.sentences import LEVELS, inches, sentence
+from handeye.variation import Overrides, WorldSpec
 
 KINDS = typing.get_args(AnyEvent)
+overrides = st.builds(Overrides, without=st.just(("arm",)), set=st.dictionaries(st.text(), st.floats()))
+st.register_type_strategy(WorldSpec, st.builds(WorldSpec, overrides=overrides))
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @given(data=st.data())
 def test_every_event_has_a_sentence(kind: type[Event], data: st.DataObject) -> None:
     assert isinstance(sentence(data.draw(st.from_type(kind))), str)
+
+
+@pytest.mark.parametrize(
+    ("spec", "words"),
+    [
+        (WorldSpec(seed=3), "seed 3"),
+        (WorldSpec(seed=3, level="high"), "seed 3, level high"),
+        (
+            WorldSpec(seed=3, overrides=Overrides(without=("arm", "camera"), set={"slip": 0.1, "wave": 0.0})),
+            "seed 3, without arm, camera, slip, wave set",
+        ),
+    ],
+)
+def test_a_world_is_told_by_what_makes_it(spec: WorldSpec, words: str) -> None:
+    assert str(spec) == words
 
 
 def test_only_events_that_there_are_are_logged() -> None:
@@ -34,7 +52,7 @@ def test_only_events_that_there_are_are_logged() -> None:
                 plan="",
                 arm="stanford",
                 arm_digest="",
-                seed=2,
+                world=WorldSpec(seed=2),
                 camera="ray casting",
                 versions={},
             ),

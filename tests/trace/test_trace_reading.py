@@ -2,9 +2,11 @@
 
 import io
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,9 +14,12 @@ from mcap.writer import Writer
 from recordings import BOUNDARIES, EVENTS, PLAN, Recording, record
 
 from handeye.errors import InvalidInput
+from handeye.events import RunStarted
 from handeye.trace.channels import FORMAT, METADATA
+from handeye.trace.events_read import read_event
 from handeye.trace.reading import read_trace
 from handeye.trace.records import Unsound, check
+from handeye.variation import WorldSpec
 
 
 @pytest.fixture(scope="module")
@@ -87,8 +92,8 @@ def test_a_file_that_is_cut_short_is_refused(path: Path, data: st.DataObject) ->
             "does not say which version of the trace format it has",
         ),
         (
-            _mcap({"format": FORMAT, "version": "2"}),
-            "has trace format version 2; this handeye reads up to version 1",
+            _mcap({"format": FORMAT, "version": "3"}),
+            "has trace format version 3; this handeye reads up to version 2",
         ),
         (_mcap({"format": FORMAT, "version": "1"}), "is a trace without the start of a run"),
     ],
@@ -159,3 +164,30 @@ def test_reading_leniently_ends_before_a_damaged_chunk(path: Path) -> None:
     other.write_bytes(data)
     events: list[Any] = list(read_trace(other, lenient=True).events)
     assert events == EVENTS[: BOUNDARIES[-1]]
+
+
+OLD = (
+    b'{"event":"RunStarted","time":10.0,"program":"short","steps":3,"plan":"x","arm":"stanford","arm_digest":"y",'
+    b'"seed":3,"camera":"ray casting","versions":{}}'
+)
+"""How a run was said to begin before a world had a level."""
+
+
+def test_an_event_of_an_older_handeye_is_read() -> None:
+    begun = read_event(OLD)
+    assert isinstance(begun, RunStarted)
+    assert begun.world == WorldSpec(seed=3, drawing=1)
+
+
+@pytest.mark.parametrize("data", [b'{"event":"RunStarted","seed":-1}', b'{"event":"Gone"}', b"[3]", b"{"])
+def test_what_never_was_an_event_is_none_either(data: bytes) -> None:
+    with pytest.raises(msgspec.DecodeError):
+        read_event(data)
+
+
+def test_a_trace_of_an_older_handeye_is_read_but_not_built_again(path: Path) -> None:
+    trace = replace(read_trace(path), version=1)
+    with pytest.raises(
+        InvalidInput, match="was recorded by an older handeye, whose cell this one cannot build"
+    ):
+        trace.check_repeatable()

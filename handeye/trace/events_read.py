@@ -1,0 +1,33 @@
+"""Events as traces and event lists hold them, those of an older handeye brought up to date."""
+
+from typing import Any, Final
+
+import msgspec
+
+from handeye.events import AnyEvent
+
+_DECODER: Final[msgspec.json.Decoder[AnyEvent]] = msgspec.json.Decoder(AnyEvent)
+
+
+def read_event(data: bytes) -> AnyEvent:
+    """The event in some JSON.
+
+    Raises:
+        msgspec.DecodeError: it is none.
+        UnicodeDecodeError: it is no text.
+    """
+    try:
+        return _DECODER.decode(data)
+    except msgspec.ValidationError:
+        written = msgspec.json.decode(data)
+        if not isinstance(written, dict) or not _bring_up_to_date(written):
+            raise
+        return _DECODER.decode(msgspec.json.encode(written))
+
+
+def _bring_up_to_date(event: dict[str, Any]) -> bool:
+    """Write an event as it would be written today; False: there is nothing to be done."""
+    if event.get("event") == "RunStarted" and "seed" in event:
+        event["world"] = {"seed": event.pop("seed"), "drawing": 1}  # one generator in a fixed order, no level
+        return True
+    return False
