@@ -4,7 +4,8 @@ from typing import Literal
 
 import msgspec
 
-from handeye.program.program import Record
+from handeye.program.guards import GuardKind
+from handeye.record import Record
 from handeye.source import line_name
 from handeye.variation import WorldSpec
 
@@ -77,7 +78,7 @@ class Adjusted(Event, frozen=True, kw_only=True):
 class GuardTripped(Event, frozen=True, kw_only=True):
     """A guard ended a motion."""
 
-    guard: str
+    guard: GuardKind
     value: float
     limit: float
 

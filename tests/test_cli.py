@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
+from handeye.planfile.plan import VERSION
+
 MISTAKES = {
     "unknown-instruction": "MOVEX T",
     "missing-operand": "CHANGE [0 0 -1]",
@@ -73,7 +75,7 @@ def test_a_plan_of_two_files_needs_neither(command: Command) -> None:
 
 SPOILED: dict[str, Callable[[str], str]] = {
     "is cut short": lambda text: text[:200],
-    "has plan format version 99": lambda text: text.replace('"version": 1', '"version": 99'),
+    "has plan format version 99": lambda text: text.replace(f'"version": {VERSION}', '"version": 99'),
     "unknown field `extra`": lambda text: text.replace("{", '{"extra": 1,', 1),
     "not a plan": lambda _: "[]",
 }

@@ -11,6 +11,7 @@ FOUNDATIONS = {
     "units",
     "pose",
     "boxes",
+    "record",
     "source",
     "codes",
     "diagnostics",

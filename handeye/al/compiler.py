@@ -5,8 +5,8 @@ from pathlib import PurePath
 from handeye.al.checks.names import check_names
 from handeye.al.checks.program_checks import CompiledScript, check_whole
 from handeye.al.lower import Lowered, lower
+from handeye.al.lower_statement import position
 from handeye.al.macros import expand
-from handeye.al.operations import position
 from handeye.al.parser import parse_whole
 from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script

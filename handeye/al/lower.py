@@ -9,11 +9,12 @@ from msgspec.structs import replace
 
 from handeye.al.definition import DECLARATION, JUMP, MODIFIER, MOTION, SHIFT, SKIP, STEP, Role
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.lower_statement import operation, restore
 from handeye.al.macros import Call, Placed
-from handeye.al.operations import operation, restore
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.program.program import AnyOperation, Countdown, Move, Step, Test
+from handeye.program.operations import AnyOperation, Move
+from handeye.program.program import Step
 from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
@@ -232,12 +233,14 @@ class _Lowering:
     def link(self, index: int) -> None:
         """Set what follows a step that jumps or skips."""
         draft = self.drafts[index]
-        if isinstance(draft.operation, Test):
+        operation = draft.operation
+        assert operation is not None
+        if INSTRUCTIONS[draft.word].role is SKIP:
             skipped = self.skip(index)
             raised, draft.next = (skipped, draft.next) if draft.word == "SKIPE" else (draft.next, skipped)
-            draft.operation = replace(draft.operation, raised=raised)
-        elif isinstance(draft.operation, Countdown):
-            draft.operation = replace(draft.operation, positive=self.jump(index))
+            draft.operation = operation.leading_to(raised)
+        elif operation.branches:
+            draft.operation = operation.leading_to(self.jump(index))
         else:
             draft.next = self.jump(index)
 

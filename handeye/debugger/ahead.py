@@ -1,8 +1,8 @@
 """What a run can still come by."""
 
-from handeye.al.graph import Graph
 from handeye.debugger.breakpoints import AtStage, AtSteps, UntilStep
 from handeye.planfile.plan import Plan
+from handeye.program.graph import Graph
 from handeye.runs.advance import Stop
 from handeye.runs.snapshot import Checkpoint
 

@@ -7,7 +7,7 @@ from typing import Final
 from handeye.debugger.breakpoints import nearest
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.program.program import Move, Program, Save
+from handeye.program.program import Program
 from handeye.runs.runner import Runner
 from handeye.units import DEGREE, INCH
 
@@ -46,13 +46,8 @@ def set_position(runner: Runner, text: str) -> None:
 
 def saved_names(program: Program) -> list[str]:
     """The differences that a program saves or restores."""
-    found = set()
-    for step in program.steps:
-        if isinstance(step.operation, Save):
-            found.add(step.operation.name)
-        elif isinstance(step.operation, Move):
-            found.update(restore.name for restore in step.operation.restore)
-    return sorted(found)
+    uses = (use for step in program.steps for use in (*step.operation.reads, *step.operation.writes))
+    return sorted({use.name for use in uses if use.kind == "difference"})
 
 
 def _read(text: str, counts: tuple[int, ...], usage: str) -> tuple[str, list[float]]:

@@ -9,7 +9,8 @@ from handeye.al.parser import parse_whole
 from handeye.al.syntax import Statement
 from handeye.debugger.source_places import Place, text_of
 from handeye.planfile.plan import Plan
-from handeye.program.program import Program, Record
+from handeye.program.program import Program
+from handeye.record import Record
 from handeye.source import Source, line_name
 
 _NO_STEP: Final = (Role.MODIFIER, Role.SHIFT, Role.DECLARATION)

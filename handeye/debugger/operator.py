@@ -14,7 +14,7 @@ from handeye.errors import InvalidInput
 from handeye.events import OperatorAnswered, StageStarted, StepFinished, StepStarted
 from handeye.execution.drive import Halted
 from handeye.execution.executor import Choice
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.runs.advance import Pause, Stop, advance, keep
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint

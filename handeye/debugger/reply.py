@@ -6,7 +6,7 @@ from handeye.debugger.listing import SourceLine
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import Shown
 from handeye.events import AnyEvent
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.runs.advance import Pause
 
 

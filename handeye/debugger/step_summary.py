@@ -6,7 +6,8 @@ from typing import Final
 from handeye import events as happened
 from handeye.debugger.listing import one_line
 from handeye.events import AnyEvent
-from handeye.program.program import Program, Record
+from handeye.program.program import Program
+from handeye.record import Record
 from handeye.trace.sentences import inches, sentence
 from handeye.units import INCH
 

@@ -2,7 +2,7 @@
 
 from msgspec import UNSET, UnsetType
 
-from handeye.program.program import Record, Vector
+from handeye.record import Record, Vector3
 
 Six = tuple[float, float, float, float, float, float]
 
@@ -19,8 +19,8 @@ class Joint(Record, frozen=True, kw_only=True):
 class Hand(Record, frozen=True, kw_only=True):
     """Where the hand is, in W; the angles are O, A, T."""
 
-    at_in: Vector
-    angles_deg: Vector
+    at_in: Vector3
+    angles_deg: Vector3
 
 
 class Error(Record, frozen=True, kw_only=True):
@@ -41,7 +41,7 @@ class Search(Record, frozen=True, kw_only=True):
 class PartPose(Record, frozen=True, kw_only=True):
     """Where a part is, upright in W."""
 
-    at_in: Vector
+    at_in: Vector3
     yaw_deg: float
 
 
@@ -75,14 +75,14 @@ class Shown(Record, frozen=True, kw_only=True):
     time_s: float | UnsetType = UNSET
     joints: tuple[Joint, ...] | UnsetType = UNSET
     hand: Hand | UnsetType = UNSET
-    force_oz: Vector | UnsetType = UNSET
+    force_oz: Vector3 | UnsetType = UNSET
     """What the hand exerts on the world, as estimated when it was last asked for, in W."""
     gap_in: float | UnsetType = UNSET
     switches: tuple[bool, bool] | UnsetType = UNSET
     """Of the fingers on the +y and the -y side of the hand."""
     error: Error | UnsetType | None = UNSET
-    saved_in: dict[str, Vector] | UnsetType = UNSET
-    restored_in: dict[str, Vector] | UnsetType = UNSET
+    saved_in: dict[str, Vector3] | UnsetType = UNSET
+    restored_in: dict[str, Vector3] | UnsetType = UNSET
     search: Search | UnsetType | None = UNSET
     parts: dict[str, PartShown] | UnsetType = UNSET
     picture: PictureShown | UnsetType | None = UNSET

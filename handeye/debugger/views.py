@@ -24,8 +24,8 @@ from handeye.errors import ERRORS, InvalidInput
 from handeye.events import PictureTaken
 from handeye.files import write_whole
 from handeye.pose import Array, Pose, hand_angles, yaw
-from handeye.program.program import Vector
 from handeye.program.world_model import planned_pose
+from handeye.record import Vector3
 from handeye.report.pictures import annotated_png
 from handeye.runs.runner import Runner
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
@@ -89,7 +89,7 @@ def _hand(runner: Runner) -> Hand:
     return Hand(at_in=_inches(X_WT[:3, 3]), angles_deg=_three(np.array(hand_angles(X_WT)) / DEGREE))
 
 
-def _force(runner: Runner) -> Vector:
+def _force(runner: Runner) -> Vector3:
     return _three(-runner.run.drive.state.wrench[:3] / OUNCE_FORCE)
 
 
@@ -169,16 +169,16 @@ def _round(x: float) -> float:
     return round(float(x), 4) + 0.0
 
 
-def _three(values: Array) -> Vector:
+def _three(values: Array) -> Vector3:
     x, y, z = (_round(value) for value in values)
     return x, y, z
 
 
-def _inches(p: Array) -> Vector:
+def _inches(p: Array) -> Vector3:
     return _three(p / INCH)
 
 
-def _named(table: dict[str, Array]) -> dict[str, Vector]:
+def _named(table: dict[str, Array]) -> dict[str, Vector3]:
     return {name: _inches(difference) for name, difference in sorted(table.items())}
 
 

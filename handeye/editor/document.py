@@ -6,7 +6,7 @@ from functools import cached_property
 
 from handeye.al.compiler import compile_text
 from handeye.al.includes import Read, sewn
-from handeye.al.operations import position
+from handeye.al.lower_statement import position
 from handeye.al.parser import parse_whole
 from handeye.al.scanner import Line, scan
 from handeye.al.statements import all_statements

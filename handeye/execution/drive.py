@@ -19,7 +19,7 @@ from handeye.execution.compliance import Course
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.pose import Array, Pose, displaced, translated
-from handeye.touch.guards import Guard, Reading, Trip
+from handeye.touch.guards import Monitor, Reading, Trip
 from handeye.units import INCH, JIFFY
 
 SETTLE_TICKS = 8
@@ -96,7 +96,9 @@ class ArmDrive:
             self._tick(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / OILED)
         self.state.q = self.sensed.q.copy()
 
-    def follow(self, samples: Samples, guard: Guard | None = None, direction: Array | None = None) -> Outcome:
+    def follow(
+        self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
+    ) -> Outcome:
         """Follow set-points; end early when `guard` trips.
 
         Args:
@@ -138,7 +140,7 @@ class ArmDrive:
             return REACHED
         return Outcome(error=errors.SERVO_LAG, detail=f"the hand is {off / INCH:.2f} in from its set-point")
 
-    def comply(self, course: Course, guard: Guard | None) -> Outcome:
+    def comply(self, course: Course, guard: Monitor | None) -> Outcome:
         """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips.
 
         A position servo in which the measured force moves the set-point: it needs no joint to be slack.

@@ -27,7 +27,8 @@ from handeye.execution import motion_actions as acting
 from handeye.execution import vision_actions as looking
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState, Fault, SearchState, vector
-from handeye.program import program as op
+from handeye.program import operations as op
+from handeye.program.program import Step
 from handeye.program.world_model import place
 
 IDLE_LIMIT: Final = 10_000
@@ -110,7 +111,7 @@ class Executor:
         run.emit(RunFinished(time=run.time, completed=completed))
         return completed
 
-    def _perform(self, number: int, step: op.Step) -> int | None:
+    def _perform(self, number: int, step: Step) -> int | None:
         """Do the operation; the number of the step that follows."""
         run = self.run
         operation = step.operation
@@ -125,7 +126,7 @@ class Executor:
         if isinstance(operation, op.Countdown):
             left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
             return operation.positive if left > 0 else step.next
-        if isinstance(operation, op.ACTIONS) and not isinstance(operation, op.Travel):
+        if operation.raising and not operation.only_checks:
             run.state.finger_line = None
         if isinstance(operation, op.Move):
             self._raise(acting.move(run, number, operation))
@@ -152,7 +153,7 @@ class Executor:
         if fault is not None:
             self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, detail=fault.detail))
 
-    def _test(self, operation: op.Test, step: op.Step) -> int | None:
+    def _test(self, operation: op.Test, step: Step) -> int | None:
         occurred = self.state.pending is not None and self.state.pending.number == operation.number
         self.run.emit(ErrorTested(time=self.run.time, number=operation.number, occurred=occurred))
         if occurred:

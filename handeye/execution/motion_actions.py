@@ -16,34 +16,16 @@ from handeye.planning.motions import (
     Unreachable,
     change_samples,
     change_speed,
-    complies,
     directions,
     move_trajectory,
     turn_samples,
 )
 from handeye.pose import Array, Pose, translated
-from handeye.program.program import (
-    Center,
-    Change,
-    Close,
-    Move,
-    Open,
-    Stop,
-    Travel,
-    Turn,
-    Vector,
-)
-from handeye.program.raises import unmet
+from handeye.program.guards import GuardKind, Guards, unmet
+from handeye.program.operations import Center, Change, Close, Move, Open, Travel, Turn
+from handeye.record import Vector3
 from handeye.touch.centring import Centring
-from handeye.touch.guards import (
-    AgainstGuard,
-    AnyGuard,
-    ForceGuard,
-    Guard,
-    MomentGuard,
-    TorqueGuard,
-    TouchGuard,
-)
+from handeye.touch.guards import monitor
 from handeye.touch.hold import at_least, within
 from handeye.units import INCH, JIFFY
 
@@ -83,7 +65,7 @@ def move(run: ExecutionContext, number: int, operation: Move) -> Fault | None:
         )
     samples = trajectory.sample(JIFFY)
     along = directions(samples, run.arm, run.drive.state.q)
-    return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
+    return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
 
 
 def _trajectory(
@@ -108,8 +90,8 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
     start = run.drive.hand()[:3, 3]
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
-    guard = _guard(operation.stop)
-    if not complies(operation):
+    guard = monitor(operation.guards)
+    if not operation.complies:
         samples = change_samples(run.arm, run.drive.state.q, operation)
         if isinstance(samples, IKResult):
             return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
@@ -117,7 +99,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
     else:
         outcome = run.drive.comply(_course(operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
-    return _finish(run, outcome, operation.stop)
+    return _finish(run, outcome, operation.guards)
 
 
 def _course(operation: Change) -> Course:
@@ -134,7 +116,7 @@ def _course(operation: Change) -> Course:
     )
 
 
-def _axes(wanted: Vector | None) -> Array:
+def _axes(wanted: Vector3 | None) -> Array:
     """1 for each axis that is wanted, else 0."""
     return np.zeros(3) if wanted is None else (np.array(wanted) != 0).astype(float)
 
@@ -145,10 +127,10 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
     along = directions(samples, run.arm, run.drive.state.q)
-    return _finish(run, run.drive.follow(samples, _guard(operation.stop), along), operation.stop)
+    return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
 
 
-def _finish(run: ExecutionContext, outcome: Outcome, stop: Stop | None) -> Fault | None:
+def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
     """Turn a motion's outcome into the language's convention: no trip where one was expected is an error."""
     if outcome.error is not None:
         return Fault(number=outcome.error, detail=outcome.detail)
@@ -158,26 +140,10 @@ def _finish(run: ExecutionContext, outcome: Outcome, stop: Stop | None) -> Fault
             GuardTripped(time=run.time, guard=trip.guard, value=round(trip.value, 6), limit=round(trip.limit, 6))
         )  # fmt: skip
         return None
-    if stop is None:
+    if not guards:
         return None
-    return Fault(number=unmet(stop), detail="or the moment" if stop.moment is not None else "")
-
-
-def _guard(stop: Stop | None) -> Guard | None:
-    if stop is None:
-        return None
-    guards: list[Guard] = []
-    if stop.force is not None:
-        guards.append(ForceGuard(force=np.array(stop.force)))
-    if stop.against is not None:
-        guards.append(AgainstGuard(limit=stop.against))
-    if stop.moment is not None:
-        guards.append(MomentGuard(moment=np.array(stop.moment)))
-    if stop.torque is not None:
-        guards.append(TorqueGuard(limit=stop.torque))
-    if stop.touch is not None:
-        guards.append(TouchGuard(mask=stop.touch))
-    return guards[0] if len(guards) == 1 else AnyGuard(guards=tuple(guards))
+    beside = any(guard.kind is GuardKind.MOMENT for guard in guards)
+    return Fault(number=unmet(guards), detail="or the moment" if beside else "")
 
 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:

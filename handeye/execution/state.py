@@ -17,7 +17,6 @@ from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
-from handeye.program.program import Look
 from handeye.program.world_model import WorldState
 from handeye.records import MutableRecord
 from handeye.touch.spiral import spiral
@@ -140,13 +139,12 @@ def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
 
 def _fits_program(state: ExecutionState, plan: Plan) -> bool:
     program, world = plan.program, state.world
-    taken = {step.operation.picture for step in program.steps if isinstance(step.operation, Look)}
     return (
         all(step is None or step < len(program.steps) for step in (state.at, state.onward))
         and (state.stage is None or state.stage < len(program.stages))
         and (state.stopped is None or (state.stage is not None and state.at is None))
         and {*world.measured, *state.general} <= set(program.parts)
-        and {*state.shots, *state.found} <= taken  # names that become file names
+        and {*state.shots, *state.found} <= program.written("picture")  # names that become file names
         and set(world.moved) <= set(program.positions)
         and all(p.of is None or p.of in program.parts for p in world.moved.values())
     )

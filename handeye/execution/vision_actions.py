@@ -9,7 +9,7 @@ from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
 from handeye.pose import Array, Pose, planar, yaw
-from handeye.program.program import Aim, General, Inspect, Lens, Look, Specific
+from handeye.program.operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.gasket import inspect as inspect_gasket
 

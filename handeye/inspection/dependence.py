@@ -4,21 +4,25 @@ For each step it is worked out which measurements can be the newest when it is r
 graph, loops and error edges included.
 """
 
-from typing import Literal
+from typing import Final, Literal, get_args
 
-from handeye.program import program as op
+from handeye.program.graph import Graph
+from handeye.program.operation import Operation
+from handeye.program.program import Program
+from handeye.record import Record
 from handeye.source import line_name
 
-Kind = Literal["part", "position", "difference", "search"]
-Key = tuple[Kind, str]
+Measured = Literal["part", "position", "difference", "search"]
+Key = tuple[Measured, str]
+_MEASURED: Final[tuple[Measured, ...]] = get_args(Measured)
 Newest = dict[Key, frozenset[int]]
 """The steps that may have measured something last."""
 
 
-class Dependence(op.Record, frozen=True, kw_only=True):
+class Dependence(Record, frozen=True, kw_only=True):
     """Something measured that a step is carried out by."""
 
-    kind: Kind
+    kind: Measured
     name: str
     """Of the part, position or difference; empty for a search."""
     level: bool = False
@@ -29,10 +33,10 @@ class Dependence(op.Record, frozen=True, kw_only=True):
     """Their lines of the source: 12, or `pins.al:12` in a required file."""
 
 
-def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
+def dependences(program: Program) -> tuple[tuple[Dependence, ...], ...]:
     """What each step of a program depends on, in the order of the steps."""
     newest = _newest(program)
-    kept = {step.operation.position for step in program.steps if isinstance(step.operation, op.Here)}
+    kept = program.written("position")
     return tuple(
         tuple(
             _dependence(program, key, level, newest[number].get(key, frozenset()))
@@ -42,54 +46,50 @@ def dependences(program: op.Program) -> tuple[tuple[Dependence, ...], ...]:
     )
 
 
-def successors(step: op.Step) -> tuple[int, ...]:
-    """The steps that may follow a step."""
-    return tuple(dict.fromkeys(way for way in step.ways if way is not None))
-
-
-def _dependence(program: op.Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
+def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) -> Dependence:
     places = sorted({(program.steps[number].file, program.steps[number].line) for number in steps})
     lines = tuple(line_name(line, file) if file else line for file, line in places)
     return Dependence(kind=key[0], name=key[1], level=level, steps=tuple(sorted(steps)), lines=lines)
 
 
-def _measures(operation: op.AnyOperation) -> Key | None:
+def _measures(operation: Operation) -> list[Key]:
     """What an operation measures."""
-    if isinstance(operation, op.General | op.Specific):
-        return "part", operation.part
-    if isinstance(operation, op.Save):
-        return "difference", operation.name
-    if isinstance(operation, op.Here):
-        return "position", operation.position
-    return ("search", "") if isinstance(operation, op.Search) else None
+    return [(kind, use.name) for use in operation.writes for kind in _MEASURED if kind == use.kind]
 
 
-def _uses(program: op.Program, kept: set[str], operation: op.AnyOperation) -> list[tuple[Key, bool]]:
-    """What an operation is carried out by, and whether only its horizontal components count; `kept`: by a HERE."""
+def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
+    """What a motion or a look is carried out by, and whether only its horizontal components count.
+
+    Args:
+        kept: positions that a HERE keeps.
+    """
     found: list[tuple[Key, bool]] = []
-    named = [getattr(operation, field, None) for field in ("goal", "centre", "target", "part")]
-    for name in (*named, *getattr(operation, "via", ())):
-        if name in kept:
-            found.append((("position", name), False))
-        if name in program.positions:
-            name = program.positions[name].of
-        if name is not None and not isinstance(operation, op.General):
-            found.append((("part", name), False))
-    if isinstance(operation, op.Move):
-        found += [(("difference", restore.name), restore.level) for restore in operation.restore]
-        found += [(("search", ""), False)] if operation.searching else []
+    for kind, name, level in operation.reads if operation.family in ("motion", "sight") else ():
+        if kind in ("difference", "search"):
+            found.append(((kind, name), level))
+        elif kind in ("position", "target", "part"):
+            of: str | None = name
+            if name in kept:
+                found.append((("position", name), False))
+            if name in program.positions:
+                of = program.positions[name].of
+            if of is not None:
+                found.append((("part", of), False))
     return list(dict.fromkeys(found))
 
 
-def _newest(program: op.Program) -> list[Newest]:
+def _newest(program: Program) -> list[Newest]:
     """The newest measurements before each step."""
+    graph = Graph(program.steps)
+    measured = [_measures(step.operation) for step in program.steps]
     before: list[Newest] = [{} for _ in program.steps]
     waiting = list(range(len(program.steps)))[::-1]
     while waiting:
         number = waiting.pop()
-        key = _measures(program.steps[number].operation)
-        after = before[number] | ({} if key is None else {key: frozenset({number})})
-        for follower in successors(program.steps[number]):
+        after = before[number] | dict.fromkeys(measured[number], frozenset({number}))
+        for follower in dict.fromkeys(graph.onward[number]):
+            if follower is None:
+                continue
             merged = _merged(before[follower], after)
             if merged != before[follower]:
                 before[follower] = merged

@@ -9,8 +9,10 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
 from handeye.inspection.place_changes import PlaceChange, place_changes
 from handeye.inspection.wording import conditions, one_line
-from handeye.planfile.plan import Motion, Plan
-from handeye.program.program import Countdown, Record, Step, Test
+from handeye.planfile.plan import Plan, PlannedMotion
+from handeye.program.operation import Branch
+from handeye.program.program import Step
+from handeye.record import Record
 
 _ALIKE = 1e-9
 """m, rad or s: below this, two motions differ by rounding."""
@@ -100,15 +102,13 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
     one, other = before.program.steps[old], after.program.steps[new]
     changes = list(_changes(one, other))
     ways = [("then", one.next, other.next)]
-    if isinstance(one.operation, Test) and isinstance(other.operation, Test):
-        ways.append((f"if error {other.operation.number}", one.operation.raised, other.operation.raised))
-    if isinstance(one.operation, Countdown) and isinstance(other.operation, Countdown):
-        still = f"while {other.operation.counter} is positive"
-        ways.append((still, one.operation.positive, other.operation.positive))
-    for what, was, now in ways:
-        follows = (was, now) == (old + 1, new + 1)
-        if not follows and not leads_alike(pairs, was, now):
-            changes.append((what, _place(was), _place(now)))
+    was, now = one.operation.branch, other.operation.branch
+    if was is not None and now is not None and (was.error is None) == (now.error is None):
+        ways.append((_when(now), was.target, now.target))
+    for what, there, here in ways:
+        follows = (there, here) == (old + 1, new + 1)
+        if not follows and not leads_alike(pairs, there, here):
+            changes.append((what, _place(there), _place(here)))
     stages = before.program.stages[one.stage], after.program.stages[other.stage]
     if stages[0] != stages[1] and {*stages} <= {*before.program.stages} & {*after.program.stages}:
         changes.append(("stage", *stages))
@@ -145,11 +145,16 @@ def _guards(step: Step) -> str:
     return "; ".join(conditions(step.operation)) or "none"
 
 
+def _when(branch: Branch) -> str:
+    """When the other way is gone."""
+    return f"if error {branch.error}" if branch.error is not None else f"while {branch.counter} is positive"
+
+
 def _place(target: int | None) -> str:
     return "the end" if target is None else f"step {target}"
 
 
-def _motion(one: Motion | None, other: Motion | None) -> MotionChange | None:
+def _motion(one: PlannedMotion | None, other: PlannedMotion | None) -> MotionChange | None:
     before, after = (None if m is None else round(sum(m.times), 6) for m in (one, other))
     if one is None or other is None:
         return None if one is other else MotionChange(before=before, after=after)

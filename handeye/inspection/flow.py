@@ -2,20 +2,11 @@
 
 import json
 from dataclasses import dataclass
-from typing import Final
 
 from handeye.inspection.wording import conditions, one_line
 from handeye.planfile.plan import Plan
-from handeye.program import program as op
-
-KINDS: Final[dict[str, tuple[type[op.AnyOperation], ...]]] = {
-    "motion": (op.Move, op.Change, op.Turn),
-    "hand": (op.Open, op.Close, op.Center, op.Tool),
-    "sight": (op.Lens, op.Aim, op.Look, op.General, op.Specific, op.Inspect),
-    "test": (op.Test, op.Travel),
-    "search": (op.Search, op.Advance, op.Save),
-}
-"""Kinds of steps, and the operations that are of each; the rest is `other`."""
+from handeye.program.operation import Family
+from handeye.program.program import Step
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,7 +22,7 @@ class Node:
     notes: tuple[str, ...]
     """What guards it."""
     seconds: float | None
-    kind: str
+    kind: Family
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,19 +84,18 @@ def flow_dot(graph: Flow) -> str:
 
 def _node(plan: Plan, number: int) -> Node:
     step, motion = plan.program.steps[number], plan.motions.get(number)
-    kinds = (kind for kind, operations in KINDS.items() if isinstance(step.operation, operations))
     return Node(
         step=number, stage=step.stage, line=step.place, text=one_line(step.text),
-        notes=conditions(step.operation), kind=next(kinds, "other"),
+        notes=conditions(step.operation), kind=step.operation.family,
         seconds=None if motion is None else sum(motion.times),
     )  # fmt: skip
 
 
-def _ways(number: int, step: op.Step) -> list[Edge]:
-    if isinstance(step.operation, op.Test):
-        tested = Edge(start=number, end=step.operation.raised, error=step.operation.number)
-        return [Edge(start=number, end=step.next), tested]
-    return [Edge(start=number, end=end) for end in dict.fromkeys(step.ways)]
+def _ways(number: int, step: Step) -> list[Edge]:
+    branch = step.operation.branch
+    if branch is None or branch.error is None:
+        return [Edge(start=number, end=end) for end in dict.fromkeys(step.ways)]
+    return [Edge(start=number, end=step.next), Edge(start=number, end=branch.target, error=branch.error)]
 
 
 def _quoted(text: str) -> str:

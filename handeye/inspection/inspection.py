@@ -3,11 +3,13 @@
 from handeye.inspection.dependence import Dependence, dependences
 from handeye.inspection.wording import conditions, counted, one_line
 from handeye.planfile.plan import Plan
-from handeye.program import program as op
+from handeye.program.guards import Guards
+from handeye.program.operation import Branch
+from handeye.record import Record, Vector3
 from handeye.source import line_name
 
 
-class InspectedStep(op.Record, frozen=True, kw_only=True):
+class InspectedStep(Record, frozen=True, kw_only=True):
     """A step, by its number in the plan."""
 
     step: int
@@ -19,9 +21,9 @@ class InspectedStep(op.Record, frozen=True, kw_only=True):
     """What it is called on disk."""
     seconds: float | None
     """Planned duration of its motion; None if it has none."""
-    stop: op.Stop | None
-    """Force or torque that ends it, SI."""
-    press: op.Vector | None
+    guards: Guards
+    """Each of them ends it, SI."""
+    press: Vector3 | None
     """Force it exerts, N, table coordinates."""
     conditions: tuple[str, ...]
     """What guards it, in words and units of the language."""
@@ -38,7 +40,7 @@ class InspectedStep(op.Record, frozen=True, kw_only=True):
     """The step that follows otherwise; None ends the program."""
 
 
-class InspectedStage(op.Record, frozen=True, kw_only=True):
+class InspectedStage(Record, frozen=True, kw_only=True):
     """A stage, by its number from 1."""
 
     number: int
@@ -48,7 +50,7 @@ class InspectedStage(op.Record, frozen=True, kw_only=True):
     steps: tuple[InspectedStep, ...]
 
 
-class Inspection(op.Record, frozen=True, kw_only=True):
+class Inspection(Record, frozen=True, kw_only=True):
     """A plan laid open."""
 
     name: str
@@ -108,16 +110,16 @@ def depends_text(one: Dependence) -> str:
 def _step(plan: Plan, number: int, depends: tuple[Dependence, ...]) -> InspectedStep:
     step, motion = plan.program.steps[number], plan.motions.get(number)
     operation = step.operation
-    test = operation if isinstance(operation, op.Test) else None
-    count = operation if isinstance(operation, op.Countdown) else None
+    branch = operation.branch or Branch(None)
+    tests, counts = branch.error is not None, branch.counter is not None
     return InspectedStep(
         step=number, file=step.file, line=step.line, text=one_line(step.text),
         operation=type(operation).__name__.lower(),
         seconds=None if motion is None else round(sum(motion.times), 6),
-        stop=getattr(operation, "stop", None), press=getattr(operation, "press", None),
+        guards=operation.guards, press=getattr(operation, "press", None),
         conditions=conditions(operation), depends=depends,
-        error=None if test is None else test.number, raised=None if test is None else test.raised,
-        counter=None if count is None else count.counter, positive=None if count is None else count.positive,
+        error=branch.error, raised=branch.target if tests else None,
+        counter=branch.counter, positive=branch.target if counts else None,
         next=step.next,
     )  # fmt: skip
 

@@ -1,9 +1,13 @@
 """Quantities of a plan in the units of the language: inches, degrees, ounces, ounce-inches."""
 
 import math
+from collections.abc import Callable
+from typing import Any, Final
 
-from handeye.program import program as op
-from handeye.program.raises import unmet
+from handeye.errors import NOTHING_HELD, WRONG_THICKNESS, WRONG_TRAVEL
+from handeye.program import guards as g
+from handeye.program import operations as op
+from handeye.record import Vector3
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
@@ -27,17 +31,17 @@ def degrees(radians: float) -> str:
     return f"{figure(radians / DEGREE)} deg"
 
 
-def ounces(force: op.Vector) -> str:
+def ounces(force: Vector3) -> str:
     """`30 oz along -z`"""
     return f"{figure(math.hypot(*force) / OUNCE_FORCE)} oz along {direction(force)}"
 
 
-def ounce_inches(moment: op.Vector) -> str:
+def ounce_inches(moment: Vector3) -> str:
     """`20 oz-in about z`"""
     return f"{figure(math.hypot(*moment) / OUNCE_INCH)} oz-in about {direction(moment)}"
 
 
-def direction(vector: op.Vector) -> str:
+def direction(vector: Vector3) -> str:
     """`-z`, or `[0.6 0.8 0]`; table coordinates."""
     size = math.hypot(*vector)
     unit = [value / size for value in vector]
@@ -47,48 +51,71 @@ def direction(vector: op.Vector) -> str:
     return f"[{' '.join(map(figure, unit))}]"
 
 
-def stop(guard: op.Stop) -> str:
-    """What ends a guarded motion, and the error there is if it does not."""
-    met = []
-    if guard.force is not None:
-        met.append(f"at {ounces(guard.force)}")
-    if guard.against is not None:
-        met.append(f"at {figure(guard.against / OUNCE_FORCE)} oz against it")
-    if guard.moment is not None:
-        met.append(f"at {ounce_inches(guard.moment)}")
-    if guard.torque is not None:
-        met.append(f"at {figure(guard.torque / OUNCE_INCH)} oz-in of torque")
-    if guard.touch is not None:
-        met.append(f"when {FINGERS[guard.touch]} touches")
-    return f"stops {' or '.join(met)}, else error {unmet(guard)}"
+_MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
+    g.Force: lambda guard: f"at {ounces(guard.force)}",
+    g.Against: lambda guard: f"at {figure(guard.force / OUNCE_FORCE)} oz against it",
+    g.Moment: lambda guard: f"at {ounce_inches(guard.moment)}",
+    g.Torque: lambda guard: f"at {figure(guard.torque / OUNCE_INCH)} oz-in of torque",
+    g.Touch: lambda guard: f"when {FINGERS[guard.fingers]} touches",
+}
+"""When each guard is met."""
+
+
+def stops(guards: g.Guards) -> str:
+    """What ends a guarded motion, and the error there is if nothing does."""
+    return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 
 def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
     """What guards an operation, and what it does with force; nothing for most."""
+    guarded = (stops(operation.guards),) if operation.guards else ()
+    said = _CONDITIONS.get(type(operation))
+    return guarded if said is None else (*guarded, *said(operation))
+
+
+def _via(operation: op.Move) -> list[str]:
+    return [f"by way of {', '.join(operation.via)}"] if operation.via else []
+
+
+def _with_force(operation: op.Change) -> list[str]:
     said = []
-    if isinstance(operation, op.Move | op.Change | op.Turn) and operation.stop is not None:
-        said.append(stop(operation.stop))
-    if isinstance(operation, op.Change):
-        if operation.press is not None:
-            said.append(f"presses with {ounces(operation.press)}")
-        if operation.free is not None:
-            said.append(f"gives way along {_axes(operation.free)}")
-        if operation.moment is not None:
-            said.append(f"turns with {ounce_inches(operation.moment)}")
-        if operation.spin is not None:
-            said.append(f"gives way about {_axes(operation.spin)}")
-    if isinstance(operation, op.Move) and operation.via:
-        said.append(f"by way of {', '.join(operation.via)}")
-    if isinstance(operation, op.Center) or (isinstance(operation, op.Close) and operation.minimum > 0):
-        said.append(f"holds {inches(operation.minimum)} or more, else error 2")
-    if isinstance(operation, op.Close) and operation.maximum is not None:
-        said.append(f"{inches(operation.maximum)} or less, else error 7")
-    if isinstance(operation, op.Travel):
-        said.append(f"went {inches(operation.minimum)} to {inches(operation.maximum)}, else error 8")
-    return tuple(said)
+    if operation.press is not None:
+        said.append(f"presses with {ounces(operation.press)}")
+    if operation.free is not None:
+        said.append(f"gives way along {_axes(operation.free)}")
+    if operation.moment is not None:
+        said.append(f"turns with {ounce_inches(operation.moment)}")
+    if operation.spin is not None:
+        said.append(f"gives way about {_axes(operation.spin)}")
+    return said
 
 
-def _axes(axes: op.Vector) -> str:
+def _closed(operation: op.Close) -> list[str]:
+    said = [_held(operation)] if operation.minimum > 0 else []
+    most = operation.maximum
+    return said if most is None else [*said, f"{inches(most)} or less, else error {WRONG_THICKNESS}"]
+
+
+def _held(operation: op.Close | op.Center) -> str:
+    return f"holds {inches(operation.minimum)} or more, else error {NOTHING_HELD}"
+
+
+def _gone(operation: op.Travel) -> list[str]:
+    way = f"{inches(operation.minimum)} to {inches(operation.maximum)}"
+    return [f"went {way}, else error {WRONG_TRAVEL}"]
+
+
+_CONDITIONS: Final[dict[type[op.AnyOperation], Callable[[Any], list[str]]]] = {
+    op.Move: _via,
+    op.Change: _with_force,
+    op.Close: _closed,
+    op.Center: lambda operation: [_held(operation)],
+    op.Travel: _gone,
+}
+"""What is to be said of an operation besides its guards."""
+
+
+def _axes(axes: Vector3) -> str:
     """`x and y`"""
     return " and ".join(letter for letter, wanted in zip("xyz", axes, strict=True) if wanted)
 

@@ -5,17 +5,18 @@ This is the second waist of the system.
 
 from typing import Final
 
-from handeye.program.program import Program, Record
+from handeye.program.program import Program
+from handeye.record import Record
 
-VERSION: Final = 1
+VERSION: Final = 2
 """Version of the format on disk."""
 
 Joints = tuple[float, ...]
 """One for each joint of the arm, rad or m."""
 
 
-class Motion(Record, frozen=True, kw_only=True):
-    """A planned motion: joint positions it passes (rad, m) and the seconds between them."""
+class PlannedMotion(Record, frozen=True, kw_only=True):
+    """Joint positions it passes (rad, m) and the seconds between them."""
 
     knots: tuple[Joints, ...]
     """Start, lift-off, what it passes, set-down and goal of a Move; start and goal of a straight motion or an arc."""
@@ -35,5 +36,5 @@ class Plan(Record, frozen=True, kw_only=True):
     speed: float
     """Speed of free motions as a share of the arm's limits."""
     program: Program
-    motions: dict[int, Motion]
+    motions: dict[int, PlannedMotion]
     """Planned motion of each step that moves the arm, by step number."""

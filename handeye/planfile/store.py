@@ -16,9 +16,6 @@ from handeye.planfile.plan import VERSION, Plan
 from handeye.planfile.soundness import faults
 
 PLAN: Final = Kind("plan", rb'\{\s*"format": "handeye plan"')
-_LATER: Final = frozenset({"via", "spin", "moment", "touch"})
-"""Fields that came after plans had been kept: written only where they say something, so that those plans, and their
-digests, stay as they are."""
 
 
 def encode(plan: Plan) -> str:
@@ -35,7 +32,7 @@ def encode(plan: Plan) -> str:
             body = [f'   "{name}": {_line(item)}' for name, item in value.items()]
             lines += [f'  "{key}": {{', *_separated(body), f"  }}{comma}"]
         elif key == "steps":
-            body = [f"   {_line(_terse(item))}" for item in value]
+            body = [f"   {_line(item)}" for item in value]
             lines += [f'  "{key}": [', *_separated(body), f"  ]{comma}"]
         else:
             lines.append(f'  "{key}": {_line(value)}{comma}')
@@ -46,13 +43,6 @@ def encode(plan: Plan) -> str:
         "}",
     ]
     return "\n".join(lines) + "\n"
-
-
-def _terse(value: Any) -> Any:
-    """Without what came later and says nothing."""
-    if not isinstance(value, dict):
-        return value
-    return {key: _terse(item) for key, item in value.items() if item or key not in _LATER}
 
 
 def _line(value: Any) -> str:

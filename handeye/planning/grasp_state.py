@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 
 from handeye.arm.hand import HandModel
 from handeye.boxes import Box
-from handeye.program.program import Center, Close, Move, Open, Program, Step
+from handeye.program.operations import Center, Close, Move, Open
+from handeye.program.program import Program, Step
 
 
 @dataclass(slots=True)

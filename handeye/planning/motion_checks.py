@@ -14,7 +14,10 @@ from handeye.planning.grasp_state import GraspState
 from handeye.planning.planning_findings import PlanningFindings
 from handeye.planning.strength import weakness
 from handeye.pose import Array
-from handeye.program.program import Change, Load, Move, Program, Step, Stop, Vector
+from handeye.program.guards import Exerted, Guards
+from handeye.program.operations import Change, Load, Move
+from handeye.program.program import Program, Step
+from handeye.record import Vector3
 
 SPARSE: Final = 8
 """Of so many configurations of a motion, one is enough for what a load asks of the joints."""
@@ -26,24 +29,20 @@ class Demand:
 
     code: str
     """Of the diagnostic if the arm cannot."""
-    wanted: Vector
-    """N, or N m if `turning`."""
-    turning: bool
+    exerted: Exerted
 
 
-def to_stop(stop: Stop | None) -> list[Demand]:
-    """What a stop waits for, if that is a force along a vector or a moment about one."""
-    return [] if stop is None else _demands("stop-beyond-arm", stop.force, stop.moment)
+def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
+    """Forces along a vector, and moments about one, that guards wait for in a motion `along` another."""
+    waited = (guard.exerted(along) for guard in guards)
+    return [Demand("stop-beyond-arm", exerted) for exerted in waited if exerted is not None]
 
 
 def to_press(operation: Change) -> list[Demand]:
     """What a straight motion is to press and turn with."""
-    return _demands("force-beyond-arm", operation.press, operation.moment)
-
-
-def _demands(code: str, force: Vector | None, moment: Vector | None) -> list[Demand]:
-    both = ((force, False), (moment, True))
-    return [Demand(code, wanted, turning) for wanted, turning in both if wanted is not None]
+    both = ((operation.press, False), (operation.moment, True))
+    exerted = (Exerted(wanted, turning) for wanted, turning in both if wanted is not None)
+    return [Demand("force-beyond-arm", one) for one in exerted]
 
 
 @dataclass(slots=True)
@@ -95,11 +94,8 @@ class Checks:
                 self.objections.too_heavy(step, weight, weak, because)
                 return
         for demand in demands:
-            weak = weakness(
-                self.arm, q[[0, -1]], np.array(demand.wanted), turning=demand.turning, weight=weight
-            )
+            wanted, turning = demand.exerted
+            weak = weakness(self.arm, q[[0, -1]], np.array(wanted), turning=turning, weight=weight)
             if weak is not None:
-                self.objections.too_weak(
-                    demand.code, step, math.hypot(*demand.wanted), weak, turning=demand.turning
-                )
+                self.objections.too_weak(demand.code, step, math.hypot(*wanted), weak, turning=turning)
                 return

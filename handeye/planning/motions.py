@@ -13,7 +13,7 @@ from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.arm.trajectory import Trajectory, move
 from handeye.pose import Array, Pose
-from handeye.program.program import Change, Move, Turn
+from handeye.program.operations import Change, Move, Turn
 from handeye.units import DEGREE, INCH
 
 CLEARANCE: Final = 3.0 * INCH
@@ -65,16 +65,9 @@ def change_samples(arm: ArmModel, q: Array, operation: Change) -> Samples | IKRe
     return straight(arm, q, np.array(operation.displacement), change_speed(operation))
 
 
-def complies(operation: Change) -> bool:
-    """Whether force or moment moves the hand on the way."""
-    ways = (operation.press, operation.free, operation.moment, operation.spin)
-    return any(way is not None for way in ways)
-
-
 def change_speed(operation: Change) -> float:
     """Speed of a Change, m/s: as written, else by whether it feels its way."""
-    guarded = operation.stop is not None or operation.press is not None or operation.moment is not None
-    return operation.speed or (GUARDED_SPEED if guarded else FREE_SPEED)
+    return operation.speed or (GUARDED_SPEED if operation.meets else FREE_SPEED)
 
 
 def turn_samples(arm: ArmModel, q: Array, centre: Pose, operation: Turn) -> Samples | IKResult:

@@ -5,8 +5,7 @@ to end. What cannot be reached, held or pressed, or would go through the table o
 run time.
 """
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import msgspec
@@ -16,23 +15,13 @@ from handeye.arm.kinematics import IKResult, forward, solve
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.diagnostics import Diagnostic, arranged, has_errors
-from handeye.planfile.plan import Joints, Motion, Plan
+from handeye.planfile.plan import Joints, Plan, PlannedMotion
 from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
 from handeye.planning.planning_findings import PlanningFindings
 from handeye.pose import Array
-from handeye.program.program import (
-    Center,
-    Change,
-    Close,
-    Here,
-    Move,
-    Open,
-    Program,
-    Step,
-    Stop,
-    Turn,
-)
+from handeye.program.operations import Change, Here, Move, Turn
+from handeye.program.program import Program, Step
 from handeye.program.world_model import WorldModel
 
 SPEED = 0.40
@@ -86,7 +75,7 @@ class _Walk:
     q: Array = field(init=False)
     known: bool = True
     """Whether the arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
-    motions: dict[int, Motion] = field(default_factory=dict)
+    motions: dict[int, PlannedMotion] = field(default_factory=dict)
 
     def go(self, start: Array | None) -> None:
         if start is None:
@@ -98,9 +87,9 @@ class _Walk:
             if number not in ahead:
                 self.known = False
                 self.checks.forget()
-            if isinstance(step.operation, _PLACES_THE_ARM):
+            if step.operation.moves:
                 ahead = set()
-            ahead.update(_ways(step))
+            ahead.update(way for way in step.ways if way is not None)
             self._step(number, step)
             self.checks.follow(step)
 
@@ -110,13 +99,12 @@ class _Walk:
             self._move(number, step, operation)
         elif isinstance(operation, Change):
             samples = change_samples(self.arm, self.q, operation)
-            feels = operation.stop is not None or operation.press is not None or operation.moment is not None
-            demands = [*to_stop(_facing(operation)), *to_press(operation)]
-            self._sampled(number, step, samples, feels, demands)
+            demands = [*to_stop(operation.guards, operation.displacement), *to_press(operation)]
+            self._sampled(number, step, samples, operation.meets, demands)
         elif isinstance(operation, Turn):
             centre = self.world.position(operation.centre)
             samples = turn_samples(self.arm, self.q, centre, operation)
-            self._sampled(number, step, samples, operation.stop is not None, to_stop(operation.stop))
+            self._sampled(number, step, samples, bool(operation.guards), to_stop(operation.guards))
         elif isinstance(operation, Here):
             self._define(operation.position)
 
@@ -157,13 +145,13 @@ class _Walk:
             self.objections.unreachable(step, trajectory.name, trajectory.why)
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
-        self.motions[number] = Motion(knots=knots, times=tuple(float(t) for t in trajectory.times))
+        self.motions[number] = PlannedMotion(knots=knots, times=tuple(float(t) for t in trajectory.times))
         begin = 0.0 if self.known else float(trajectory.times[:-1].sum())  # the approach is always that one
         count = 2 + int((trajectory.duration - begin) / (_LOOK * self.arm.servo.period))
         q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
-        if operation.stop is None:
+        if not operation.guards:
             self.checks.clear(step, q)
-        self.checks.strong(step, q, to_stop(operation.stop))
+        self.checks.strong(step, q, to_stop(operation.guards))
         self.q, self.known = np.array(knots[-1]), True
 
     def _sampled(
@@ -181,30 +169,8 @@ class _Walk:
                 self.checks.clear(step, q)
             self.checks.strong(step, q, demands)
         seconds = len(samples.q) * self.arm.servo.period
-        self.motions[number] = Motion(knots=(_joints(self.q), _joints(q[-1])), times=(seconds,))
+        self.motions[number] = PlannedMotion(knots=(_joints(self.q), _joints(q[-1])), times=(seconds,))
         self.q = q[-1]
-
-
-_PLACES_THE_ARM = (Move, Change, Turn, Open, Close, Center)
-"""Operations after which the arm, or its hand, stands otherwise than before."""
-
-
-def _ways(step: Step) -> Iterator[int]:
-    """The steps that may follow a step."""
-    operation = step.operation
-    for way in (step.next, getattr(operation, "raised", None), getattr(operation, "positive", None)):
-        if way is not None:
-            yield way
-
-
-def _facing(operation: Change) -> Stop | None:
-    """The stop of a straight motion as a force along a vector, if it is one: a stop on whatever opposes it, too."""
-    stop = operation.stop
-    if stop is None or stop.against is None:
-        return stop
-    x, y, z = operation.displacement
-    scale = stop.against / math.hypot(x, y, z)
-    return Stop(force=(x * scale, y * scale, z * scale), moment=stop.moment)
 
 
 def _joints(q: Array) -> Joints:

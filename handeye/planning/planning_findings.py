@@ -10,7 +10,8 @@ from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.planning.clearance import Crossing
 from handeye.planning.spans import word_span
 from handeye.planning.strength import Weakness
-from handeye.program.program import Move, Position, Step
+from handeye.program.operations import Move
+from handeye.program.program import Position, Step
 from handeye.source import Source
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 

@@ -2,7 +2,8 @@
 
 import re
 
-from handeye.program.program import Move, Step
+from handeye.program.operations import Move
+from handeye.program.program import Step
 from handeye.source import Source, Span
 
 

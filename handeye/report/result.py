@@ -4,7 +4,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.variation import WorldSpec
 
 PERIOD: Final = {"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0}

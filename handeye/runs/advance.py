@@ -5,7 +5,7 @@ from typing import Literal, Protocol
 
 from handeye.events import AnyEvent
 from handeye.execution.drive import Halted
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
 

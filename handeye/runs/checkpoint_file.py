@@ -19,7 +19,7 @@ from handeye.files import Kind, read_whole, write_whole
 from handeye.planfile.store import decode as decode_plan
 from handeye.planfile.store import encode as encode_plan
 from handeye.planfile.store import plan_digest
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.runs.snapshot import Checkpoint, Setup, Snapshot, arm_of
 from handeye.variation import WorldSpec
 from handeye.versions import versions

@@ -30,7 +30,8 @@ from handeye.execution.stopwatch import Stopwatch
 from handeye.planfile.store import plan_digest
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
-from handeye.program.program import Look, Position, Step, Vector
+from handeye.program.program import Position, Step
+from handeye.record import Vector3
 from handeye.records import copied
 from handeye.runs.observer import Observer
 from handeye.runs.snapshot import Checkpoint, Snapshot, arm_of, interfered
@@ -250,7 +251,7 @@ class Runner:
 
     # -- experiments ----------------------------------------------------------------------------------
 
-    def set_saved(self, name: str, difference: Vector) -> None:
+    def set_saved(self, name: str, difference: Vector3) -> None:
         """Give a saved difference (m) a value of one's own."""
         self.run.state.saved[name] = np.array(difference)
         self._experiment("saved", name, difference)
@@ -303,7 +304,7 @@ class Runner:
     @property
     def _looks(self) -> bool:
         """The plan takes pictures."""
-        return any(isinstance(step.operation, Look) for step in self.setup.plan.program.steps)
+        return bool(self.setup.plan.program.written("picture"))
 
     def _calibrated(self, halt: Callable[[], bool]) -> Calibration | None:
         """The calibration of the camera, if the plan looks at all and it can be had."""

@@ -12,7 +12,7 @@ from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration
 

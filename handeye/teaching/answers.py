@@ -11,7 +11,7 @@ from handeye.debugger.formatting import shown_lines, summary_lines
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import Shown
 from handeye.diagnostics import Diagnostic, as_json, has_errors, render
-from handeye.program.program import Record
+from handeye.record import Record
 from handeye.runs.advance import Pause
 from handeye.source import Source
 

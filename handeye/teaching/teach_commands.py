@@ -11,7 +11,8 @@ from handeye.debugger.views import show
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.pose import Array
-from handeye.program.program import Position, Vector
+from handeye.program.program import Position
+from handeye.record import Vector3
 from handeye.teaching.answers import Answer, CommandResult
 from handeye.teaching.plan_and_run import answer
 from handeye.teaching.teacher import Teacher
@@ -212,7 +213,7 @@ def _number(word: str) -> float:
     return float(word)
 
 
-def _along(axis: str, size: float) -> Vector:
+def _along(axis: str, size: float) -> Vector3:
     if axis.lower() not in AXES:
         raise InvalidInput(f"{quoted(axis)} is no axis; there are x, y and z")
     x, y, z = (size if axis.lower() == name else 0.0 for name in AXES)

@@ -18,9 +18,11 @@ from handeye.execution.drive import Halted, Outcome
 from handeye.files import write_whole
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED
-from handeye.program.program import Change, Position, Vector
+from handeye.program.operations import Change
+from handeye.program.program import Position
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position
+from handeye.record import Vector3
 from handeye.source import Source, read_source
 from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED
@@ -83,7 +85,7 @@ class Teacher:
         arm = self.workplace.runner.arm
         self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
 
-    def straight(self, displacement: Vector) -> None:
+    def straight(self, displacement: Vector3) -> None:
         """Move the hand straight by a way (m, table coordinates), its angles kept.
 
         Raises:
@@ -92,7 +94,7 @@ class Teacher:
         arm = self.workplace.runner.arm
         self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
 
-    def turn(self, turn: Vector) -> None:
+    def turn(self, turn: Vector3) -> None:
         """Turn the hand on the spot by a rotation vector (rad, table coordinates).
 
         Raises:
@@ -112,7 +114,7 @@ class Teacher:
         self.afloat = True
         self._let(lambda: self._float(REST))
 
-    def push(self, force: Vector, seconds: float) -> None:
+    def push(self, force: Vector3, seconds: float) -> None:
         """Somebody pushes the floating arm at its hand (N, table coordinates), and lets go of it.
 
         Raises:
@@ -122,7 +124,7 @@ class Teacher:
             raise InvalidInput("the arm is held and cannot be pushed; `float` takes its brakes off")
         self._let(lambda: self._pushed(force, seconds))
 
-    def _pushed(self, force: Vector, seconds: float) -> None:
+    def _pushed(self, force: Vector3, seconds: float) -> None:
         with pushed(self.workplace.runner.cell, force):
             self._float(seconds)
         self._float(REST)

@@ -14,7 +14,6 @@ from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
 from handeye.pose import Array
-from handeye.program.program import Look
 from handeye.program.taught import Taught
 from handeye.records import copied
 from handeye.runs.advance import Pause, advance
@@ -117,7 +116,7 @@ class Workplace:
         Raises:
             InvalidInput: it looks, and the camera was not set up.
         """
-        if self.runner.calibration is None and any(isinstance(s.operation, Look) for s in plan.program.steps):
+        if self.runner.calibration is None and plan.program.written("picture"):
             raise InvalidInput("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
         here = self.checkpoint()

@@ -1,11 +1,14 @@
-"""Guards: what ends a motion before its end."""
+"""Guards at work: each monitor watches for what a guard names, and ends the motion when it is met."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final, Protocol
 
 import numpy as np
 
 from handeye.pose import Array
+from handeye.program import guards as g
+from handeye.program.guards import GuardKind, Guards
 
 HELD: Final = 4
 """Servo periods for which a torque has to last. Placeholder: the spindle is up to speed in less."""
@@ -13,7 +16,7 @@ HELD: Final = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reading:
-    """What a guard looks at in a servo period."""
+    """What a monitor looks at in a servo period."""
 
     force: Array
     """Force the hand exerts on the world, shape (3,), N, world axes."""
@@ -31,13 +34,21 @@ class Reading:
 class Trip:
     """The guard that ended a motion, what it saw and what it allowed (N, N m, or finger switches as a mask)."""
 
-    guard: str
+    guard: GuardKind
     value: float
     limit: float
 
 
+class Monitor(Protocol):
+    """Watches for a guard; made anew for each motion."""
+
+    def check(self, reading: Reading) -> Trip | None:
+        """The trip, or None; to be asked once a servo period."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ForceGuard:
+class ForceMonitor:
     """Trips when the hand presses along a vector with more than the vector's length.
 
     A force to the side, or the other way, does not count.
@@ -48,11 +59,11 @@ class ForceGuard:
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
-        return _along("force", reading.force, self.force)
+        return _along(GuardKind.FORCE, reading.force, self.force)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class MomentGuard:
+class MomentMonitor:
     """Trips when the hand turns something about a vector with more than the vector's length."""
 
     moment: Array
@@ -60,17 +71,17 @@ class MomentGuard:
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
-        return _along("moment", reading.moment, self.moment)
+        return _along(GuardKind.MOMENT, reading.moment, self.moment)
 
 
-def _along(guard: str, felt: Array, vector: Array) -> Trip | None:
+def _along(guard: GuardKind, felt: Array, vector: Array) -> Trip | None:
     limit = float(np.linalg.norm(vector))
     value = float(felt @ vector) / limit
     return Trip(guard=guard, value=value, limit=limit) if value > limit else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AgainstGuard:
+class AgainstMonitor:
     """Trips when the motion, whichever way it goes, is opposed with more than a force."""
 
     limit: float
@@ -79,11 +90,11 @@ class AgainstGuard:
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
         value = float(reading.force @ reading.direction)
-        return Trip(guard="against", value=value, limit=self.limit) if value > self.limit else None
+        return Trip(guard=GuardKind.AGAINST, value=value, limit=self.limit) if value > self.limit else None
 
 
 @dataclass(slots=True, kw_only=True)
-class TorqueGuard:
+class TorqueMonitor:
     """Trips when the screwdriver's motor holds a torque, in either sense of turning.
 
     A motor that starts, or takes up a screw, shows a current for an instant that is not yet a tight screw.
@@ -94,14 +105,14 @@ class TorqueGuard:
     _held: int = field(default=0, init=False)
 
     def check(self, reading: Reading) -> Trip | None:
-        """The trip, or None; to be asked once a servo period."""
+        """The trip, or None."""
         value = abs(reading.tool_torque)
         self._held = self._held + 1 if value >= self.limit else 0
-        return Trip(guard="torque", value=value, limit=self.limit) if self._held >= HELD else None
+        return Trip(guard=GuardKind.TORQUE, value=value, limit=self.limit) if self._held >= HELD else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TouchGuard:
+class TouchMonitor:
     """Trips when a finger touches something."""
 
     mask: int
@@ -111,20 +122,32 @@ class TouchGuard:
         """The trip, or None; its value is the mask of all fingers that touch."""
         first, second = reading.touch
         closed = first + 2 * second
-        return (
-            Trip(guard="touch", value=float(closed), limit=float(self.mask)) if closed & self.mask else None
-        )
+        if not closed & self.mask:
+            return None
+        return Trip(guard=GuardKind.TOUCH, value=float(closed), limit=float(self.mask))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AnyGuard:
-    """Trips when any of its guards does."""
+class FirstOf:
+    """Trips when any of its monitors does."""
 
-    guards: tuple["Guard", ...]
+    monitors: tuple[Monitor, ...]
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip of the first that trips, or None."""
-        return next((trip for guard in self.guards if (trip := guard.check(reading)) is not None), None)
+        return next((trip for one in self.monitors if (trip := one.check(reading)) is not None), None)
 
 
-Guard = ForceGuard | MomentGuard | AgainstGuard | TorqueGuard | TouchGuard | AnyGuard
+_MONITORS: Final[dict[type[g.Guard], Callable[[Any], Monitor]]] = {
+    g.Force: lambda guard: ForceMonitor(force=np.array(guard.force)),
+    g.Against: lambda guard: AgainstMonitor(limit=guard.force),
+    g.Moment: lambda guard: MomentMonitor(moment=np.array(guard.moment)),
+    g.Torque: lambda guard: TorqueMonitor(limit=guard.torque),
+    g.Touch: lambda guard: TouchMonitor(mask=guard.fingers),
+}
+
+
+def monitor(guards: Guards) -> Monitor | None:
+    """What watches for all of some guards; None if there are none."""
+    found = tuple(_MONITORS[type(guard)](guard) for guard in guards)
+    return found[0] if len(found) == 1 else FirstOf(monitors=found) if found else None

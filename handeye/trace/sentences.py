@@ -1,7 +1,7 @@
 """What an event says, in the units of the arm language: inches, ounces, degrees."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
@@ -9,6 +9,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from handeye import errors
 from handeye import events as happened
 from handeye.events import Event
+from handeye.program.guards import GuardKind
 from handeye.units import DEGREE, INCH, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
 
 LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
@@ -110,18 +111,26 @@ def sentence(event: Event) -> str:
 
 
 def _tripped(event: happened.GuardTripped) -> str:
-    if event.guard == "torque":
-        torque, limit = event.value / OUNCE_INCH, event.limit / OUNCE_INCH
-        return f"stopped: the driver holds {torque:.1f} ounce-inches, over {limit:.1f}"
-    if event.guard == "moment":
-        moment, limit = event.value / OUNCE_INCH, event.limit / OUNCE_INCH
-        return f"stopped: the hand turns with {moment:.1f} ounce-inches, over {limit:.1f}"
-    if event.guard == "touch":
-        fingers = {1: "finger 1 touches", 2: "finger 2 touches"}.get(round(event.value), "both fingers touch")
-        return f"stopped: {fingers}"
-    force, limit = event.value / OUNCE_FORCE, event.limit / OUNCE_FORCE
-    what = "the hand meets" if event.guard == "against" else "the hand presses with"
-    return f"stopped: {what} {force:.1f} ounces, over {limit:.1f}"
+    return f"stopped: {_MET[event.guard](event)}"
+
+
+def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:
+    """A sentence with what was felt, and what it is over."""
+    return lambda event: f"{said} {event.value / si:.1f} {unit}, over {event.limit / si:.1f}"
+
+
+def _touched(event: happened.GuardTripped) -> str:
+    return _FINGERS.get(round(event.value), "both fingers touch")
+
+
+_FINGERS: Final = {1: "finger 1 touches", 2: "finger 2 touches"}
+_MET: Final[dict[GuardKind, Callable[[happened.GuardTripped], str]]] = {
+    GuardKind.FORCE: _beyond("the hand presses with", OUNCE_FORCE, "ounces"),
+    GuardKind.AGAINST: _beyond("the hand meets", OUNCE_FORCE, "ounces"),
+    GuardKind.MOMENT: _beyond("the hand turns with", OUNCE_INCH, "ounce-inches"),
+    GuardKind.TORQUE: _beyond("the driver holds", OUNCE_INCH, "ounce-inches"),
+    GuardKind.TOUCH: _touched,
+}
 
 
 def _meaning(event: happened.ErrorRaised) -> str:

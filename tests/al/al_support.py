@@ -7,17 +7,8 @@ import msgspec
 
 from handeye import al
 from handeye.diagnostics import Diagnostic
-from handeye.program.program import (
-    ACTIONS,
-    Assign,
-    Countdown,
-    Hole,
-    Move,
-    Part,
-    Position,
-    Program,
-    Test,
-)
+from handeye.program.operations import Assign, Countdown, Move, Test
+from handeye.program.program import Hole, Part, Position, Program
 from handeye.program.taught import Taught
 from handeye.source import Source
 
@@ -88,7 +79,7 @@ def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[s
         step = program.steps[at]
         trace.append(step.text)
         at = step.next
-        if isinstance(step.operation, ACTIONS):
+        if step.operation.raising:
             queue = errors.get(step.text)
             error = queue.pop(0) if queue else None
         elif isinstance(step.operation, Test) and error == step.operation.number:

@@ -11,7 +11,6 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operand_help import origin, part, takes
 from handeye.codes import CODES, Code
 from handeye.errors import ERRORS
-from handeye.program.raises import raises
 
 REFERENCE = MANUAL / "reference"
 END = "## Meaning\n"
@@ -83,7 +82,7 @@ def _raised(op: str) -> list[int]:
     for case in cases(page(op)):
         program = compiled(case)[0]
         steps = () if program is None else program.steps
-        found.update(*(raises(step.operation) for step in steps if step.text.split()[0].upper() == op))
+        found.update(*(step.operation.raises for step in steps if step.text.split()[0].upper() == op))
     return sorted(found)
 
 

@@ -4,7 +4,9 @@ import pytest
 from al_support import codes, compiled, diagnose, moves, only, walk
 
 from handeye import al
-from handeye.program.program import Assign, Change, Countdown, Move, Program, Stop
+from handeye.program.guards import Force, Moment, Touch
+from handeye.program.operations import Assign, Change, Countdown, Move
+from handeye.program.program import Program
 from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 LISTING_1977 = """\
@@ -92,7 +94,7 @@ def test_axis_letters_are_unit_vectors_and_a_distance_has_a_sign() -> None:
 def test_named_vector_takes_the_unit_of_its_place() -> None:
     text = "VECT D [0 0 -2]\nSTOP D\nCHANGE D 1"
     change = only(text, Change)
-    assert change.stop == Stop(force=(0, 0, pytest.approx(-2 * OUNCE_FORCE)))
+    assert change.guards == (Force(force=(0, 0, pytest.approx(-2 * OUNCE_FORCE))),)
     assert change.displacement == pytest.approx((0, 0, -INCH))
 
 
@@ -122,9 +124,12 @@ def test_axes_have_to_be_as_many_as_counted(axes: str) -> None:
 def test_moment_stands_after_the_force_and_nil_for_what_there_is_none_of() -> None:
     twenty = pytest.approx((0, 0, 20 * OUNCE_INCH))
     ten = pytest.approx((0, 0, -10 * OUNCE_FORCE))
-    assert only("STOP [0 0 -10] [0 0 20]\nCHANGE Z -1", Change).stop == Stop(force=ten, moment=twenty)
-    assert only("STOP NIL,[0 0 20]\nCHANGE Z -1", Change).stop == Stop(moment=twenty)
-    assert only("VECT D [0 0 20]\nSTOP NIL D\nCHANGE Z -1", Change).stop == Stop(moment=twenty)
+    assert only("STOP [0 0 -10] [0 0 20]\nCHANGE Z -1", Change).guards == (
+        Force(force=ten),
+        Moment(moment=twenty),
+    )
+    assert only("STOP NIL,[0 0 20]\nCHANGE Z -1", Change).guards == (Moment(moment=twenty),)
+    assert only("VECT D [0 0 20]\nSTOP NIL D\nCHANGE Z -1", Change).guards == (Moment(moment=twenty),)
     change = only("FORCE [0 0 -10],NIL\nCHANGE Z -1", Change)
     assert (change.press, change.moment) == (ten, None)
     change = only("FORCE nil [0 0 20]\nCHANGE Z -1", Change)
@@ -179,7 +184,7 @@ def test_via_that_cannot_be_meant_is_reported(text: str, code: str) -> None:
 
 
 def test_touch_enables_one_finger_or_either() -> None:
-    assert only("TOUCH 3\nMOVE T", Move).stop == Stop(touch=3)
+    assert only("TOUCH 3\nMOVE T", Move).guards == (Touch(fingers=3),)
     assert codes("TOUCH 4\nMOVE T") == ["number-out-of-range"]
     assert codes("TOUCH 1.5\nMOVE T") == ["wrong-operand"]
     assert codes("TOUCH 1\nSTOP 5\nMOVE T") == ["modifier-twice"]
@@ -188,7 +193,7 @@ def test_touch_enables_one_finger_or_either() -> None:
 def test_place_is_a_short_way_down_that_stops_on_a_light_touch() -> None:
     place = only("PLACE", Change)
     assert place.displacement == pytest.approx((0, 0, -3 * INCH))
-    assert place.stop == Stop(force=(0.0, 0.0, -12 * OUNCE_FORCE))
+    assert place.guards == (Force(force=(0.0, 0.0, -12 * OUNCE_FORCE)),)
     assert codes("STOP 5\nPLACE") == ["modifier-misplaced"]
 
 

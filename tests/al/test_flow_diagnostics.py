@@ -7,8 +7,8 @@ from al_support import LISTING, codes, diagnose
 
 from handeye import al
 from handeye.codes import CODES
-from handeye.program.program import ACTIONS, Advance, Change, Close, Jump, Move, Save, Stop
-from handeye.program.raises import raises
+from handeye.program.guards import Against, Torque
+from handeye.program.operations import Advance, Change, Close, Jump, Move, Save
 from handeye.program.taught import load_taught
 from handeye.source import Source
 
@@ -155,13 +155,12 @@ def test_what_the_flow_shows_is_never_more_than_a_warning() -> None:
 
 
 def test_only_actions_raise_and_what_they_raise_depends_on_how_they_are_told() -> None:
-    assert not raises(Jump())
-    assert not raises(Save(name="H"))
-    assert Advance in ACTIONS
-    assert raises(Advance()) == {5, 6}
-    assert 23 in raises(Move(goal="T", stop=Stop(against=1.0)))
-    assert 24 in raises(Change(displacement=(0, 0, 1), stop=Stop(torque=1.0)))
-    assert raises(Close(maximum=0.1)) - raises(Close()) == {7}
+    assert not Jump().raises
+    assert not Save(name="H").raises
+    assert Advance().raises == {5, 6}
+    assert 23 in Move(goal="T", guards=(Against(force=1.0),)).raises
+    assert 24 in Change(displacement=(0, 0, 1), guards=(Torque(torque=1.0),)).raises
+    assert Close(maximum=0.1).raises - Close().raises == {7}
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,8 @@ import pytest
 from al_support import LISTING, compiled, diagnose, moves, only
 
 from handeye.al.instructions import LENSES
-from handeye.program.program import (
+from handeye.program.guards import Against, Force, Torque
+from handeye.program.operations import (
     Advance,
     Change,
     Close,
@@ -14,7 +15,6 @@ from handeye.program.program import (
     Restore,
     Save,
     Search,
-    Stop,
     Tool,
     Travel,
     Turn,
@@ -63,27 +63,27 @@ def test_change_takes_a_speed_in_inches_a_second() -> None:
 
 
 def test_stop_on_a_vector_is_a_force_in_newtons() -> None:
-    stop = only("STOP [0 0 -50]\nCHANGE [0 0 -1] 1", Change).stop
-    assert stop == Stop(force=(0.0, 0.0, -50 * OUNCE_FORCE))
+    guards = only("STOP [0 0 -50]\nCHANGE [0 0 -1] 1", Change).guards
+    assert guards == (Force(force=(0.0, 0.0, -50 * OUNCE_FORCE)),)
 
 
 def test_stop_on_a_number_is_a_force_against_the_motion() -> None:
-    assert only("STOP 50\nCHANGE [0 0 -1] 1", Change).stop == Stop(against=50 * OUNCE_FORCE)
+    assert only("STOP 50\nCHANGE [0 0 -1] 1", Change).guards == (Against(force=50 * OUNCE_FORCE),)
 
 
 def test_torque_stops_the_next_motion_in_newton_metres() -> None:
-    assert only("TORQUE 300\nTURN T 90", Turn).stop == Stop(torque=300 * OUNCE_INCH)
+    assert only("TORQUE 300\nTURN T 90", Turn).guards == (Torque(torque=300 * OUNCE_INCH),)
 
 
 def test_force_presses_during_the_next_change_beside_its_stop() -> None:
     change = only("FORCE [0 0 -9]\nSTOP 5\nCHANGE [1 0 0] 1", Change)
     assert change.press == pytest.approx((0, 0, -9 * OUNCE_FORCE))
-    assert change.stop == Stop(against=5 * OUNCE_FORCE)
+    assert change.guards == (Against(force=5 * OUNCE_FORCE),)
 
 
 def test_modifiers_hold_for_the_next_motion_only() -> None:
     program = compiled("STOP 5\nMOVE T\nMOVE T")
-    assert [move.stop is None for move in moves(program)] == [False, True]
+    assert [len(move.guards) for move in moves(program)] == [1, 0]
 
 
 def test_units_of_the_other_words_are_converted_to_si() -> None:

@@ -48,13 +48,13 @@ def test_each_step_stands_on_a_line_of_its_own(plan: Plan) -> None:
     assert sum('"operation":' in line for line in lines) == len(plan.program.steps)
 
 
-def test_a_field_that_came_later_is_written_only_where_it_says_something() -> None:
+def test_a_field_is_written_only_where_it_says_something() -> None:
     assert not [name for name in ("moment", "spin", "touch", "via") if f'"{name}"' in encode(planned(SCRIPT))]
     turning = planned("TRANS T [25 38 4 90 90 0]\nMOVE T\nSPIN 1 X\nSTOP NIL [0 0 20]\nCHANGE Z -1")
     assert decode(encode(turning), "p.json") == turning
     change = json.loads(encode(turning))["program"]["steps"][1]["operation"]
-    assert change["spin"] == [1, 0, 0]
-    assert set(change["stop"]) == {"force", "against", "torque", "moment"}
+    assert set(change) == {"op", "displacement", "guards", "spin"}
+    assert [set(guard) for guard in change["guards"]] == [{"guard", "moment"}]
 
 
 def test_planning_the_same_script_twice_gives_the_same_bytes() -> None:
@@ -124,6 +124,7 @@ def edited(plan: Plan, path: str, value: object) -> str:
 
 
 CHANGE = "program.steps.1.operation"
+GUARD = f"{CHANGE}.guards.0"
 
 
 @pytest.mark.parametrize(
@@ -137,7 +138,6 @@ CHANGE = "program.steps.1.operation"
             ["T"],
             "step 0 (line 2) has 4 knots and 3 times; 5 and 4 are right",
         ),
-        ("program.steps.0.operation.via", ["T"] * 9, "step 0 (line 2) is led by 9 positions; 4 are the most"),
         (
             "motions.0.times",
             [0.0, 0.0, 0.0],
@@ -152,21 +152,19 @@ CHANGE = "program.steps.1.operation"
         (f"{CHANGE}.displacement", [0, 0, 0], "step 1 (line 4) has a displacement of size 0"),
         (f"{CHANGE}.displacement", [0, 0, 1e300], "step 1 (line 4) has a displacement of size 1e+300"),
         (f"{CHANGE}.speed", 1e-30, "step 1 (line 4) has speed 1e-30"),
-        (f"{CHANGE}.stop", {}, "step 1 (line 4) has a stop with 0 conditions; it has to have one"),
-        (f"{CHANGE}.stop", {"force": [0, 0, 1], "touch": 3}, "step 1 (line 4) has a stop with 2 conditions"),
         (
-            f"{CHANGE}.stop",
-            {"torque": 1, "moment": [0, 0, 1]},
-            "step 1 (line 4) has a stop with 2 conditions",
+            f"{GUARD}",
+            {"guard": "touch", "fingers": 7},
+            "step 1 (line 4) has fingers 7; it has to be from 1 to 3",
         ),
-        (f"{CHANGE}.stop", {"touch": 7}, "step 1 (line 4) has a stop on finger switches 7"),
-        (f"{CHANGE}.stop", {"moment": [0, 0, 0]}, "step 1 (line 4) has a stop of size 0"),
+        (f"{GUARD}", {"guard": "moment", "moment": [0, 0, 0]}, "step 1 (line 4) has a moment of size 0"),
+        (f"{GUARD}", {"guard": "against", "force": 1e9}, "step 1 (line 4) has force 1e+09"),
         (f"{CHANGE}.moment", [0, 0, 1e9], "step 1 (line 4) has a moment of size 1e+09"),
         ("program.steps.3.operation.gap", 1e30, "step 3 (line 6) has gap 1e+30"),
         (
             "program.steps.3.operation",
             {"op": "lens", "focal_length": 0.077},
-            "step 3 (line 6) wants a lens of 77 mm",
+            "step 3 (line 6) has focal_length 0.077; it has to be 0.025 or 0.05",
         ),
         ("program.steps.3.operation", {"op": "aim", "target": "X"}, "step 3 (line 6) aims at X"),
         (
@@ -181,6 +179,22 @@ def test_an_edited_plan_that_cannot_be_carried_out_is_refused(
     plan: Plan, path: str, value: object, said: str
 ) -> None:
     assert refusal(edited(plan, path, value)).startswith(f"p.json: {said}")
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "said"),
+    [
+        ("program.steps.0.operation.via", ["T"] * 9, "Expected `array` of length <= 4"),
+        (
+            GUARD,
+            {"guard": "smell"},
+            "Invalid value 'smell' - at `$.program.steps[1].operation.guards[0].guard`",
+        ),
+        (f"{CHANGE}.stop", {"force": [0, 0, 1]}, "Object contains unknown field `stop`"),
+    ],
+)
+def test_a_plan_that_is_not_of_its_types_is_refused(plan: Plan, path: str, value: object, said: str) -> None:
+    assert refusal(edited(plan, path, value)).startswith(f"p.json is not a sound plan: {said}")
 
 
 FIXTURE = {"at": [0, 0, 0, 0], "boxes": [[0, 0, 0, 1, 1, 1]]}

@@ -10,7 +10,7 @@ from handeye.diagnostics import Diagnostic
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.pose import hand
-from handeye.program.program import Change
+from handeye.program.operations import Change
 from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.units import INCH

@@ -4,10 +4,12 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Final
 
-from handeye.al.graph import Graph
-from handeye.program import program as op
+from handeye.program import operations as op
+from handeye.program.graph import Graph
+from handeye.program.guards import Force, GuardKind
 from handeye.units import INCH
 
 _TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNORECASE)
@@ -38,13 +40,10 @@ def in_vain(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _stops(graph: Graph) -> Iterator[AlwaysFails]:
-    for number in graph.which(op.Change):
-        change = graph.steps[number].operation
-        assert isinstance(change, op.Change)
-        stop = change.stop
-        if stop is None or stop.force is None or stop.moment is not None:
+    for number, change in graph.each(op.Change):
+        if len(change.guards) != 1 or not isinstance(guard := change.guards[0], Force):
             continue
-        (x, y, z), (f, g, h) = change.displacement, stop.force
+        (x, y, z), (f, g, h) = change.displacement, guard.force
         if x * f + y * g + z * h < 0:
             yield AlwaysFails(
                 code="stop-away-from-motion",
@@ -57,9 +56,8 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
     """Grasps of more than the hand was opened to."""
     least = min(_gaps(graph, graph.which(op.Open)), default=math.inf)  # no OPEN is too little for less
-    for number in graph.which(op.Close, op.Center):
-        grasp = graph.steps[number].operation
-        assert isinstance(grasp, op.Close | op.Center)
+    grasps: Iterator[tuple[int, op.Close | op.Center]] = chain(graph.each(op.Close), graph.each(op.Center))
+    for number, grasp in grasps:
         if grasp.minimum <= least:
             continue
         before = graph.last(number, op.Open, op.Close, op.Center)
@@ -77,20 +75,15 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
     """How far those of some steps that open the hand open it, m."""
-    return [o.gap for n in numbers if isinstance(o := graph.steps[n].operation, op.Open)]
+    return [opened.gap for n in numbers if (opened := graph.at(n, op.Open)) is not None]
 
 
 def _travels(graph: Graph) -> Iterator[AlwaysFails]:
     """Checks for a longer way than the motion before goes."""
-    for number in graph.which(op.Travel):
-        travel = graph.steps[number].operation
-        assert isinstance(travel, op.Travel)
+    for number, travel in graph.each(op.Travel):
         before = graph.last(number, op.Change)
-        ways = [
-            math.hypot(*o.displacement)
-            for n in before
-            if isinstance(o := graph.steps[n].operation, op.Change)
-        ]
+        changes = (graph.at(n, op.Change) for n in before)
+        ways = [math.hypot(*change.displacement) for change in changes if change is not None]
         if ways and max(ways) < travel.minimum - LEAST:
             yield AlwaysFails(
                 code="travel-too-long",
@@ -104,12 +97,10 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
     """Stops on the torque of a screwdriver that does not turn."""
-    tools = graph.which(op.Tool)
-    running = {number for number in tools if graph.steps[number].operation != op.Tool(speed=0.0)}
+    tools = graph.each(op.Tool)
+    running = {number for number, tool in tools if tool.speed}
     started: set[int] | None = None
-    for number, stop in _stopped(graph):
-        if stop.torque is None:
-            continue
+    for number in _guarded(graph, GuardKind.TORQUE):
         started = graph.after(running) if started is None else started
         last = graph.last(number, op.Tool)
         if number not in started or (last and running.isdisjoint(last)):
@@ -124,11 +115,9 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _touches(graph: Graph) -> Iterator[AlwaysFails]:
     """Stops on a touch of fingers that are closed."""
-    for number, stop in _stopped(graph):
-        if stop.touch is None:
-            continue
+    for number in _guarded(graph, GuardKind.TOUCH):
         last = graph.last(number, op.Open, op.Close, op.Center)
-        if last and not any(isinstance(graph.steps[n].operation, op.Open) for n in last):
+        if last and not any(graph.at(n, op.Open) for n in last):
             yield AlwaysFails(
                 code="touch-while-closed",
                 step=number,
@@ -138,20 +127,16 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
             )
 
 
-def _stopped(graph: Graph) -> Iterator[tuple[int, op.Stop]]:
-    """The motions that something is to end."""
-    for number in graph.which(op.Move, op.Change, op.Turn):
-        motion = graph.steps[number].operation
-        assert isinstance(motion, op.Move | op.Change | op.Turn)
-        if motion.stop is not None:
-            yield number, motion.stop
+def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
+    """The motions that a guard of a kind may end."""
+    for number in graph.which(*(one for one in graph.kinds if one.family == "motion")):
+        if any(guard.kind is kind for guard in graph.steps[number].operation.guards):
+            yield number
 
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
     """Calls of the operator that were meant to let time pass."""
-    for number in graph.which(op.Wait):
-        wait = graph.steps[number].operation
-        assert isinstance(wait, op.Wait)
+    for number, wait in graph.each(op.Wait):
         if _TIME.fullmatch(wait.message):
             yield AlwaysFails(
                 code="wait-for-time",

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 from handeye.al.checks.always_fails import in_vain
 from handeye.al.checks.loops import stale_rounds
-from handeye.al.graph import Graph
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label
 from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
-from handeye.program import program as op
-from handeye.program.raises import raises
+from handeye.program import operations as op
+from handeye.program.graph import Graph
+from handeye.program.operation import Operation
 from handeye.source import Span
 
 _CURES = {
@@ -22,7 +22,6 @@ _CURES = {
     NO_TOUCH: "a motion raises error 25 if a `TOUCH` before it feels nothing",
     WRONG_THICKNESS: "`CLOSE` raises error 7 if it has a maximum",
 }
-_TAKES_TIME = (op.Move, op.Change, op.Turn, op.Open, op.Close, op.Center, op.Lens, op.Aim, op.Look)
 
 
 def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
@@ -39,8 +38,8 @@ class _Order:
     """An operation that makes sense only after (or only before) another."""
 
     code: str
-    of: type[op.Operation]
-    needs: type[op.Operation]
+    of: type[Operation]
+    needs: type[Operation]
     message: str
     help: str
     later: bool = False
@@ -153,7 +152,7 @@ class _Flow:
         )
         code, message = "endless-loop", "nothing leads out of this loop"
         notes: tuple[str, ...] = ("only an error that nothing tests ends it",)
-        if not any(isinstance(self.graph.steps[n].operation, _TAKES_TIME) for n in loop):
+        if not any(self.graph.steps[n].operation.takes_time for n in loop):
             code, message = "idle-loop", "nothing leads out of this loop, and nothing moves in it"
             notes = ("the run would stop here and call the operator",)
         head = () if number == target else (Label(span=self.word(target).span, text="the loop begins here"),)
@@ -162,9 +161,7 @@ class _Flow:
     def tests(self) -> Iterator[Finding]:
         """Tests of errors that cannot have been raised where they stand."""
         raised, actions = self.incoming()
-        for number in self.graph.which(op.Test):
-            operation = self.graph.steps[number].operation
-            assert isinstance(operation, op.Test)
+        for number, operation in self.graph.each(op.Test):
             if not actions[number]:
                 yield number, self.no_action(number)
             elif operation.number not in raised[number] and operation.number in ERRORS:
@@ -204,19 +201,18 @@ class _Flow:
         raised: dict[int, set[int]] = {number: set() for number in tests}
         actions: dict[int, set[int]] = {number: set() for number in tests}
         waiting = []
-        for number in self.graph.which(*op.ACTIONS):
+        for number in self.graph.actions():
             target = onward[number][0]
             if target in raised:
-                raised[target] |= raises(steps[number].operation)
+                raised[target] |= steps[number].operation.raises
                 actions[target].add(number)
                 waiting.append(target)
         while waiting:
             number = waiting.pop()
-            operation, target = steps[number].operation, steps[number].next
-            if target not in raised:
+            test, target = self.graph.at(number, op.Test), steps[number].next
+            if test is None or target not in raised:
                 continue
-            assert isinstance(operation, op.Test)
-            passed = raised[number] - {operation.number}
+            passed = raised[number] - {test.number}
             if not (passed <= raised[target] and actions[number] <= actions[target]):
                 raised[target] |= passed
                 actions[target] |= actions[number]
@@ -227,7 +223,7 @@ class _Flow:
         word = self.word(number).text
         before = [n for n in self.graph.back[number] if n < number]
         cause = [Label(span=self.word(n).span, text="this raises no error") for n in before[-1:]]
-        if before and isinstance(self.graph.steps[before[-1]].operation, op.Test):
+        if before and self.graph.at(before[-1], op.Test):
             cause = [Label(span=self.word(before[-1]).span, text="this has cleared the error")]
         message = f"`{word}` follows no action: there is no error to test"
         help = "a test stands directly behind the action that raises the error"
@@ -236,13 +232,13 @@ class _Flow:
     def skips_test(self, first: op.Test, number: int, raised: Mapping[int, set[int]]) -> bool:
         """Whether a test leaves out nothing but the test of another error, which can be there, before a case."""
         steps, behind = self.graph.steps, self.graph.steps[number].next
-        second = None if behind is None else steps[behind].operation
-        if behind is None or not isinstance(second, op.Test) or second.number not in raised[behind]:
+        second = self.graph.at(behind, op.Test)
+        if behind is None or second is None or second.number not in raised[behind]:
             return False
         case = first.raised
         if case is None or case != steps[behind].next:
             return False
-        return isinstance(steps[case].operation, op.Jump | op.Wait)
+        return type(steps[case].operation) in (op.Jump, op.Wait)
 
     def no_effect(self, number: int, error: int) -> Diagnostic:
         message = f"with error {error} the program goes on as it does without an error"
@@ -256,7 +252,7 @@ class _Flow:
         can = ", ".join(map(str, sorted(raised)))
         help = _CURES.get(error, f"what can be raised here: {can}")
         message = f"{who} does not raise error {error} here"
-        if any(error in raises(self.graph.steps[n].operation) for n in actions):
+        if any(error in self.graph.steps[n].operation.raises for n in actions):
             message = f"error {error} cannot be there any more"
             help = "once an error has been tested, it is cleared"
             asked = [n for n in self.graph.which(op.Test) if n in self.graph.back[number]]

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 
-from handeye.al.graph import Graph
-from handeye.program import program as op
+from handeye.program import operations as op
+from handeye.program.graph import Graph
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,10 +32,8 @@ def stale_rounds(graph: Graph) -> Iterator[Stale]:
         if graph.leads(target, jump, without=places) and circles()[jump].isdisjoint(moves):
             yield Stale(jump, None)
     assigns = _assigns(graph)
-    for jump in graph.which(op.Countdown):
-        operation = graph.steps[jump].operation
-        assert isinstance(operation, op.Countdown)
-        yield from _anew(graph, circles, jump, operation.positive, assigns.get(operation.counter, set()))
+    for jump, count in graph.each(op.Countdown):
+        yield from _anew(graph, circles, jump, count.positive, assigns.get(count.counter, set()))
 
 
 def _anew(graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]) -> Iterator[Stale]:
@@ -47,8 +45,6 @@ def _anew(graph: Graph, circles: Circles, jump: int, target: int | None, begins:
 def _assigns(graph: Graph) -> dict[str, set[int]]:
     """The steps that set each counter."""
     found: dict[str, set[int]] = {}
-    for number in graph.which(op.Assign):
-        operation = graph.steps[number].operation
-        assert isinstance(operation, op.Assign)
-        found.setdefault(operation.counter, set()).add(number)
+    for number, assign in graph.each(op.Assign):
+        found.setdefault(assign.counter, set()).add(number)
     return found

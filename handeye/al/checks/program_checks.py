@@ -10,13 +10,13 @@ from handeye.al.checks.layout import check_layout
 from handeye.al.checks.restores import check_restores
 from handeye.al.checks.unused import check_unused, with_unused
 from handeye.al.checks.vision_requirements import check_sights
-from handeye.al.graph import Graph
 from handeye.al.lower import Lowered
 from handeye.al.macros import Placed
 from handeye.al.statements import ByWord, Used
 from handeye.al.syntax import Script
 from handeye.al.vectors import Vectors
 from handeye.diagnostics import Diagnostic
+from handeye.program.graph import Graph
 from handeye.program.taught import Taught
 from handeye.source import Source
 

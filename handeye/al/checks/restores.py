@@ -6,11 +6,11 @@ A difference that is saved for the very goal it is restored for follows somethin
 from collections.abc import Iterator
 from functools import cache
 
-from handeye.al.graph import Graph
 from handeye.al.lower import Lowered
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.program.program import Move, Save
+from handeye.program.graph import Graph
+from handeye.program.operations import Move, Save
 from handeye.source import Span
 
 
@@ -51,10 +51,10 @@ def _follows(graph: Graph, move: int, name: str) -> bool:
         if number is None or number in seen:
             continue
         seen.add(number)
-        operation = graph.steps[number].operation
-        if isinstance(operation, Save) and operation.name == name:
+        save = graph.at(number, Save)
+        if save is not None and save.name == name:
             return True
-        if not isinstance(operation, Move):
+        if graph.at(number, Move) is None:
             waiting += graph.onward[number]
     return False
 

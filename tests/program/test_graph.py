@@ -3,8 +3,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from handeye.al.graph import Graph
-from handeye.program.program import Countdown, Step
+from handeye.program.graph import Graph
+from handeye.program.operations import Countdown
+from handeye.program.program import Step
 
 GRAPHS = st.integers(1, 9).flatmap(
     lambda size: st.lists(

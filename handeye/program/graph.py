@@ -1,12 +1,14 @@
 """The steps of a program as a graph: what leads where, what comes before what."""
 
-from collections.abc import Container, Iterable, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
-from typing import Final
+from typing import Final, TypeVar
 
-from handeye.program.program import Countdown, Operation, Step, Test
+from handeye.program.operation import Operation
+from handeye.program.program import Step
 
+A = TypeVar("A", bound=Operation)
 FAR: Final = 100
 """Steps that are looked at for what was done last."""
 
@@ -30,8 +32,10 @@ class Graph:
             kinds.setdefault(type(step.operation), []).append(number)
         object.__setattr__(self, "kinds", kinds)
         onward: list[tuple[int | None, ...]] = [(step.next,) for step in self.steps]
-        for number in self.which(Test, Countdown):
-            onward[number] = self.steps[number].ways
+        for kind, numbers in kinds.items():
+            if kind.branches:
+                for number in numbers:
+                    onward[number] = self.steps[number].ways
         back: list[list[int]] = [[] for _ in self.steps]
         for number, targets in enumerate(onward):
             for target in targets:
@@ -44,6 +48,22 @@ class Graph:
     def which(self, *kinds: type[Operation]) -> list[int]:
         """The steps whose operation is of one of these kinds, in order."""
         return sorted(number for kind in kinds for number in self.kinds.get(kind, ()))
+
+    def each(self, kind: type[A]) -> Iterator[tuple[int, A]]:
+        """The steps whose operation is of a kind, in order, with it."""
+        for number in self.kinds.get(kind, ()):
+            operation = self.steps[number].operation
+            if isinstance(operation, kind):
+                yield number, operation
+
+    def at(self, number: int | None, kind: type[A]) -> A | None:
+        """The operation of a step, if it is of a kind; of no step, there is none."""
+        operation = None if number is None else self.steps[number].operation
+        return operation if isinstance(operation, kind) else None
+
+    def actions(self) -> list[int]:
+        """The steps that can raise an error, or clear it."""
+        return self.which(*(kind for kind in self.kinds if kind.raising))
 
     def after(self, numbers: Iterable[int]) -> set[int]:
         """The steps that can come, sooner or later, after one of these."""
@@ -69,7 +89,7 @@ class Graph:
                 if before in seen or before not in self.reached:
                     continue
                 seen.add(before)
-                (found if isinstance(self.steps[before].operation, kinds) else waiting).append(before)
+                (found if type(self.steps[before].operation) in kinds else waiting).append(before)
         return found
 
     def leads(self, first: int | None, last: int, without: Container[int]) -> bool:

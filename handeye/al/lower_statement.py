@@ -9,7 +9,10 @@ from msgspec.structs import replace
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
-from handeye.program import program as p
+from handeye.program import guards as g
+from handeye.program import operations as p
+from handeye.program.program import Position
+from handeye.record import Vector3
 from handeye.units import INCH, OUNCE_FORCE
 
 PLACE_DEPTH: Final = 3.0 * INCH
@@ -17,6 +20,8 @@ PLACE_DEPTH: Final = 3.0 * INCH
 PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
 """What PLACE stops on. The least with which the pump script stops a motion; friction is felt as up to 0.2 N, and
 an arm that moves as some ten times that."""
+PLACES: Final = 49
+"""Of a search: three steps to each side."""
 _PLACES: Final = {
     i.op: {
         o.name or o.word: (place, tuple(unit.si for unit in o.units)) for place, o in enumerate(i.operands)
@@ -48,11 +53,11 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
         assert isinstance(value, Vector)
         return tuple([x * si for x, si in zip(value.values, units, strict=True)])
 
-    def vector3(self, key: str) -> p.Vector:
+    def vector3(self, key: str) -> Vector3:
         x, y, z = self.vector(key)
         return x, y, z
 
-    def vector3_or(self, key: str) -> p.Vector | None:
+    def vector3_or(self, key: str) -> Vector3 | None:
         return self.vector3(key) if isinstance(self.values[self.places[key][0]], Vector) else None
 
     def number_or(self, key: str) -> float | None:
@@ -72,11 +77,11 @@ def _operands(statement: Statement) -> Operands:
 class _How(msgspec.Struct, frozen=True, kw_only=True):
     """What the modifiers say of a motion."""
 
-    stop: p.Stop | None = None
-    press: p.Vector | None = None
-    free: p.Vector | None = None
-    moment: p.Vector | None = None
-    spin: p.Vector | None = None
+    guards: g.Guards = ()
+    press: Vector3 | None = None
+    free: Vector3 | None = None
+    moment: Vector3 | None = None
+    spin: Vector3 | None = None
     via: tuple[str, ...] = ()
 
 
@@ -99,19 +104,19 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
         elif word == "VIA":
             how = replace(how, via=tuple(v.text for v in modifier.operands if isinstance(v, Name)))
         else:
-            how = replace(how, stop=_STOPS[word](operands))
+            how = replace(how, guards=_GUARDS[word](operands))
     motion = _MOTIONS.get(statement.word.text)
     if motion is not None:
         return motion(_operands(statement), how)
     return _STEPS[statement.word.text](_operands(statement))
 
 
-def position(statement: Statement) -> tuple[str, p.Position]:
+def position(statement: Statement) -> tuple[str, Position]:
     """Name and value of a `TRANS`."""
     operands = _operands(statement)
     x, y, z, o, a, t = operands.vector("[x y z o a t]")
     of = operands.name("part") if operands.has("part") else None
-    return operands.name("name"), p.Position(at=(x, y, z, o, a, t), of=of)
+    return operands.name("name"), Position(at=(x, y, z, o, a, t), of=of)
 
 
 def restore(statement: Statement) -> p.Restore:
@@ -120,11 +125,13 @@ def restore(statement: Statement) -> p.Restore:
     return p.Restore(name=operands.name("name"), level=operands.has("LEVEL"))
 
 
-def _stop(operands: Operands) -> p.Stop:
-    return p.Stop(
-        force=operands.vector3_or("force"),
-        against=operands.number_or("force"),
-        moment=operands.vector3_or("moment"),
+def _stop(operands: Operands) -> g.Guards:
+    force, against = operands.vector3_or("force"), operands.number_or("force")
+    moment = operands.vector3_or("moment")
+    return (
+        *(() if force is None else (g.Force(force=force),)),
+        *(() if against is None else (g.Against(force=against),)),
+        *(() if moment is None else (g.Moment(moment=moment),)),
     )
 
 
@@ -136,7 +143,7 @@ def _change(operands: Operands, how: _How) -> p.Change:
     return p.Change(
         displacement=displacement,
         speed=speed,
-        stop=how.stop,
+        guards=how.guards,
         press=how.press,
         free=how.free,
         moment=how.moment,
@@ -145,20 +152,20 @@ def _change(operands: Operands, how: _How) -> p.Change:
 
 
 def _place(_: Operands, how: _How) -> p.Change:
-    return p.Change(displacement=(0.0, 0.0, -PLACE_DEPTH), stop=p.Stop(force=(0.0, 0.0, -PLACE_FORCE)))
+    return p.Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
 
 
-_STOPS: Final[dict[str, Callable[[Operands], p.Stop]]] = {
+_GUARDS: Final[dict[str, Callable[[Operands], g.Guards]]] = {
     "STOP": _stop,
-    "TORQUE": lambda o: p.Stop(torque=o.number("torque")),
-    "TOUCH": lambda o: p.Stop(touch=int(o.number("mask"))),
+    "TORQUE": lambda o: (g.Torque(torque=o.number("torque")),),
+    "TOUCH": lambda o: (g.Touch(fingers=int(o.number("mask"))),),
 }
 _MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
     "MOVE": lambda o, how: p.Move(
-        goal=o.name("position"), direct=o.has("DIRECT"), stop=how.stop, via=how.via
+        goal=o.name("position"), direct=o.has("DIRECT"), guards=how.guards, via=how.via
     ),
-    "PARK": lambda _, how: p.Move(goal="PARK", stop=how.stop, via=how.via),
-    "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), stop=how.stop),
+    "PARK": lambda _, how: p.Move(goal="PARK", guards=how.guards, via=how.via),
+    "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), guards=how.guards),
     "CHANGE": _change,
     "PLACE": _place,
 }
@@ -166,7 +173,7 @@ _STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
     "OPEN": lambda o: p.Open(gap=o.number("gap")),
     "CLOSE": lambda o: p.Close(minimum=o.number_or("minimum") or 0.0, maximum=o.number_or("maximum")),
     "CENTER": lambda o: p.Center(minimum=o.number_or("minimum") or 0.0),
-    "SEARCH": lambda o: p.Search(step=o.number("step")),
+    "SEARCH": lambda o: p.Search(step=o.number("step"), limit=PLACES),
     "SKIPE": lambda o: p.Test(number=int(o.number("error")), raised=None),
     "SKIPN": lambda o: p.Test(number=int(o.number("error")), raised=None),
     "AOJ": lambda _: p.Advance(),

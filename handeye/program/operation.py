@@ -1,0 +1,113 @@
+"""Facts that every operation tells of itself, so that nobody who walks a program has to know the operations by name."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Literal, NamedTuple, Self
+
+from handeye import errors
+from handeye.program.guards import Bounds, Guards
+from handeye.record import Record
+
+Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
+"""Kinds of what a run keeps: where things are (a target is a position or a part), pictures taken, differences saved,
+counters; the search that is set up, the goal of the last Move, and how far the last Change went."""
+Family = Literal["motion", "hand", "sight", "test", "search", "other"]
+Fields = Mapping[Kind, tuple[str, ...]]
+"""Fields of an operation that hold names of some kinds; no field: there is only one of that kind, without a name."""
+
+
+class Use(NamedTuple):
+    """Something that an operation reads or writes."""
+
+    kind: Kind
+    name: str = ""
+    level: bool = False
+    """Only its horizontal components count."""
+
+
+class Branch(NamedTuple):
+    """Another way than to the next step, and when it is gone."""
+
+    target: int | None
+    """None ends the program."""
+    error: int | None = None
+    """When the last action raised this error."""
+    counter: str | None = None
+    """While this counter is still positive."""
+
+
+class Operation(
+    Record, frozen=True, kw_only=True, omit_defaults=True, tag_field="op", tag=lambda name: name.lower()
+):
+    """Base of the operations; the class name in lower case is the tag on disk.
+
+    A default is always nothing: what is left out of a plan means the same for ever.
+    """
+
+    family: ClassVar[Family] = "other"
+    moves: ClassVar[bool] = False
+    """The arm, or its hand, stands otherwise afterwards."""
+    takes_time: ClassVar[bool] = False
+    planned: ClassVar[bool] = False
+    """It cannot be carried out without a planned motion."""
+    only_checks: ClassVar[bool] = False
+    """An action that changes nothing of what the one before has done."""
+    branches: ClassVar[bool] = False
+    """It may lead elsewhere than to the next step."""
+    raising: ClassVar[frozenset[int]] = frozenset()
+    """Errors that any operation of its class can raise; none: it is no action."""
+    reading: ClassVar[Fields] = {}
+    writing: ClassVar[Fields] = {}
+    bounds: ClassVar[Mapping[str, Bounds]] = {}
+    """Of its numbers, and of the sizes of its vectors."""
+    choices: ClassVar[Mapping[str, tuple[float, ...]]] = {}
+    """The only values of some of its numbers, SI."""
+
+    @property
+    def raises(self) -> frozenset[int]:
+        """The numbers of the errors it can raise."""
+        return self.raising
+
+    @property
+    def guards(self) -> Guards:
+        """The guards that may end it."""
+        return ()
+
+    @property
+    def reads(self) -> tuple[Use, ...]:
+        """Everything it is carried out by."""
+        return self.used(self.reading)
+
+    @property
+    def writes(self) -> tuple[Use, ...]:
+        """Everything that may be otherwise afterwards."""
+        return self.used(self.writing)
+
+    @property
+    def branch(self) -> Branch | None:
+        """The other way it may lead, if there is one."""
+        return None
+
+    def leading_to(self, target: int | None) -> Self:
+        """The same with another target of its branch."""
+        raise NotImplementedError(f"{type(self).__name__} has no branch")
+
+    @property
+    def knots(self) -> int | None:
+        """Number of knots of its planned motion; None: it moves no joint along a plan."""
+        return None
+
+    def used(self, fields: Fields) -> tuple[Use, ...]:
+        """What some of its fields name."""
+        found: list[Use] = []
+        for kind, names in fields.items():
+            if not names:
+                found.append(Use(kind))
+            for field in names:
+                value = getattr(self, field)
+                found += [Use(kind, name) for name in ((value,) if isinstance(value, str) else value)]
+        return tuple(found)
+
+
+def action(*numbers: int) -> frozenset[int]:
+    """The errors of an action: these, and what the watchdog raises in any."""
+    return frozenset({errors.WATCHDOG, *numbers})
