@@ -20,11 +20,7 @@ def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
     q = np.asarray(q, dtype=np.float64)
     angle = np.where(k.prismatic, k.theta, q)
     shift = np.where(k.prismatic, q, k.d)
-    c, s = np.cos(angle), np.sin(angle)
-    step = np.zeros((*q.shape, 3, 3))
-    step[..., 0, 0], step[..., 0, 1], step[..., 0, 2] = c, -s * k.cos_alpha, s * k.sin_alpha
-    step[..., 1, 0], step[..., 1, 1], step[..., 1, 2] = s, c * k.cos_alpha, -c * k.sin_alpha
-    step[..., 2, 1], step[..., 2, 2] = k.sin_alpha, k.cos_alpha
+    step = link_rotations(angle, k.cos_alpha, k.sin_alpha)
     n = len(arm.joints)
     R = np.empty((*q.shape[:-1], n + 1, 3, 3))
     p = np.empty((*q.shape[:-1], n + 1, 3))
@@ -33,6 +29,16 @@ def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
         np.matmul(R[..., i, :, :], step[..., i, :, :], out=R[..., i + 1, :, :])
         p[..., i + 1, :] = p[..., i, :] + shift[..., i, None] * R[..., i, :, 2]
     return R, p
+
+
+def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
+    """Turns by joint angles about z, then by alpha about x; shape (...) to (..., 3, 3)."""
+    c, s = np.cos(angle), np.sin(angle)
+    step = np.zeros((*angle.shape, 3, 3))
+    step[..., 0, 0], step[..., 0, 1], step[..., 0, 2] = c, -s * cos_alpha, s * sin_alpha
+    step[..., 1, 0], step[..., 1, 1], step[..., 1, 2] = s, c * cos_alpha, -c * sin_alpha
+    step[..., 2, 1], step[..., 2, 2] = sin_alpha, cos_alpha
+    return step
 
 
 def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:

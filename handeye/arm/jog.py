@@ -4,7 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult
+from handeye.arm.ik import IKResult
+from handeye.arm.ik.reasons import Held
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples, check_samples
 from handeye.pose import Array
@@ -23,6 +24,8 @@ def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Sa
         joint: its index from 0.
         speed: share of the joint's greatest rate; its square of the acceleration.
     """
+    if arm.joints[joint].name in arm.held:
+        return IKResult(reason=Held(joint, arm.held[arm.joints[joint].name]))
     distance, limits, period = goal - q[joint], arm.joints[joint], arm.servo.period
     least = max(
         _FASTEST * abs(distance) / (speed * limits.speed),

@@ -5,15 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, branches, drift, forward, jacobian, solve
+from handeye.arm.ik import IKResult, branches, solve
+from handeye.arm.ik.reasons import TooFast
+from handeye.arm.ik.solvers import rates, singular
+from handeye.arm.kinematics import drift, forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples, length
 from handeye.pose import Array, Pose, displaced, rotation_z, translated
 
 RAMP = 0.1
 """Time to reach and to leave the cruising speed, s. Chosen: six periods of the servo of 1973."""
-SINGULAR = 0.02
-"""Sine of joint 5 below which a hand that must keep its orientation would need absurd speeds of joint 4."""
 
 
 def straight(
@@ -105,33 +106,28 @@ def _follow(arm: ArmModel, q_start: Array, X: Pose, V: Array, A: Array) -> Sampl
     if len(X) == 0:
         none = np.zeros((0, len(q_start)))
         return Samples(q=none, qd=none, qdd=none)
-    found, exists = branches(arm, X)
+    found, exists = branches(arm, X, q_start)
     if not exists.all():
         tick = int(np.argmin(exists.all(axis=1)))
         return replace(solve(arm, X[tick], q_start), along=length(X[: tick + 1]))
     turn = np.where(constants(arm).prismatic, np.inf, 2 * np.pi)
     branch = int(np.argmin(_distance(found[0] - q_start, turn)))
     q = found[:, branch]
-    in_line = np.abs(np.sin(q[:, 4])) < SINGULAR
-    if in_line.any():
-        return IKResult(reason="singular", joint=4, along=length(X[: int(np.argmax(in_line)) + 1]))
+    stuck = singular(arm, q_start, q, V)
+    if stuck is not None:
+        return IKResult(reason=stuck[1], along=length(X[: stuck[0] + 1]))
     steps = np.diff(np.vstack([q_start, q]), axis=0)
     q = q_start + np.cumsum(_shortest(steps, turn), axis=0)
     fault = check_samples(arm, Samples(q=q, qd=q, qdd=q))
     if fault is not None:
         return fault
     J = jacobian(arm, q)
-    qd = _solve(J, V)
+    qd = rates(arm, q, J, V)
     if (np.abs(qd) > constants(arm).speed).any():
         tick, joint = divmod(int(np.argmax(np.abs(qd) / constants(arm).speed)), qd.shape[1])
         rate = abs(float(qd[tick, joint]))
-        limit, along = arm.joints[joint].speed, length(X[: tick + 1])
-        return IKResult(reason="too fast", joint=joint, amount=rate, limit=limit, along=along)
-    return Samples(q=q, qd=qd, qdd=_solve(J, A - drift(arm, q, qd)))
-
-
-def _solve(J: Array, x: Array) -> Array:
-    return np.asarray(np.linalg.solve(J, x[..., None])[..., 0], dtype=np.float64)
+        return IKResult(reason=TooFast(joint, rate, arm.joints[joint].speed), along=length(X[: tick + 1]))
+    return Samples(q=q, qd=qd, qdd=rates(arm, q, J, A - drift(arm, q, qd)))
 
 
 def _shortest(step: Array, turn: Array) -> Array:

@@ -4,7 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handeye.arm.kinematics import SLACK, IKResult, forward
+from handeye.arm.ik import IKResult
+from handeye.arm.ik.choice import SLACK, beyond
+from handeye.arm.ik.reasons import BelowTable
+from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.pose import Array, Pose
 
@@ -32,19 +35,16 @@ def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None
     Returns:
         None if all can be taken; else how far the joint that is first beyond its limit goes, and where it passes it.
     """
-    beyond = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
-    bad = beyond > SLACK
+    excess = np.maximum(samples.q - arm.upper, arm.lower - samples.q)
+    bad = excess > SLACK
     if bad.any():
         tick = int(np.argmax(bad.any(axis=1)))
         joint = int(np.argmax(bad[tick]))
-        x, lower, upper = samples.q[np.argmax(beyond[:, joint]), joint], arm.lower[joint], arm.upper[joint]
-        return IKResult(
-            reason="out of reach" if arm.joints[joint].kind == "prismatic" else "joint limit", joint=joint,
-            amount=float(x), limit=float(upper if x > upper else lower),
-            along=length(forward(arm, samples.q[: tick + 1])),
-        )  # fmt: skip
+        worst = float(samples.q[np.argmax(excess[:, joint]), joint])
+        along = length(forward(arm, samples.q[: tick + 1]))
+        return IKResult(reason=beyond(arm.joints[joint], joint, worst), along=along)
     if floor is not None:
         height = float(forward(arm, samples.q)[:, 2, 3].min(initial=floor))
         if height < floor:
-            return IKResult(reason="below the table", amount=height, limit=floor)
+            return IKResult(reason=BelowTable(floor - height))
     return None

@@ -12,7 +12,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.ik import IKResult, solve
+from handeye.arm.ik.reasons import BelowTable
+from handeye.arm.kinematics import forward
 from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
@@ -94,7 +96,7 @@ def move(
     """
     height = float(X_WT_goal[2, 3])
     if height < -1e-9:
-        return IKResult(reason="below the table", amount=height)
+        return IKResult(reason=BelowTable(-height))
     goal = solve(arm, X_WT_goal, via[-1] if via else q_start)
     if goal.q is None:
         return goal

@@ -11,7 +11,7 @@ from handeye.al.definition import Instruction, Unit
 from handeye.al.instructions import DEFINE
 from handeye.al.scanner import Kind, Line, Token
 from handeye.al.syntax import Number, Vector
-from handeye.arm.kinematics import solve
+from handeye.arm.ik import solve
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
 from handeye.editor.document import Document

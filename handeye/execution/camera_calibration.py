@@ -11,7 +11,8 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, forward
+from handeye.arm.ik import IKResult
+from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.trajectory import Trajectory, move
 from handeye.errors import HandeyeError

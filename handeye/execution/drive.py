@@ -11,7 +11,8 @@ import numpy as np
 
 from handeye import errors
 from handeye.arm.dynamics import gravity, mass_matrix
-from handeye.arm.kinematics import forward, jacobian, solve
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.servo import external_wrench, prepare, torque

@@ -5,7 +5,8 @@ from typing import Final
 import numpy as np
 
 from handeye import errors
-from handeye.arm.kinematics import IKResult, forward
+from handeye.arm.ik import IKResult
+from handeye.arm.kinematics import forward
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.events import Adjusted, GuardTripped, Restored
 from handeye.execution.compliance import Course

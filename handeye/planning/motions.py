@@ -7,7 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.ik import IKResult, solve
+from handeye.arm.kinematics import forward
 from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 import msgspec
 import numpy as np
 
-from handeye.arm.kinematics import IKResult, forward, solve
+from handeye.arm.ik import IKResult, solve
+from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
 from handeye.diagnostics import Diagnostic, arranged, has_errors

@@ -4,7 +4,18 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from handeye.arm.kinematics import IKResult
+from handeye.arm.ik import IKResult
+from handeye.arm.ik.reasons import (
+    BelowTable,
+    InLine,
+    InnerCylinder,
+    JointLimit,
+    OutOfReach,
+    Reason,
+    TooFast,
+    TooNear,
+)
+from handeye.arm.ik.wording import named
 from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.planning.clearance import Crossing
@@ -43,51 +54,71 @@ class PlanningFindings:
 
     def unreachable(self, step: Step, word: str, failure: IKResult) -> None:
         """There are no joint positions for a goal, or for the way to it."""
+        reason, note = failure.reason, failure.message(self.arm)
+        assert reason is not None
         if failure.along is not None:
-            self._off_the_way(step, failure, failure.along)
-        elif failure.reason == "joint limit":
-            self._joint_limit(step, f"{step.text.split()[0]} {word}", word, failure)
-        else:
-            away, help = "too near to the column of", "farther from"
-            if failure.reason == "out of reach" and failure.amount > failure.limit:
-                away, help = "beyond the reach of", "nearer to"
-            inches = f"{failure.excess / INCH:.2f} in"
-            self._add(
-                "unreachable-position", step, word, f"{word} is {inches} {away} the {self.arm.name} arm",
-                note=failure.message(self.arm),
-                help=f"bring it at least {inches} {help} the arm{self._counted(word)}",
-            )  # fmt: skip
-
-    def _off_the_way(self, step: Step, failure: IKResult, along: float) -> None:
-        word, place = _word(step), _along(step, along)
-        if failure.reason == "joint limit":
-            self._joint_limit(step, word, word, failure)
+            self._off_the_way(step, reason, _along(step, failure.along), note)
             return
-        code, message, help = {
-            "singular": (
-                "wrist-in-line", "the hand could not keep its angles",
-                "tilt the hand a little, or go there with a `MOVE`",
-            ),
-            "too fast": (
-                "joint-too-fast", f"{self._joint(failure.joint)} would have to move too fast",
-                "move more slowly, or begin elsewhere",
-            ),
-        }.get(
-            failure.reason,
-            ("path-leaves-reach", "the hand would leave the arm's reach", "shorten the motion, or begin elsewhere"),
-        )  # fmt: skip
-        self._add(code, step, word, f"{message} {place}", note=failure.message(self.arm), help=help)
+        match reason:
+            case JointLimit():
+                self._joint_limit(step, f"{step.text.split()[0]} {word}", word, reason)
+            case OutOfReach() | TooNear() | InnerCylinder():
+                away, help = "too near to the column of", "farther from"
+                if isinstance(reason, OutOfReach):
+                    away, help = "beyond the reach of", "nearer to"
+                inches = f"{reason.excess / INCH:.2f} in"
+                self._add(
+                    "unreachable-position", step, word, f"{word} is {inches} {away} the {self.arm.name} arm",
+                    note=note, help=f"bring it at least {inches} {help} the arm{self._counted(word)}",
+                )  # fmt: skip
+            case BelowTable():
+                self._add(
+                    "hand-through-table",
+                    step,
+                    word,
+                    f"{note} on its way to {word}",
+                    help="go by a position between",
+                )
+            case _:
+                self._add(
+                    "unreachable-position", step, word, f"the {self.arm.name} arm cannot put the hand at {word}",
+                    note=note, help=f"put it elsewhere, or turn it{self._counted(word)}",
+                )  # fmt: skip
 
-    def _joint_limit(self, step: Step, motion: str, word: str, failure: IKResult) -> None:
-        beyond, limit = f"{failure.excess / DEGREE:.1f} degrees", f"{failure.limit / DEGREE:.0f} degrees"
+    def _off_the_way(self, step: Step, reason: Reason, place: str, note: str) -> None:
+        word = _word(step)
+        match reason:
+            case JointLimit():
+                self._joint_limit(step, word, word, reason, place)
+            case InLine():
+                self._add(
+                    "wrist-in-line", step, word, f"the hand could not keep its angles {place}",
+                    note=note, help="tilt the hand a little, or go there with a `MOVE`",
+                )  # fmt: skip
+            case TooFast():
+                self._add(
+                    "joint-too-fast", step, word,
+                    f"{named(self.arm, reason.joint)} would have to move too fast {place}",
+                    note=note, help="move more slowly, or begin elsewhere",
+                )  # fmt: skip
+            case _:
+                self._add(
+                    "path-leaves-reach", step, word, f"the hand would leave the arm's reach {place}",
+                    note=note, help="shorten the motion, or begin elsewhere",
+                )  # fmt: skip
+
+    def _joint_limit(
+        self, step: Step, motion: str, word: str, reason: JointLimit, place: str | None = None
+    ) -> None:
+        beyond, limit = f"{reason.excess / DEGREE:.1f} degrees", f"{reason.limit / DEGREE:.0f} degrees"
         note, help = None, self._slip(word)
         help = help or "turn the hand otherwise: other angles O, A, T can be within the limits"
-        if failure.along is not None:
-            note = f"it comes to its limit {_along(step, failure.along)}"
+        if place is not None:
+            note = f"it comes to its limit {place}"
             help = "go by a position between" if isinstance(step.operation, Move) else "shorten the motion"
         self._add(
             "joint-limit", step, word,
-            f"`{motion}` would take {self._joint(failure.joint)} {beyond} beyond its limit of {limit}",
+            f"`{motion}` would take {named(self.arm, reason.joint)} {beyond} beyond its limit of {limit}",
             note=note, help=help,
         )  # fmt: skip
 
@@ -145,7 +176,7 @@ class PlanningFindings:
             "load-beyond-arm", step, _word(step),
             f"the arm cannot hold {weight / OUNCE_FORCE:.0f} oz up on this motion",
             secondary=(self._label(because, "said here"),),
-            help=f"{self._joint(weak.joint)} gives out at {weak.most / OUNCE_FORCE:.0f} oz",
+            help=f"{named(self.arm, weak.joint)} gives out at {weak.most / OUNCE_FORCE:.0f} oz",
         )  # fmt: skip
 
     def too_weak(self, code: str, step: Step, wanted: float, weak: Weakness, *, turning: bool) -> None:
@@ -159,12 +190,8 @@ class PlanningFindings:
         modifier = "STOP" if code == "stop-beyond-arm" else "FORCE"
         self._add(
             code, step, modifier, message, note=RIDDLE if riddle else None,
-            help=f"{self._joint(weak.joint)} gives out at {weak.most / si:.0f} {unit}",
+            help=f"{named(self.arm, weak.joint)} gives out at {weak.most / si:.0f} {unit}",
         )  # fmt: skip
-
-    def _joint(self, joint: int | None) -> str:
-        assert joint is not None
-        return f"joint {joint + 1} ({self.arm.joints[joint].name})"
 
     def _label(self, step: Step, text: str) -> Label:
         return Label(span=word_span(self.whole, step, _word(step)), text=text)

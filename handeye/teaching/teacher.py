@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from handeye.arm.ik import IKResult
 from handeye.arm.jog import jog
-from handeye.arm.kinematics import IKResult
 from handeye.arm.line import pivot
 from handeye.arm.samples import Samples
 from handeye.cell.pushing import pushed

@@ -17,7 +17,7 @@ import numpy as np
 from cells import ARM, cell_of
 
 from handeye import al
-from handeye.arm.kinematics import solve
+from handeye.arm.ik import solve
 from handeye.diagnostics import Diagnostic, arranged, render
 from handeye.editor.explain import SAMPLE
 from handeye.events import AnyEvent

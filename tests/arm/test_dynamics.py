@@ -4,19 +4,24 @@ import mujoco
 import numpy as np
 import pytest
 from arm_in_mujoco import build, postures
+from robots import ROBOTS
 
 from handeye.arm.dynamics import bias, gravity, inverse_dynamics, mass_matrix
-from handeye.arm.model import digest
+from handeye.arm.model import ArmModel, digest
 from handeye.arm.robots.stanford import STANFORD
 from handeye.units import INCH
 
+ARMS = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
 
-def test_inertia_and_bias_agree_with_mujoco() -> None:
-    model = build(STANFORD)
+
+@ARMS
+def test_inertia_and_bias_agree_with_mujoco(arm: ArmModel) -> None:
+    model = build(arm)
     data = mujoco.MjData(model)
-    q, qd = postures(100), np.random.default_rng(2).normal(size=(100, 6))
-    M, h = mass_matrix(STANFORD, q), inverse_dynamics(STANFORD, q, qd, np.zeros_like(q))
-    theirs = np.zeros((6, 6))
+    q = postures(arm, 100)
+    qd = np.random.default_rng(2).normal(size=q.shape)
+    M, h = mass_matrix(arm, q), inverse_dynamics(arm, q, qd, np.zeros_like(q))
+    theirs = np.zeros(M[0].shape)
     for i in range(100):
         data.qpos[:], data.qvel[:] = q[i], qd[i]
         mujoco.mj_forward(model, data)
@@ -25,22 +30,25 @@ def test_inertia_and_bias_agree_with_mujoco() -> None:
         np.testing.assert_allclose(h[i], data.qfrc_bias, atol=1e-9)
 
 
-def test_a_motion_at_once_equals_its_ticks_one_by_one() -> None:
-    rng = np.random.default_rng(3)
-    q, qd, qdd = postures(5), rng.normal(size=(5, 6)), rng.normal(size=(5, 6))
-    singly = [inverse_dynamics(STANFORD, *args) for args in zip(q, qd, qdd, strict=True)]
-    np.testing.assert_allclose(inverse_dynamics(STANFORD, q, qd, qdd), singly, atol=1e-12)
+@ARMS
+def test_a_motion_at_once_equals_its_ticks_one_by_one(arm: ArmModel) -> None:
+    rng, q = np.random.default_rng(3), postures(arm, 5)
+    qd, qdd = rng.normal(size=q.shape), rng.normal(size=q.shape)
+    singly = [inverse_dynamics(arm, *args) for args in zip(q, qd, qdd, strict=True)]
+    np.testing.assert_allclose(inverse_dynamics(arm, q, qd, qdd), singly, atol=1e-12)
 
 
-def test_gravity_is_the_bias_at_rest() -> None:
-    q = postures(20)
-    np.testing.assert_allclose(gravity(STANFORD, q), bias(STANFORD, q, np.zeros_like(q)), atol=1e-12)
+@ARMS
+def test_gravity_is_the_bias_at_rest(arm: ArmModel) -> None:
+    q = postures(arm, 20)
+    np.testing.assert_allclose(gravity(arm, q), bias(arm, q, np.zeros_like(q)), atol=1e-12)
 
 
-def test_bias_counts_friction() -> None:
-    q, qd = postures(1)[0], np.array([0.0, 0, 0, 0, 0, 1.0])
-    friction = bias(STANFORD, q, qd) - inverse_dynamics(STANFORD, q, qd, np.zeros(6))
-    np.testing.assert_allclose(friction, [0, 0, 0, 0, 0, 0.1], atol=1e-12)
+@ARMS
+def test_bias_counts_friction(arm: ArmModel) -> None:
+    q, qd = postures(arm, 1)[0], np.eye(len(arm.joints))[-1]
+    friction = bias(arm, q, qd) - inverse_dynamics(arm, q, qd, np.zeros_like(q))
+    np.testing.assert_allclose(friction, arm.joints[-1].damping * qd, atol=1e-12)
 
 
 @pytest.mark.parametrize(("boom", "torque"), [(12, -7.5), (16.67, 0.0), (20, 5.4), (30, 21.5), (40, 37.6)])
@@ -59,8 +67,9 @@ def test_fingers_weigh_on_every_joint_that_carries_them() -> None:
     assert more == pytest.approx(0.24 * 9.81 * 0.7)
 
 
-def test_inertia_of_every_link_is_physically_possible() -> None:
-    for joint in STANFORD.joints:
+@ARMS
+def test_inertia_of_every_link_is_physically_possible(arm: ArmModel) -> None:
+    for joint in arm.joints:
         assert min(joint.inertia) > 0
         assert 2 * max(joint.inertia) <= sum(joint.inertia), joint.name
 

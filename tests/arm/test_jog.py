@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from handeye.arm.ik import IKResult, solve
+from handeye.arm.ik.reasons import BelowTable, OutOfReach
 from handeye.arm.jog import jog
-from handeye.arm.kinematics import IKResult, solve
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
 from handeye.cell.simulated import PARK
@@ -44,7 +45,8 @@ def test_rates_are_those_of_the_positions() -> None:
 def test_a_joint_beyond_its_limit_is_refused_with_the_limit() -> None:
     found = jog(STANFORD, PARK, 2, 3.0, speed=0.4)
     assert isinstance(found, IKResult)
-    assert found.joint == 2
+    assert isinstance(found.reason, OutOfReach)
+    assert found.reason.joint == 2
 
 
 def test_a_joint_that_would_push_the_hand_through_the_table_is_refused() -> None:
@@ -52,4 +54,4 @@ def test_a_joint_that_would_push_the_hand_through_the_table_is_refused() -> None
     assert low is not None
     found = jog(STANFORD, low, 1, low[1] + 0.1, speed=0.4)
     assert isinstance(found, IKResult)
-    assert found.reason == "below the table"
+    assert isinstance(found.reason, BelowTable)

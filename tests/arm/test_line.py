@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 
-from handeye.arm.kinematics import forward, solve
+from handeye.arm.ik import IKResult, solve
+from handeye.arm.ik.reasons import InLine, JointLimit, OutOfReach
+from handeye.arm.kinematics import forward
 from handeye.arm.line import pivot
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.trajectory import arc, straight
@@ -69,8 +71,9 @@ def test_no_displacement_is_no_motion() -> None:
 
 def test_a_line_that_leaves_the_reach_says_which_joint() -> None:
     result = straight(STANFORD, at(20, 52, 3), np.array([0, 12 * INCH, 0]), INCH)
-    assert (result.reason, result.joint) == ("out of reach", 2)
-    assert straight(STANFORD, at(20, 24, 11), np.array([0, -9 * INCH, 0]), INCH).reason != ""
+    assert isinstance(result.reason, OutOfReach)
+    assert result.reason.joint == 2
+    assert isinstance(straight(STANFORD, at(20, 24, 11), np.array([0, -9 * INCH, 0]), INCH), IKResult)
 
 
 def test_an_arc_keeps_its_distance_and_height_while_the_hand_yaws_along() -> None:
@@ -91,9 +94,10 @@ def test_a_negative_angle_turns_clockwise() -> None:
 
 def test_a_turn_beyond_the_hand_roll_is_refused() -> None:
     result = arc(STANFORD, at(26, 38, 4.5), np.array([25, 38]) * INCH, 6.0, 0.5)
-    assert (result.reason, result.joint) == ("joint limit", 5)
+    assert isinstance(result.reason, JointLimit)
+    assert result.reason.joint == 5
 
 
 def test_a_line_through_a_straight_wrist_is_refused() -> None:
     q = np.array([0.0, np.pi / 2, 0.6, 0.0, 0.001, 0.0])
-    assert straight(STANFORD, q, np.array([0.05, 0, 0]), INCH).reason == "singular"
+    assert straight(STANFORD, q, np.array([0.05, 0, 0]), INCH).reason == InLine((3, 5))

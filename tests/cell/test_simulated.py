@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from handeye.arm.dynamics import gravity
-from handeye.arm.kinematics import solve
+from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from handeye.al import compile_text
-from handeye.arm.kinematics import forward, solve
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.planfile.plan import Plan

@@ -5,7 +5,8 @@ import pytest
 from checking import message, said
 
 from handeye.arm.dynamics import gravity
-from handeye.arm.kinematics import jacobian, solve
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.planning.strength import weakness
 from handeye.pose import hand

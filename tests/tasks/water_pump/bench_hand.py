@@ -3,7 +3,8 @@
 import numpy as np
 
 from handeye.arm.dynamics import bias, mass_matrix
-from handeye.arm.kinematics import forward, jacobian, solve
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.ports.workcell import Drive, Workcell
 from handeye.pose import Array, hand

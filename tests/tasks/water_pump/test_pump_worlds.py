@@ -6,7 +6,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from handeye.arm.kinematics import forward, solve
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import Array, hand
 from handeye.tasks.water_pump.pump_world import PumpWorld

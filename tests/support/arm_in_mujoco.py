@@ -5,8 +5,7 @@ import numpy as np
 
 from handeye.arm.dynamics import GRAVITY
 from handeye.arm.model import ArmModel, Joint
-from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import rotation_x
+from handeye.pose import rotation_x, rotation_z
 
 
 def build(arm: ArmModel, *, damping: bool = True, timestep: float = 1 / 960) -> mujoco.MjModel:
@@ -16,26 +15,34 @@ def build(arm: ArmModel, *, damping: bool = True, timestep: float = 1 / 960) -> 
     bodies = ""
     for i, joint in enumerate(arm.joints):
         bodies += f"<body {frame}>{_inertial(joint)}{_joint(i, joint, damping)}"
-        R = rotation_x(joint.alpha)
+        R = _turn(joint)
         frame = f'pos="0 0 {joint.d}" xyaxes="{_text([*R[:, 0], *R[:, 1]])}"'
     point = f'<inertial pos="0 0 0" mass="{arm.hand.mass}" diaginertia="1e-12 1e-12 1e-12"/>'
     fingers = f'<body pos="0 0 {arm.hand.centre - arm.hand.length}">{point}</body>'
     tool = f'<body {frame}><site name="T"/>{fingers}</body>'
-    motors = "".join(f'<motor joint="j{i + 1}"/>' for i in range(6))
+    motors = "".join(f'<motor joint="j{i + 1}"/>' for i in range(len(arm.joints)))
     return mujoco.MjModel.from_xml_string(
         f'<mujoco><compiler angle="radian"/><option gravity="0 0 -{GRAVITY}" timestep="{timestep!r}" '
-        f'integrator="implicitfast"/><worldbody>{bodies}{tool}{"</body>" * 6}</worldbody>'
+        f'integrator="implicitfast"/><worldbody>{bodies}{tool}{"</body>" * len(arm.joints)}</worldbody>'
         f"<actuator>{motors}</actuator></mujoco>"
     )
 
 
-def postures(count: int, seed: int = 1) -> np.ndarray:
-    """Joint positions spread over the whole range, shape (count, 6)."""
-    return np.random.default_rng(seed).uniform(STANFORD.lower, STANFORD.upper, (count, 6))
+def postures(arm: ArmModel, count: int, seed: int = 1) -> np.ndarray:
+    """Joint positions spread over the whole range, shape (count, n); joints that are held are not moved."""
+    q = np.random.default_rng(seed).uniform(arm.lower, arm.upper, (count, len(arm.joints)))
+    held = [i for i, joint in enumerate(arm.joints) if joint.name in arm.held]
+    q[:, held] = [arm.held[arm.joints[i].name] for i in held]
+    return q
+
+
+def _turn(joint: Joint) -> np.ndarray:
+    """What stands between the frames of a joint and of the next, its own motion apart."""
+    return rotation_z(joint.theta) @ rotation_x(joint.alpha)
 
 
 def _inertial(joint: Joint) -> str:
-    R = rotation_x(joint.alpha)
+    R = _turn(joint)
     inertia = R @ np.diag(joint.inertia) @ R.T
     six = (inertia[0, 0], inertia[1, 1], inertia[2, 2], inertia[0, 1], inertia[0, 2], inertia[1, 2])
     centre = np.array([0, 0, joint.d]) + R @ np.array(joint.centre)

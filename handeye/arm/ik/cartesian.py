@@ -1,0 +1,100 @@
+"""Sliding axes alone, one to three of them: the hand goes along a line, in a plane or anywhere, and is never turned."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.chain import chain
+from handeye.arm.ik.choice import choose
+from handeye.arm.ik.reasons import FixedDirection, FixedOrientation, InLine
+from handeye.arm.ik.result import IKResult
+from handeye.arm.kinematics import forward
+from handeye.arm.model import ArmModel
+from handeye.pose import Array, Pose
+
+_WRITTEN: Final = 1e-5
+"""m, and rad: what the rounding of a written position may leave."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Build:
+    """What the solution needs of an arm."""
+
+    slides: list[int]
+    held: list[int]
+    held_at: Array
+    axes: Array
+    """Displacement of the hand per joint position, shape (3, n)."""
+    inverse: Array
+    """Joint positions per displacement, shape (n, 3)."""
+    R_WT: Array
+    """The orientation of the hand, shape (3, 3)."""
+
+
+@lru_cache(maxsize=16)
+def _build(arm: ArmModel) -> _Build:
+    """Raises ValueError for an arm that is not cartesian."""
+    held = [i for i, joint in enumerate(arm.joints) if joint.name in arm.held]
+    slides = [i for i in range(len(arm.joints)) if i not in held]
+    R, _ = chain(arm, np.zeros(len(arm.joints)))
+    axes = R[slides, :, 2].T
+    if any(joint.kind != "prismatic" for joint in arm.joints) or np.linalg.matrix_rank(axes) < len(slides):
+        raise ValueError(
+            f"the {arm.name} arm has not one to three slides of different directions, and no more"
+        )
+    return _Build(
+        slides=slides, held=held, held_at=np.array([arm.held[arm.joints[i].name] for i in held]),
+        axes=axes, inverse=np.asarray(np.linalg.pinv(axes), dtype=np.float64), R_WT=R[-1],
+    )  # fmt: skip
+
+
+def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
+    """One. It does not exist where the hand would have to be turned, or to leave the way of the slides."""
+    b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
+    q, off = _slid(arm, b, X, b.held_at if start is None else start[b.held])
+    exists = (np.linalg.norm(off, axis=-1) <= _WRITTEN) & (_turned(b, X) <= _WRITTEN)
+    return q[..., None, :], exists[..., None]
+
+
+def _slid(arm: ArmModel, b: _Build, X_WT: Pose, held_at: Array) -> tuple[Array, Array]:
+    """Joint positions that bring the hand nearest to poses, (..., n), and what is left to them, (..., 3), m."""
+    q = np.zeros((*X_WT.shape[:-2], len(arm.joints)))
+    q[..., b.held] = held_at
+    way = X_WT[..., :3, 3] - forward(arm, q)[..., :3, 3]
+    q[..., b.slides] = way @ b.inverse.T
+    return q, way - q[..., b.slides] @ b.axes.T
+
+
+def _turned(b: _Build, X_WT: Pose) -> Array:
+    """The angle between the orientation of the hand and that of poses, rad."""
+    chord = np.linalg.norm(X_WT[..., :3, :3] - b.R_WT, axis=(-2, -1)) / (2 * math.sqrt(2))
+    return np.asarray(2 * np.arcsin(np.minimum(chord, 1.0)))
+
+
+def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
+    """The one solution, or what the hand cannot do, or the joint that is worst beyond its limits."""
+    b = _build(arm)
+    angle = float(_turned(b, X_WT))
+    if angle > _WRITTEN:
+        return IKResult(reason=FixedOrientation(angle))
+    q, off = _slid(arm, b, X_WT, b.held_at)
+    distance = float(np.linalg.norm(off))
+    if distance > _WRITTEN:
+        return IKResult(reason=FixedDirection(tuple(b.slides), distance))
+    return choose(arm, [q.tolist()], near.tolist())
+
+
+def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
+    """Nowhere."""
+    return None
+
+
+def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
+    """The slides carry the hand; held joints stand still."""
+    b, qd = _build(arm), np.zeros(q.shape)
+    qd[:, b.slides] = V[:, :3] @ b.inverse.T
+    return qd

@@ -1,0 +1,64 @@
+"""Of several solutions the one to take: inside the limits, and soonest reached."""
+
+import math
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.ik.reasons import JointLimit, OutOfReach
+from handeye.arm.ik.result import IKResult
+from handeye.arm.model import ArmModel, Joint
+
+SLACK: Final = 1e-9
+"""Round-off allowed beyond a joint limit, rad or m."""
+
+
+def choose(arm: ArmModel, found: list[list[float]], near: list[float]) -> IKResult:
+    """The solution inside the limits that is nearest to `near` in the sum of travel times of the joints.
+
+    Without one: what is wrong with the solution that is least beyond them.
+    """
+    good = [q for q in found if all(map(_inside, arm.joints, q))]
+    if good:
+        return IKResult(q=np.array(min(good, key=lambda q: _travel_time(arm, q, near))))
+    return min((_fault(arm, q) for q in found), key=lambda fault: fault[0])[1]
+
+
+def _inside(joint: Joint, x: float) -> bool:
+    return joint.lower - SLACK <= x <= joint.upper + SLACK
+
+
+def _travel_time(arm: ArmModel, a: list[float], b: list[float]) -> float:
+    return sum(abs(x - y) / joint.speed for joint, x, y in zip(arm.joints, a, b, strict=True))
+
+
+def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
+    """The joint farthest beyond its limits, and how far in travel time. A sliding joint comes first: no
+    branch can mend it."""
+    outside = [(i, j, x) for i, (j, x) in enumerate(zip(arm.joints, q, strict=True)) if not _inside(j, x)]
+    excess = [(j.kind == "prismatic", max(x - j.upper, j.lower - x) / j.speed) for _, j, x in outside]
+    worst = max(range(len(outside)), key=excess.__getitem__)
+    i, joint, x = outside[worst]
+    return excess[worst][1], IKResult(reason=beyond(joint, i, x))
+
+
+def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
+    """What it means that a joint would have to be at `x`, beyond its limits."""
+    limit = joint.upper if x > joint.upper else joint.lower
+    return OutOfReach(index, x, limit) if joint.kind == "prismatic" else JointLimit(index, x, limit)
+
+
+def nearest_turn(joint: Joint, x: float, near: float) -> float:
+    """`x` plus whole turns: nearest to `near` among those inside the limits, else nearest to the limits."""
+    if joint.kind == "prismatic":
+        return x
+    turn = 2 * math.pi
+    x += turn * round((near - x) / turn)
+    if x > joint.upper and x - turn >= joint.lower - SLACK:
+        return x - turn
+    if x < joint.lower and x + turn <= joint.upper + SLACK:
+        return x + turn
+    if x > joint.upper or x < joint.lower:
+        middle = (joint.lower + joint.upper) / 2
+        x += turn * round((middle - x) / turn)
+    return x

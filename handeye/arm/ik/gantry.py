@@ -1,0 +1,124 @@
+"""A gantry with a wrist: three sliding axes carry three turning ones, each square to the next.
+
+The slides do not turn the hand, so the wrist follows from its orientation alone, and the slides from what is left of
+the position: the wrist's axes need not meet in a point. More slides than three are rails, held at a place.
+
+Two branches: the wrist flipped or not. Where the axes of its first and last joint come into line only the sum of the
+two matters, and the first stays where it was; the hand can still go anywhere, and turn about that line.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.chain import chain, link_rotations
+from handeye.arm.ik.choice import choose, nearest_turn
+from handeye.arm.ik.reasons import InLine
+from handeye.arm.ik.result import IKResult
+from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.model import ArmModel, constants
+from handeye.pose import Array, Pose, rotation_x
+
+_COLLINEAR: Final = 1e-9
+"""Sine of the middle wrist joint below which the other two count as one axis."""
+_EXACT: Final = 1e-6
+"""Part of a twist (m/s, rad/s) that joint rates may miss by round-off."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Build:
+    """What the solution needs of an arm."""
+
+    slides: list[int]
+    held: list[int]
+    held_at: Array
+    wrist: int
+    """The first joint of the wrist."""
+    X_slides: Array
+    """Joint positions of the slides per displacement of the hand, shape (3, 3)."""
+    R_WS: Array
+    """Orientation of what carries the wrist, shape (3, 3)."""
+
+
+@lru_cache(maxsize=16)
+def _build(arm: ArmModel) -> _Build:
+    """Raises ValueError for an arm that is no gantry with a wrist."""
+    wrist = len(arm.joints) - 3
+    held = [i for i, joint in enumerate(arm.joints) if joint.name in arm.held]
+    slides = [i for i in range(wrist) if i not in held]
+    kinds = [joint.kind for joint in arm.joints]
+    square = all(abs(math.cos(joint.alpha)) < _COLLINEAR for joint in arm.joints[-3:-1])
+    if kinds != ["prismatic"] * wrist + ["revolute"] * 3 or len(slides) != 3 or not square:
+        raise ValueError(f"the {arm.name} arm has not three free slides that carry a wrist of three joints")
+    R, _ = chain(arm, np.zeros(len(arm.joints)))
+    return _Build(
+        slides=slides, held=held, held_at=np.array([arm.held[arm.joints[i].name] for i in held]), wrist=wrist,
+        X_slides=np.asarray(np.linalg.inv(R[slides, :, 2].T), dtype=np.float64), R_WS=R[wrist],
+    )  # fmt: skip
+
+
+def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
+    """Two: the wrist, and flipped. They always exist."""
+    b, X = _build(arm), np.asarray(X_WT, dtype=np.float64)
+    q = np.zeros((*X.shape[:-2], 2, len(arm.joints)))
+    q[..., b.held] = b.held_at if start is None else start[b.held]
+    left = 0.0 if start is None else float(start[b.wrist])
+    M = b.R_WS.T @ X[..., :3, :3] @ rotation_x(-arm.joints[-1].alpha)
+    for branch, flip in enumerate((1.0, -1.0)):
+        q[..., branch, b.wrist :] = _wrist(arm, b, M, flip, left)
+    rest = X[..., None, :3, 3] - forward(arm, q)[..., :3, 3]
+    q[..., b.slides] = rest @ b.X_slides.T
+    turned = np.where(constants(arm).prismatic, q, np.pi - np.mod(np.pi - q, 2 * np.pi))
+    return turned, np.ones(q.shape[:-1], dtype=np.bool_)
+
+
+def _wrist(arm: ArmModel, b: _Build, M: Array, flip: float, left: float) -> Array:
+    """The wrist's joints, shape (..., 3), for orientations M seen from what carries it, shape (..., 3, 3)."""
+    k, i = constants(arm), b.wrist
+    x, y, z = M[..., 0, 2], M[..., 1, 2], M[..., 2, 2]
+    roll = np.where(np.hypot(x, y) < _COLLINEAR, left, np.atan2(flip * y, flip * x))
+    s4, s5 = k.sin_alpha[i], k.sin_alpha[i + 1]
+    pitch = np.atan2(s5 * (np.cos(roll) * x + np.sin(roll) * y), -s4 * s5 * z)
+    K = link_rotations(roll, k.cos_alpha[i], s4) @ link_rotations(pitch, k.cos_alpha[i + 1], s5)
+    N = np.swapaxes(K, -1, -2) @ M
+    return np.stack([roll, pitch, np.atan2(N[..., 1, 0], N[..., 0, 0])], axis=-1)
+
+
+def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
+    """The best branch, or the joint that is worst beyond its limits."""
+    b, start = _build(arm), near.copy()
+    start[b.held] = b.held_at
+    here = near.tolist()
+    found = [
+        [nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, here, strict=True)]
+        for q in branches(arm, X_WT, start)[0].tolist()
+    ]
+    return choose(arm, found, here)
+
+
+def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
+    """Where the wrist would have to swing round, or cannot turn the hand as wanted."""
+    i = _build(arm).wrist
+    J = jacobian(arm, q)
+    missed = np.abs((J @ rates(arm, q, J, V)[..., None])[..., 0] - V).max(axis=-1) > _EXACT
+    swing = np.diff(np.concatenate([q_start[i : i + 1], q[:, i]]))
+    swing -= 2 * np.pi * np.round(swing / (2 * np.pi))
+    stuck = missed | (np.abs(swing) > arm.joints[i].speed * arm.servo.period)
+    return (int(np.argmax(stuck)), InLine((i, i + 2))) if stuck.any() else None
+
+
+def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
+    """The wrist turns the hand, the slides carry it; held joints stand still."""
+    b = _build(arm)
+    in_line = np.abs(np.sin(q[:, b.wrist + 1])) < _COLLINEAR
+    turning = J[:, 3:, b.wrist :].copy()
+    turning[in_line, :, 0] = 0.0
+    qd = np.zeros(q.shape)
+    qd[:, b.wrist :] = (np.linalg.pinv(turning) @ V[:, 3:, None])[..., 0]
+    swept = (J[:, :3, b.wrist :] @ qd[:, b.wrist :, None])[..., 0]
+    qd[:, b.slides] = (V[:, :3] - swept) @ b.X_slides.T
+    return qd

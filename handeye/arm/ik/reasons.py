@@ -1,0 +1,128 @@
+"""Why an arm cannot be, or go, where it is wanted: facts, which `handeye.arm.ik.wording` puts into words.
+
+Joints are counted from 0; SI units.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class OutOfReach:
+    """A sliding joint would have to stand beyond its range: no other branch can mend it."""
+
+    joint: int
+    amount: float
+    """Where it would have to be, m."""
+    limit: float
+    """The end of its range that this passes, m."""
+
+    @property
+    def excess(self) -> float:
+        """How far beyond, m."""
+        return abs(self.amount - self.limit)
+
+
+@dataclass(frozen=True, slots=True)
+class TooNear:
+    """A boom would have to be drawn in farther than it can: the hand would be too near to the column."""
+
+    joint: int
+    amount: float
+    """Where it would have to be, m."""
+    limit: float
+    """Where it begins, m."""
+
+    @property
+    def excess(self) -> float:
+        """How far beyond, m."""
+        return abs(self.amount - self.limit)
+
+
+@dataclass(frozen=True, slots=True)
+class JointLimit:
+    """A turning joint would have to stand beyond its range."""
+
+    joint: int
+    amount: float
+    """Where it would have to be, rad."""
+    limit: float
+    """The end of its range that this passes, rad."""
+
+    @property
+    def excess(self) -> float:
+        """How far beyond, rad."""
+        return abs(self.amount - self.limit)
+
+
+@dataclass(frozen=True, slots=True)
+class InnerCylinder:
+    """The wrist would come nearer to the axis of the column than the shoulder's offset."""
+
+    radius: float
+    """How near, m."""
+    least: float
+    """How near it can come, m."""
+
+    @property
+    def excess(self) -> float:
+        """How much too near, m."""
+        return self.least - self.radius
+
+
+@dataclass(frozen=True, slots=True)
+class FixedOrientation:
+    """The hand would have to be turned, and no joint turns it."""
+
+    angle: float
+    """By how much, rad."""
+
+
+@dataclass(frozen=True, slots=True)
+class FixedDirection:
+    """The hand would have to leave the line or plane that the sliding joints span."""
+
+    joints: tuple[int, ...]
+    """Those that move it."""
+    off: float
+    """How far, m."""
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A joint would have to move that is held where it is."""
+
+    joint: int
+    at: float
+    """rad or m"""
+
+
+@dataclass(frozen=True, slots=True)
+class InLine:
+    """The axes of two joints come into line on the way, where the hand cannot keep its orientation."""
+
+    joints: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class TooFast:
+    """A joint would have to move faster than it can."""
+
+    joint: int
+    rate: float
+    """rad/s or m/s"""
+    limit: float
+
+
+@dataclass(frozen=True, slots=True)
+class BelowTable:
+    """The hand would be below the table top."""
+
+    depth: float
+    """m"""
+
+
+Reason = (
+    OutOfReach | TooNear | JointLimit | InnerCylinder | FixedOrientation | FixedDirection
+    | Held | InLine | TooFast | BelowTable
+)  # fmt: skip
+"""All there are: the first six of poses, the others of motions."""

@@ -1,0 +1,24 @@
+"""What a solver answers."""
+
+from dataclasses import dataclass
+
+from handeye.arm.ik.reasons import Reason
+from handeye.arm.ik.wording import sentence
+from handeye.arm.model import ArmModel
+from handeye.pose import Array
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class IKResult:
+    """Joint positions for a hand pose, or why there are none for it or for a motion."""
+
+    q: Array | None = None
+    """Shape (n,), rad and m; None if there is no solution."""
+    reason: Reason | None = None
+    """None if there is one."""
+    along: float | None = None
+    """Of motions: how far along the way of the hand it is, m."""
+
+    def message(self, arm: ArmModel) -> str:
+        """Why there is no solution, for people; empty if there is one."""
+        return "" if self.reason is None else sentence(arm, self.reason)

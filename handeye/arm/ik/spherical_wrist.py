@@ -1,0 +1,143 @@
+"""The closed form of the Stanford arm (Paul 1981): a shoulder with offset d2, a sliding boom, and three wrist axes that
+meet in a point.
+
+Four branches: the boom on either side of the column, the wrist flipped or not. Where the axes of joints 4 and 6 come
+into line only the sum of the two matters, and joint 4 stays where it was.
+"""
+
+import math
+from functools import lru_cache
+from types import ModuleType
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.ik.choice import choose, nearest_turn
+from handeye.arm.ik.reasons import InLine, InnerCylinder, OutOfReach, TooNear
+from handeye.arm.ik.result import IKResult
+from handeye.arm.model import ArmModel, constants
+from handeye.pose import Array, Pose, inverse
+
+_KINDS: Final = ("revolute", "revolute", "prismatic", "revolute", "revolute", "revolute")
+_TWISTS: Final = (-math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2, 0.0)
+_COLLINEAR: Final = 1e-9
+"""Sine of joint 5 below which joints 4 and 6 count as one axis."""
+_SINGULAR: Final = 0.02
+"""Sine of joint 5 below which a hand that must keep its orientation would need absurd speeds of joint 4."""
+
+
+@lru_cache(maxsize=16)
+def _check(arm: ArmModel) -> None:
+    """Raises ValueError for an arm that the closed form is not of."""
+    kinds, twists = tuple(j.kind for j in arm.joints), tuple(j.alpha for j in arm.joints)
+    offsets = [j.d for j in arm.joints[2:]] + [j.theta for j in arm.joints]
+    if (
+        kinds != _KINDS
+        or twists != _TWISTS
+        or arm.held
+        or offsets != [0.0, 0.0, 0.0, arm.hand.length, *[0.0] * 6]
+    ):
+        raise ValueError(f"the {arm.name} arm is not built like the Stanford arm, with a spherical wrist")
+
+
+def branches(arm: ArmModel, X_WT: Pose, start: Array | None) -> tuple[Array, NDArray[np.bool_]]:
+    """Four: (shoulder +, wrist), (+, flipped), (-, wrist), (-, flipped).
+
+    None exists where the wrist is nearer to the axis of joint 1 than d2.
+    """
+    _check(arm)
+    X_BT = inverse(arm.X_WB) @ np.asarray(X_WT, dtype=np.float64)
+    rows = [[X_BT[..., i, j] for j in range(4)] for i in range(3)]
+    w = _wrist_centre(arm, rows)
+    left = 0.0 if start is None else float(start[3])
+    found = []
+    for side in (1.0, -1.0):
+        q123 = _shoulder(np, arm, w, side)
+        a, b = _roll_direction(np, q123, rows)
+        for flip in (1.0, -1.0):
+            q4 = np.where(np.hypot(a, b) < _COLLINEAR, left, np.atan2(flip * b, flip * a))
+            found.append(np.stack([*q123, q4, *_bend_and_roll(np, q123, q4, rows)], axis=-1))
+    q = np.stack(found, axis=-2)
+    turned = np.where(constants(arm).prismatic, q, np.pi - np.mod(np.pi - q, 2 * np.pi))
+    exists = w[0] * w[0] + w[1] * w[1] >= arm.joints[1].d ** 2
+    return turned, np.broadcast_to(exists[..., None], q.shape[:-1])
+
+
+def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
+    """The best branch, or the inner cylinder, or the joint that is worst beyond its limits."""
+    _check(arm)
+    rows = (constants(arm).X_BW @ X_WT)[:3].tolist()
+    here = near.tolist()
+    w = _wrist_centre(arm, rows)
+    radius = math.hypot(w[0], w[1])
+    if radius < arm.joints[1].d:
+        return IKResult(reason=InnerCylinder(radius, arm.joints[1].d))
+    found = choose(arm, _scalar_branches(arm, rows, w, here), here)
+    match found.reason:
+        case OutOfReach(joint, amount, limit) if amount < limit:
+            return IKResult(reason=TooNear(joint, amount, limit))
+    return found
+
+
+def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:
+    """Where joints 4 and 6 come into line."""
+    in_line = np.abs(np.sin(q[:, 4])) < _SINGULAR
+    return (int(np.argmax(in_line)), InLine((3, 5))) if in_line.any() else None
+
+
+def rates(arm: ArmModel, q: Array, J: Array, V: Array) -> Array:
+    """The solution of J qd = V."""
+    return np.asarray(np.linalg.solve(J, V[..., None])[..., 0], dtype=np.float64)
+
+
+def _scalar_branches(arm: ArmModel, rows: Any, w: Any, near: list[float]) -> list[list[float]]:
+    """As `branches`, for one pose in floats; each joint in the turn nearest to `near` inside its limits."""
+    found = []
+    for side in (1.0, -1.0):
+        q123 = _shoulder(math, arm, w, side)
+        a, b = _roll_direction(math, q123, rows)
+        in_line = math.hypot(a, b) < _COLLINEAR
+        for flip in (1.0,) if in_line else (1.0, -1.0):
+            q4 = near[3] if in_line else math.atan2(flip * b, flip * a)
+            q = [*q123, q4, *_bend_and_roll(math, q123, q4, rows)]
+            found.append([nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, near, strict=True)])
+    return found
+
+
+# The closed form, once for floats (m = math) and once for arrays (m = numpy): both modules have these names.
+# `rows` are the upper three rows [n o a p] of X_BT.
+
+
+def _wrist_centre(arm: ArmModel, rows: Any) -> Any:
+    """Wrist centre seen from the shoulder, in the base frame."""
+    (_, _, ax, px), (_, _, ay, py), (_, _, az, pz) = rows
+    d = arm.hand.length
+    return px - d * ax, py - d * ay, pz - d * az - arm.joints[0].d
+
+
+def _shoulder(m: ModuleType, arm: ArmModel, w: Any, side: float) -> Any:
+    """q1, q2, q3 with the boom on one side of the column or the other."""
+    x, y, z = w
+    d2 = arm.joints[1].d
+    u = side * m.sqrt(m.fabs(x * x + y * y - d2 * d2))  # horizontal reach of the boom
+    return m.atan2(y, x) - m.atan2(d2, u), m.atan2(u, z), m.sqrt(u * u + z * z)
+
+
+def _roll_direction(m: ModuleType, q123: Any, rows: Any) -> Any:
+    """Components of the approach direction square to the boom: joint 4 turns the wrist towards it."""
+    (_, _, ax, _), (_, _, ay, _), (_, _, az, _) = rows
+    c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
+    return c2 * (c1 * ax + s1 * ay) - s2 * az, -s1 * ax + c1 * ay
+
+
+def _bend_and_roll(m: ModuleType, q123: Any, q4: Any, rows: Any) -> Any:
+    """q5 and q6, once q4 is chosen."""
+    (_, ox, ax, _), (_, oy, ay, _), (_, oz, az, _) = rows
+    c1, s1, c2, s2 = m.cos(q123[0]), m.sin(q123[0]), m.cos(q123[1]), m.sin(q123[1])
+    c4, s4 = m.cos(q4), m.sin(q4)
+    a1, a2, a3 = c2 * (c1 * ax + s1 * ay) - s2 * az, -s1 * ax + c1 * ay, s2 * (c1 * ax + s1 * ay) + c2 * az
+    o1, o2, o3 = c2 * (c1 * ox + s1 * oy) - s2 * oz, -s1 * ox + c1 * oy, s2 * (c1 * ox + s1 * oy) + c2 * oz
+    q5 = m.atan2(c4 * a1 + s4 * a2, a3)
+    s6 = -m.cos(q5) * (c4 * o1 + s4 * o2) + m.sin(q5) * o3
+    return q5, m.atan2(s6, c4 * o2 - s4 * o1)
