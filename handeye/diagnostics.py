@@ -92,27 +92,37 @@ def quoted(name: str) -> str:
 
 
 def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """`did you mean ...` for a known name that looks the same, or the nearest, at most a third of its length away;
-    else few choices."""
+    """`did you mean ...` for the nearest known name, at most a third of its length away; else few choices."""
     choices = sorted(set(known))
-    if len(choices) > MOST_COMPARED or len(name) > LONGEST_COMPARED:
+    if _too_many(name, choices):
+        return None
+    if near := nearest(name, choices, len(name) // 3):
+        return f"did you mean {quoted(near)}?"
+    return "known: " + ", ".join(map(quoted, choices)) if 0 < len(choices) <= 8 else None
+
+
+def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
+    """The known name that looks the same, or the one that the fewest changes make of `name`, `farthest` at most."""
+    choices = sorted(set(known))
+    if _too_many(name, choices):
         return None
     looks = name.translate(LOOKALIKES)
-    for choice in choices:
-        if choice.translate(LOOKALIKES) == looks:
-            return f"did you mean {quoted(choice)}?"
-    ranked = sorted((_distance(name.upper(), choice.upper()), choice) for choice in choices)
-    if ranked and ranked[0][0] <= len(name) // 3:
-        return f"did you mean {quoted(ranked[0][1])}?"
-    if 0 < len(choices) <= 8:
-        return "known: " + ", ".join(map(quoted, choices))
-    return None
+    if same := next((choice for choice in choices if choice.translate(LOOKALIKES) == looks), None):
+        return same
+    ranked = [(_distance(name.upper(), choice.upper(), farthest), choice) for choice in choices]
+    changes, near = min(ranked, default=(farthest + 1, ""))
+    return near if changes <= farthest else None
 
 
-def _distance(a: str, b: str) -> int:
-    """Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`; far is len(a)."""
-    if abs(len(a) - len(b)) > len(a) // 3:
-        return len(a) + 1
+def _too_many(name: str, choices: Sequence[str]) -> bool:
+    return len(choices) > MOST_COMPARED or len(name) > LONGEST_COMPARED
+
+
+def _distance(a: str, b: str, farthest: int) -> int:
+    """Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`, or some number beyond
+    `farthest`."""
+    if abs(len(a) - len(b)) > farthest:
+        return farthest + 1
     before: list[int] = []
     row = list(range(len(b) + 1))
     for i, x in enumerate(a, 1):

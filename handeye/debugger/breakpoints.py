@@ -3,13 +3,12 @@
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.debugger.listing import labels, numbered_stage
 from handeye.debugger.source_places import Place, named_place
-from handeye.diagnostics import quoted
+from handeye.diagnostics import nearest, quoted
 from handeye.errors import ERRORS, InvalidInput
 from handeye.events import AnyEvent, ErrorRaised, StageFinished
 from handeye.planfile.plan import Plan
@@ -17,8 +16,6 @@ from handeye.runs.advance import Stop
 from handeye.runs.runner import Runner
 from handeye.source import line_name
 
-NEAR: Final = 0.5
-"""How alike a name must be to be taken for what was meant, from 0 to 1."""
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)
 
@@ -131,7 +128,7 @@ def breakpoint(text: str, plan: Plan) -> Stop:
     if stop is None:
         known = [*labels(plan.program), *_words(plan), *plan.program.stages]
         raise InvalidInput(
-            f"the program has no label, instruction or stage {quoted(text)}{nearest(text, known)}"
+            f"the program has no label, instruction or stage {quoted(text)}{meant(text, known)}"
         )
     return stop
 
@@ -149,7 +146,7 @@ def stage_number(text: str, plan: Plan) -> int:
         return int(text) - 1
     found = _stage(text, plan)
     if found is None:
-        raise InvalidInput(f"there is no stage {quoted(text)}{nearest(text, stages)}")
+        raise InvalidInput(f"there is no stage {quoted(text)}{meant(text, stages)}")
     return found
 
 
@@ -167,18 +164,20 @@ def step_number(text: str, plan: Plan) -> int:
     found = labels(plan.program).get(text)
     if found is None:
         known = labels(plan.program)
-        raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{nearest(text, known)}")
+        raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
         raise InvalidInput(f"label {quoted(text)} stands for steps {where}; give one by its number")
     return found[0]
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """`; did you mean ...` with the known name that is most like `name`; nothing if none is like it."""
-    spelt = {choice.casefold(): choice for choice in known}
-    like = get_close_matches(name.casefold(), spelt, 1, NEAR)
-    return f"; did you mean {quoted(spelt[like[0]])}?" if like else ""
+def meant(name: str, known: Iterable[str]) -> str:
+    """`; did you mean ...` with the nearest known name, if half of `name` or more is right; else nothing.
+
+    What is typed at the stepper is short: `L9` may be meant for `L1`.
+    """
+    near = nearest(name, known, (len(name) + 1) // 2)
+    return f"; did you mean {quoted(near)}?" if near else ""
 
 
 # -- one kind each --------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.debugger import commands as acts
-from handeye.debugger.breakpoints import nearest
+from handeye.debugger.breakpoints import meant
 from handeye.debugger.reply import CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.views import TOPICS
@@ -53,7 +53,7 @@ def find(line: str) -> tuple[Command, str]:
     rest = f"{more} {rest}".strip()
     named = [command for command in COMMANDS if command.name == name]
     if not named:
-        near = nearest(word, [command.name for command in COMMANDS])
+        near = meant(word, [command.name for command in COMMANDS])
         if word.casefold() in _ELSEWHERE:
             near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
         raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` tells which there are'}")

@@ -4,7 +4,7 @@ import math
 import re
 from typing import Final
 
-from handeye.debugger.breakpoints import nearest
+from handeye.debugger.breakpoints import meant
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.program.program import Program
@@ -73,4 +73,4 @@ def _known(name: str, known: list[str], what: str) -> str:
     for choice in (name, name.upper()):
         if choice in known:
             return choice
-    raise InvalidInput(f"the program has no {what} {quoted(name)}{nearest(name, known)}")
+    raise InvalidInput(f"the program has no {what} {quoted(name)}{meant(name, known)}")

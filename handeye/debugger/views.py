@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from handeye.debugger.breakpoints import nearest
+from handeye.debugger.breakpoints import meant
 from handeye.debugger.view_records import (
     Error,
     Hand,
@@ -68,8 +68,8 @@ def write_picture(runner: Runner, file: Path) -> str:
 def _topic(what: str) -> str:
     found = [name for name in TOPICS if name.startswith(what.casefold())]
     if what.casefold() not in TOPICS and len(found) != 1:
-        meant = nearest(what, TOPICS) or f"; there are {', '.join(TOPICS)}"
-        raise InvalidInput(f"there is no {quoted(what)} to show{meant}")
+        near = meant(what, TOPICS) or f"; there are {', '.join(TOPICS)}"
+        raise InvalidInput(f"there is no {quoted(what)} to show{near}")
     return found[0]
 
 

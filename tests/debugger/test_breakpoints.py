@@ -113,7 +113,7 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
     [
         ("23", "line 23 lies behind the last step, which is on line 22"),
         ("99999999999", "the program has no label, instruction or stage `99999999999`"),
-        ("L9", "the program has no label, instruction or stage `L9`; did you mean `L3`?"),
+        ("L9", "the program has no label, instruction or stage `L9`; did you mean `L1`?"),
         ("AOK", "the program has no label, instruction or stage `AOK`; did you mean `AOJ`?"),
         ("STOP", "no step of the program begins with STOP"),
         ("shut the hnad", "the program has no label, instruction or stage `shut the hnad`; "
@@ -160,7 +160,7 @@ def test_a_step_is_found_by_its_number_or_its_label() -> None:
     [
         ("14", "there is no step 14; the program has steps 0 to 13"),
         ("-9", "`-9` is neither a step's number nor a label"),
-        ("L4", "`L4` is neither a step's number nor a label; did you mean `L3`?"),
+        ("L4", "`L4` is neither a step's number nor a label; did you mean `L1`?"),
     ],
 )
 def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:

@@ -497,7 +497,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("step -1", "step takes a number from 1 up; `-1` is none"),
         ("stage 2", "`stage` takes nothing behind it; `2` is too much"),
         ("until", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
-        ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L3`?"),
+        ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L1`?"),
         ("back", "this is the beginning; nothing lies before it"),
         ("back stage", "this is the beginning; nothing lies before it"),
         ("back x", "back takes a number from 1 up, or `stage`; `x` is none"),
