@@ -60,7 +60,7 @@ def test_a_stage_alone_without_a_checkpoint_has_the_earlier_ones_carried_out_fir
     code, out, err = command("run", planned(SCRIPT), "--stage", "once", "--json")
     assert (code, json.loads(out)["paused"]) == (0, True)
     assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
-    assert "no checkpoint of “once more” with this plan and seed: carrying out what comes before it" in err
+    assert "no checkpoint of “once more” with this plan and world: carrying out what comes before it" in err
 
 
 def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(command: Command, planned: Planned) -> None:

@@ -7,7 +7,7 @@ from typing import NoReturn
 from cyclopts import App, CycloptsError, Parameter
 
 from handeye import __version__
-from handeye.cli import benches, editing, plans, runs, scripts, teaching, traces, trials
+from handeye.cli import benches, editing, plans, runs, scripts, teaching, traces, trials, worlds
 from handeye.cli.common import complain, notes, screen
 from handeye.errors import HandeyeError
 
@@ -20,7 +20,7 @@ app = App(
     console=screen,
     error_console=notes,
 )
-for commands in (runs, teaching, scripts, editing, plans, traces, trials, benches):
+for commands in (runs, teaching, scripts, editing, plans, traces, worlds, trials, benches):
     commands.register(app)
 
 

@@ -7,7 +7,8 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Seed, WholeNumber, compiled, notes, screen, world
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, screen
+from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.resources import plans
 
@@ -20,7 +21,7 @@ def register(app: App) -> None:
     app.command(bench)
 
 
-def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
+def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     """Assemble once and print the timing table beside that of 1973."""
     from handeye.report.page import timing as table
     from handeye.report.progress import Progress
@@ -32,7 +33,7 @@ def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     with Progress(plan, notes) as progress:
         finished = run_plan(
             plan,
-            world=world(seed),
+            world=world.spec,
             camera=camera,
             planning_wall_s=planning,
             referee=False,
@@ -42,7 +43,7 @@ def timing(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     return 0 if finished.result.completed else 1
 
 
-def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
+def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     """Assemble once and say what checkpoints and trace cost, as shares of that run.
 
     Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
@@ -52,7 +53,7 @@ def overhead(*, seed: Seed = 0, camera: Camera = "auto") -> int:
     from handeye.trials.overhead import measure
 
     plan = compiled(plans() / "water_pump.al")
-    setup = Setup(plan=plan, world=world(seed), camera=camera)
+    setup = Setup(plan=plan, world=world.spec, camera=camera)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan, notes):
         cost = measure(setup, Path(folder) / "run")
     screen.print(f"working phase without them   {cost.run:6.2f} s of this computer's clock")

@@ -15,7 +15,6 @@ from handeye.files import beside
 from handeye.planfile.plan import Plan
 from handeye.program.taught import Taught, load_taught
 from handeye.source import Source
-from handeye.variation import WorldSpec
 
 Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
 PlanFile = Annotated[Path, Parameter(help="A plan, as `handeye plan` makes one (.plan.json).")]
@@ -35,9 +34,6 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
 
 
 WholeNumber = Annotated[int, Parameter(converter=_whole)]
-Seed = Annotated[
-    WholeNumber, Parameter(help="Draws the world: where the base lies, what is off by how much.")
-]
 Camera = Annotated[
     CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")
 ]
@@ -71,17 +67,6 @@ def note(text: str) -> None:
 def complain(error: object) -> None:
     """Say why nothing comes of a command."""
     notes.print(visible(f"handeye: {error}"), style="red", markup=False, soft_wrap=True)
-
-
-def world(seed: int) -> WorldSpec:
-    """The world of a seed.
-
-    Raises:
-        InvalidInput: it is negative.
-    """
-    if seed < 0:
-        raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
-    return WorldSpec(seed=seed)
 
 
 def compiled(file: Path) -> Plan:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, PlanFile, Seed, compiled, note, world
+from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, note
+from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
@@ -49,7 +50,7 @@ def register(app: App) -> None:
 
 def assemble(
     *,
-    seed: Seed = 0,
+    world: WorldOptions = ANY_WORLD,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -64,10 +65,11 @@ def assemble(
     from handeye.cli.job import Job, work
     from handeye.runs.snapshot import Checkpoint, Setup
 
+    spec = world.spec
     started = time.process_time()
     plan = compiled(plans() / "water_pump.al")
     planning = time.process_time() - started
-    setup = Setup(plan=plan, world=world(seed), camera=camera, judged=True)
+    setup = Setup(plan=plan, world=spec, camera=camera, judged=True)
     return work(
         Job(
             start=Checkpoint(setup=setup),
@@ -85,7 +87,7 @@ def run(
     file: PlanFile,
     /,
     *,
-    seed: Seed = 0,
+    world: WorldOptions = ANY_WORLD,
     judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = False,
     json: Json = False,
     out: Out = None,
@@ -118,7 +120,7 @@ def run(
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
-    start = Checkpoint(setup=Setup(plan=plan, world=world(seed), camera=camera, judged=judge))
+    start = Checkpoint(setup=Setup(plan=plan, world=world.spec, camera=camera, judged=judge))
     stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
     _check_order(plan, first, to)
     kept = _checkpoint_folder(checkpoints, out)
@@ -279,6 +281,6 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
         note(
-            f"no checkpoint of “{wanted}” with this plan and seed: carrying out what comes before it, from {reached}"
+            f"no checkpoint of “{wanted}” with this plan and world: carrying out what comes before it, from {reached}"
         )
     return found or start

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Seed, note, notes, screen, world
+from handeye.cli.common import Camera, Json, note, notes, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
+from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import beside, check_place
 from handeye.program.taught import Taught, load_taught
@@ -35,7 +36,7 @@ def register(app: App) -> None:
 
 def do(
     *functions: str,
-    seed: Seed = 0,
+    world: WorldOptions = ANY_WORLD,
     taught: TaughtFile = None,
     look: Looking = False,
     first: From = None,
@@ -62,7 +63,7 @@ def do(
     if keep is not None:
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
-        workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
+        workplace = _workplace(panic, _given(taught), world=world, camera=camera, look=look, first=first)
         lines = (f"DO {function}" for function in functions)
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
         failed = converse(ReplSession(repl), lines, _say, json=json, strict=True)
@@ -77,7 +78,7 @@ def repl(
     script: Path | None = None,
     /,
     *,
-    seed: Seed = 0,
+    world: WorldOptions = ANY_WORLD,
     taught: TaughtFile = None,
     look: Looking = False,
     first: From = None,
@@ -103,7 +104,7 @@ def repl(
         taught = beside(script, ".toml")
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
-        workplace = _workplace(panic, _given(taught), seed=seed, camera=camera, look=look, first=first)
+        workplace = _workplace(panic, _given(taught), world=world, camera=camera, look=look, first=first)
         lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
         typist = ReplSession(Repl(workplace=workplace, folder=folder))
         failed = converse(typist, lines, _say, json=json)
@@ -114,7 +115,7 @@ def teach(
     file: Path,
     /,
     *,
-    seed: Seed = 0,
+    world: WorldOptions = ANY_WORLD,
     first: From = None,
     camera: Camera = "auto",
     json: Json = False,
@@ -137,7 +138,7 @@ def teach(
     text = read_source(path).text if path.exists() else ""
     known = load_taught(path) if path.exists() else Taught()
     with PanicButton() as panic:
-        workplace = _workplace(panic, known, seed=seed, camera=camera, look=False, first=first)
+        workplace = _workplace(panic, known, world=world, camera=camera, look=False, first=first)
         teacher = Teacher(workplace=workplace, file=path, saved=text)
         lines = typed_lines(
             "teach> ",
@@ -152,22 +153,32 @@ def teach(
 
 
 def _workplace(
-    panic: PanicButton, taught: Taught | None, *, seed: int, camera: str, look: bool, first: Path | None
+    panic: PanicButton,
+    taught: Taught | None,
+    *,
+    world: WorldOptions,
+    camera: str,
+    look: bool,
+    first: Path | None,
 ) -> "Workplace":
     """The cell to work in.
 
     Raises:
-        InvalidInput: a file cannot be used, or the camera cannot work as asked.
+        InvalidInput: a file or an option cannot be used, or the camera cannot work as asked.
     """
     from handeye.execution.drive import Halted
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.teaching.workplace import Workplace
 
+    if first is not None and world.errors != ANY_WORLD.errors:
+        raise InvalidInput(
+            f"{first} brings its own world; --level, --without and --set do not go with --from"
+        )
     if first is not None:
         return Workplace.at(read_checkpoint(first), taught, panic)
     known = load_taught(plans() / "water_pump.toml") if taught is None else taught
     try:
-        return Workplace(world=world(seed), camera=camera, taught=known, look=look, halt=panic)
+        return Workplace(world=world.spec, camera=camera, taught=known, look=look, halt=panic)
     except Halted:
         raise KeyboardInterrupt from None
 

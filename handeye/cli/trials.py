@@ -1,4 +1,4 @@
-"""Commands that look at worlds: pictures, trials."""
+"""Commands that try things in many worlds and count."""
 
 import tempfile
 from pathlib import Path
@@ -6,7 +6,8 @@ from typing import Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Seed, WholeNumber, compiled, say, screen, world
+from handeye.cli.common import Camera, WholeNumber, compiled, say, screen
+from handeye.cli.world_options import ANY_ERRORS, ANY_WORLD, ErrorOptions, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import Kind, check_place, write_over
 from handeye.resources import plans
@@ -17,7 +18,6 @@ RESULTS: Final = Kind("list of results", rb'\{"assembled":')
 
 def register(app: App) -> None:
     """Add the commands to the command line."""
-    app.command(render)
     trials = App(name="trials", help="Try in many worlds and count.")
     trials.command(assembly_trials, name="assembly")
     trials.command(base_vision_trials, name="base")
@@ -26,29 +26,10 @@ def register(app: App) -> None:
     app.command(trials)
 
 
-def render(
-    *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
-    camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
-    width: WholeNumber = 1280,
-    height: WholeNumber = 960,
-    seed: Seed = 0,
-) -> int:
-    """Render a picture of the work cell."""
-    from handeye.cell.photograph import PNG, photograph_png
-    from handeye.cell.simulated import SimulatedCell
-    from handeye.tasks.water_pump.pump_world import PumpWorld
-
-    check_place(output, PNG)
-    cell = SimulatedCell(PumpWorld.draw(world(seed)), camera="ray")
-    write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
-    screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
-    return 0
-
-
 def assembly_trials(
     *,
     seeds: Annotated[str, Parameter(help="Worlds to try: a range such as 0-19, or one number.")] = "0-19",
+    errors: ErrorOptions = ANY_ERRORS,
     jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
     camera: Camera = "auto",
     out: Annotated[Path | None, Parameter(help="File for the results, one JSON object a line.")] = None,
@@ -66,7 +47,7 @@ def assembly_trials(
     if out is not None:
         check_place(out, RESULTS)
     results = []
-    worlds = [world(seed) for seed in chosen]
+    worlds = [errors.spec(seed) for seed in chosen]
     for result in assemble_many(compiled(plans() / "water_pump.al"), worlds, camera=camera, jobs=jobs):
         results.append(result)
         word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
@@ -88,7 +69,7 @@ def base_vision_trials(
     count: WholeNumber = 100,
     /,
     *,
-    seed: Annotated[WholeNumber, Parameter(help="Of the first world.")] = 0,
+    world: WorldOptions = ANY_WORLD,
     eye: Annotated[
         Literal["calibrated", "drawn", "true"], Parameter(help="What the program knows of its camera.")
     ] = "calibrated",
@@ -103,7 +84,7 @@ def base_vision_trials(
     """
     from handeye.trials.vision import WITHIN, base_trials
 
-    counts = base_trials(_some(count), world(seed), renderer=camera, camera=eye)
+    counts = base_trials(_some(count), world.spec, renderer=camera, camera=eye)
     x, y, turn = counts.rms
     screen.print(f"found {counts.found} of {counts.tried}, {counts.wrong} of them wrong")
     screen.print(f"{counts.within} within {WITHIN[0] / INCH:.2f} x {WITHIN[1] / INCH:.2f} in")
@@ -117,13 +98,13 @@ def gasket_vision_trials(
     count: WholeNumber = 50,
     /,
     *,
-    seed: Annotated[WholeNumber, Parameter(help="Of the first world.")] = 0,
+    world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
 ) -> int:
     """Check the gasket in many worlds: on properly, shifted, absent."""
     from handeye.trials.vision import gasket_trials
 
-    counts = gasket_trials(_some(count), world(seed), renderer=camera)
+    counts = gasket_trials(_some(count), world.spec, renderer=camera)
     for case, accepted in counts.accepted.items():
         screen.print(f"{case:12} accepted {accepted} of {counts.tried}")
     return 0
@@ -153,7 +134,7 @@ def breaking_trials(
     ],
     /,
     *,
-    seed: Seed = 0,
+    world: WorldOptions = ANY_WORLD,
     count: Annotated[WholeNumber, Parameter(help="How often Ctrl-C is pressed.")] = 20,
     jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
 ) -> int:
@@ -165,9 +146,10 @@ def breaking_trials(
 
     _some(jobs, "process")
     _some(count, "time")
+    spec = world.spec
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folder = Path(name)
-        whole = breaking.whole_run(folder / "whole", world(seed).seed)
+        whole = breaking.whole_run(folder / "whole", spec.seed, world.words())
         ways = {
             "killed": lambda: breaking.killed(whole, folder, jobs),
             "interrupted": lambda: breaking.interrupted(whole, folder, count, jobs),

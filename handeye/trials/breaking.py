@@ -5,7 +5,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,6 +48,8 @@ class UnbrokenRun:
 
     folder: Path
     seed: int
+    world: tuple[str, ...]
+    """The options of the command line that choose its world."""
     events: tuple[AnyEvent, ...]
     stages: tuple[str, ...]
 
@@ -57,20 +59,23 @@ class UnbrokenRun:
         return (self.folder / TRACE).read_bytes()
 
 
-def whole_run(folder: Path, seed: int) -> UnbrokenRun:
+def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
     """Assemble a pump without a break.
+
+    Args:
+        world: options of the command line that choose the world.
 
     Raises:
         TrialFailed: it was not assembled.
     """
-    done = handeye("assemble", "--seed", str(seed), "--out", str(folder))
+    done = handeye("assemble", *world, "--out", str(folder))
     if done.returncode != 0:
         raise TrialFailed(
             f"seed {seed} is not assembled even when nobody breaks it off (exit {done.returncode})"
         )
     events = tuple(effective(read_events(folder / EVENTS)))
     stages = tuple(event.stage for event in events if isinstance(event, StageStarted))
-    return UnbrokenRun(folder=folder, seed=seed, events=events, stages=stages)
+    return UnbrokenRun(folder=folder, seed=seed, world=tuple(world), events=events, stages=stages)
 
 
 def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
@@ -114,7 +119,7 @@ def alone(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
     def one(number: int) -> Verdict:
         place = folder / f"alone-{number + 1}"
         done = handeye(
-            "run", str(whole.folder / "plan.json"), "--seed", str(whole.seed),
+            "run", str(whole.folder / "plan.json"), *whole.world,
             "--stage", str(number + 1), "--checkpoints", str(whole.folder), "--out", str(place),
         )  # fmt: skip
         faults = [] if done.returncode == 0 else [f"exit code {done.returncode}"]
@@ -156,7 +161,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
 
 def _begun(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
     return subprocess.Popen(  # noqa: S603 - our own program
-        [sys.executable, "-m", "handeye", "assemble", "--seed", str(whole.seed), "--out", str(place)],
+        [sys.executable, "-m", "handeye", "assemble", *whole.world, "--out", str(place)],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
 

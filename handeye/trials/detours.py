@@ -20,7 +20,7 @@ def stepped(whole: UnbrokenRun, folder: Path) -> Iterator[Verdict]:
     """Step through the assembly from standard input, stopping at AOJ and on error 23, and going back ten times."""
     place = folder / "stepped"
     done = handeye(
-        "run", str(whole.folder / "plan.json"), "--seed", str(whole.seed), "--out", str(place),
+        "run", str(whole.folder / "plan.json"), *whole.world, "--out", str(place),
         "--step", "--judge", "--break", "AOJ", "--break", "error:23",
         said="\n".join(commands(whole.seed)),
     )  # fmt: skip

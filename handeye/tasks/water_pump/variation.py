@@ -106,37 +106,39 @@ def _arm() -> Iterator[Quantity]:
         "arm.wave_phase",
         {str(n): Phase() for n in range(1, 7)},
         "deg",
-        "Where in it the waviness of the reading is.",
+        "Where the waviness of the reading begins.",
     )
     yield from _group(
         "arm.pot_noise", _numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
-        "Reading-to-reading noise. Placeholder: far inside the .08 in repeatability of the 1974 data sheet.",
+        "Reading-to-reading noise of the potentiometers. Placeholder: far inside the .08 in repeatability of the 1974 "
+        "data sheet.",
     )  # fmt: skip
     yield from _group(
         "arm.tachometer_noise", _numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5),
         ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s"),
-        "Placeholder, after filtering: with 1/60 s it makes under .1 N of noise in the estimated hand force.",
+        "Noise of the tachometers. Placeholder, after filtering: with 1/60 s it makes under .1 N of noise in the "
+        "estimated hand force.",
     )  # fmt: skip
     yield from _group(
         "arm.link_mass", _numbered(Normal, *[3.0] * 6), "%",
-        "True mass over the controller's. Placeholder.", least=-90.0,
+        "True mass of each link over the controller's. Placeholder.", least=-90.0,
     )  # fmt: skip
     friction = (0.04, 0.04, 0.16, 0.008, 0.008, 0.004)
     yield from _group(
         "arm.friction", _numbered(Uniform, *(mean / 2 for mean in friction)),
         ("N m", "N m", "N", "N m", "N m", "N m"),
-        "Coulomb friction of the joints, varied by half; without its error it is the mean, set to 0 it is gone. "
+        "Coulomb friction of the joints, varied by half. Switched off, it is the mean; set to 0, there is none. "
         "Placeholder: the true arm had more and its programs knew it; this much makes about .15 N of false hand force.",
         nominal=friction, least=0.0,
     )  # fmt: skip
 
 
 def _hand() -> Iterator[Quantity]:
-    yield from _group("hand", {"gap_offset": Normal(0.01)}, "in", "Of the gap as read. Placeholder.")
-    yield from _group("hand", {"gap_scale": Normal(0.5)}, "%", "Of the gap as read. Placeholder.")
+    yield from _group("hand", {"gap_offset": Normal(0.01)}, "in", "Error of the gap as read. Placeholder.")
+    yield from _group("hand", {"gap_scale": Normal(0.5)}, "%", "Error of the gap as read. Placeholder.")
     yield from _group(
         "hand", {"gap_noise": Noise(0.001)}, "in",
-        "Placeholder: one step of a 12-bit converter over 4.13 in.",
+        "Noise of the gap as read. Placeholder: one step of a 12-bit converter over 4.13 in.",
     )  # fmt: skip
     yield from _group(
         "hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",
@@ -144,25 +146,32 @@ def _hand() -> Iterator[Quantity]:
         nominal=2.0, least=0.0,
     )  # fmt: skip
     yield from _group(
-        "screwdriver", {"torque_noise": Noise(0.004)}, "N m", "Screwdriver motor current. Placeholder."
+        "screwdriver",
+        {"torque_noise": Noise(0.004)},
+        "N m",
+        "Noise of the screwdriver's motor current. Placeholder.",
     )
 
 
 def _camera() -> Iterator[Quantity]:
     yield from _group(
-        "camera.place", {axis: Normal(0.15) for axis in "xyz"}, "in", f"Each axis of the mount. {_VISION}"
+        "camera.place",
+        {axis: Normal(0.15) for axis in "xyz"},
+        "in",
+        f"Where the camera's mount is, each axis. {_VISION}",
     )
     yield from _group(
         "camera.turn", {axis: Normal(0.2) for axis in ("pan", "tilt", "roll")}, "deg",
-        f"How the mount is turned. {_VISION}",
+        f"How the camera's mount is turned. {_VISION}",
     )  # fmt: skip
     yield from _group(
-        "camera.focal_length", {lens: Normal(0.4) for lens in ("25mm", "50mm")}, "%", f"Each lens. {_VISION}",
+        "camera.focal_length", {lens: Normal(0.4) for lens in ("25mm", "50mm")}, "%",
+        f"Focal length of each lens over that of the drawing. {_VISION}",
         least=-50.0,
     )  # fmt: skip
     yield from _group(
         "camera", {"pot_noise": Noise(0.07)}, "deg",
-        "Pan and tilt readings. Vision study: .07-.10 reproduces 1973.",
+        "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973.",
     )  # fmt: skip
 
 

@@ -1,0 +1,90 @@
+"""Options that choose a world, the same on every command that builds one."""
+
+from dataclasses import dataclass
+from typing import Annotated, Final, Literal
+
+from cyclopts import Group, Parameter
+
+from handeye.cli.common import WholeNumber
+from handeye.errors import InvalidInput
+from handeye.tasks.water_pump.variation import variation
+from handeye.variation import WorldSpec
+from handeye.world_options import overrides
+
+_GROUP: Final = Group("World", sort_key=1)
+LARGEST: Final = (1 << 63) - 1
+"""The greatest seed: what is written to disk has 64 bits and a sign."""
+
+
+@Parameter(name="*", group=_GROUP)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ErrorOptions:
+    """Which errors a world has, and how large they are."""
+
+    level: Annotated[
+        Literal["low", "nominal", "high"],
+        Parameter(help="`low`: every error half as large; `high`: twice."),
+    ] = "nominal"
+    without: Annotated[
+        list[str] | None,
+        Parameter(
+            help="Names, with commas, of errors or groups to switch off; `handeye world` lists them.",
+            consume_multiple=False,
+        ),
+    ] = None
+    settings: Annotated[
+        list[str] | None,
+        Parameter(
+            name="--set",
+            help="NAME=VALUE, such as camera.place.x=.3in; may be repeated.",
+            consume_multiple=False,
+        ),
+    ] = None
+
+    def spec(self, seed: int) -> WorldSpec:
+        """The world of a seed with these errors.
+
+        Raises:
+            InvalidInput: no such seed, name, unit or value.
+        """
+        if seed < 0:
+            raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
+        if seed > LARGEST:
+            raise InvalidInput(f"the largest seed is {LARGEST}; {seed} is larger")
+        off = [name.strip() for names in self.without or () for name in names.split(",") if name.strip()]
+        wanted = overrides(variation(seed), off, self.settings or ())
+        return WorldSpec(seed=seed, level=self.level, overrides=wanted)
+
+    def words(self) -> list[str]:
+        """The options as they would be typed."""
+        level = [] if self.level == "nominal" else ["--level", self.level]
+        without = [word for names in self.without or () for word in ("--without", names)]
+        return [*level, *without, *(word for setting in self.settings or () for word in ("--set", setting))]
+
+
+@Parameter(name="*", group=_GROUP)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldOptions:
+    """A world, or the first of several."""
+
+    seed: Annotated[
+        WholeNumber, Parameter(help="Draws the world: where the base lies, and how large each error is.")
+    ] = 0
+    errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
+
+    @property
+    def spec(self) -> WorldSpec:
+        """The world.
+
+        Raises:
+            InvalidInput: no such seed, name, unit or value.
+        """
+        return self.errors.spec(self.seed)
+
+    def words(self) -> list[str]:
+        """The options as they would be typed."""
+        return ["--seed", str(self.seed), *self.errors.words()]
+
+
+ANY_WORLD: Final = WorldOptions()
+ANY_ERRORS: Final = ErrorOptions()

@@ -1,0 +1,202 @@
+"""Worlds on the command line: the options that choose one, and the command that lists what is in it."""
+
+import json
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Command
+
+from handeye.cli.world_options import LARGEST, ErrorOptions, WorldOptions
+from handeye.tasks.water_pump.variation import SEVENTH, variation
+from handeye.trials import breaking
+from handeye.variation import Overrides, WorldSpec
+
+CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
+SPEC = {
+    "seed": 3,
+    "level": "high",
+    "overrides": {"without": ["base.x", "camera"], "set": {"part_mass": 0.05}},
+    "drawing": 1,
+}
+CHOOSING = [
+    "assemble", "run", "world", "render", "do", "repl", "teach", "bench timing", "bench overhead", "trials base",
+    "trials gasket", "trials breaking",
+]  # fmt: skip
+"""Commands that build a world."""
+
+
+def listed(command: Command, *words: str) -> dict[str, dict[str, object]]:
+    """The quantities that `handeye world --json` lists, by name."""
+    code, out, _ = command("world", "--json", *words)
+    assert code == 0
+    return {quantity["name"]: quantity for quantity in json.loads(out)["quantities"]}
+
+
+@pytest.mark.parametrize("words", [*CHOOSING, "trials assembly"])
+def test_every_command_that_builds_a_world_has_the_same_options(command: Command, words: str) -> None:
+    _, out, _ = command(*words.split(), "--help")
+    offered = [option for option in ("--seed", "--level", "--without", "--set") if f"{option} " in out]
+    assert offered == ["--seed", "--level", "--without", "--set"][words == "trials assembly" :]
+
+
+@pytest.mark.parametrize("seed", [0, SEVENTH])
+def test_every_quantity_is_listed(command: Command, seed: int) -> None:
+    assert list(listed(command, "--seed", str(seed))) == list(variation(seed).quantities)
+
+
+@pytest.mark.parametrize("columns", ["80", "120"])
+def test_the_list_fits_the_terminal(command: Command, monkeypatch: pytest.MonkeyPatch, columns: str) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    code, out, _ = command("world", *CHOSEN, "--without", "light,thread_phase")
+    rows = [line.split() for line in out.splitlines() if line.startswith("  ")]
+    assert (code, [row[0] for row in rows]) == (0, list(variation(3).quantities))
+    assert max(map(len, out.splitlines())) <= int(columns)
+
+
+def test_the_list_says_what_is_off_and_what_is_set(command: Command) -> None:
+    _, out, _ = command("world", *CHOSEN)
+    assert "The world of seed 3, level high, without base.x, camera, part_mass set\n" in out
+    rows = {line.split()[0]: " ".join(line.split()[1:]) for line in out.splitlines() if line.startswith("  ")}
+    assert rows["camera.pot_noise"] == "0 deg off (noise, sigma 0.14 deg)"
+    assert rows["part_mass"] == "5 % set (sigma 4 %)"
+    assert rows["arm.friction.1"].endswith("N m within 0.04 N m about 0.04 N m")
+
+
+def test_the_list_as_json_tells_the_world(command: Command) -> None:
+    _, out, _ = command("world", "--json", *CHOSEN)
+    assert json.loads(out)["world"] == SPEC
+    found = listed(command, *CHOSEN)
+    assert {name: found[name]["override"] for name in ("base.x", "base.y", "part_mass")} == {
+        "base.x": "off", "base.y": None, "part_mass": "set"
+    }  # fmt: skip
+
+
+def test_without_a_group_nothing_else_changes(command: Command) -> None:
+    before, after = listed(command, "--seed", "5"), listed(command, "--seed", "5", "--without", "fixtures")
+    changed = {name for name in before if before[name]["si"] != after[name]["si"]}
+    assert changed == {name for name in before if name.startswith("fixtures.")}
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("--without", "camra"), "no quantity of the world is called `camra`; did you mean `camera`?"),
+        (
+            ("--without", "arm.offset.7"),
+            "no quantity of the world is called `arm.offset.7`; did you mean `arm.",
+        ),
+        (
+            ("--without", "weather"),
+            "no quantity of the world is called `weather`; there are `base`, `arm`, `hand`",
+        ),
+        (("--set", "part_mass"), "`part_mass` sets nothing; write NAME=VALUE"),
+        (("--set", "part_mass=5kg"), "part_mass is not measured in `kg`; known: `%`"),
+        (("--set", "camera.place.x=3inn"), "camera.place.x is not measured in `inn`; did you mean `in`?"),
+        (("--set", "part_mass=-95"), "part_mass cannot be `-95`; -90 % is the least"),
+        (("--set", "arm.pot_noise.1=-1"), "arm.pot_noise.1 cannot be `-1`; 0 deg is the least"),
+        (("--set", "light.zenith=120"), "light.zenith cannot be `120`; it can be 0 to 89 deg"),
+        (("--set", "base.x=far"), "base.x cannot be `far`, which is not a number"),
+        (("--seed", str(LARGEST + 1)), f"the largest seed is {LARGEST}; {LARGEST + 1} is larger"),
+    ],
+)
+def test_what_cannot_be_chosen_is_refused_with_what_is_near(
+    command: Command, words: tuple[str, ...], sentence: str
+) -> None:
+    code, out, err = command("world", *words)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"handeye: {sentence}")
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["assemble", "render -o it.png", "do PARK", "teach it.al", "bench overhead", "trials base 1", "trials gasket 1",
+     "trials assembly", "trials breaking killed"],
+)  # fmt: skip
+def test_every_command_refuses_a_name_it_does_not_know(command: Command, words: str) -> None:
+    code, out, err = command(*words.split(), "--without", "camra")
+    assert (code, out) == (2, "")
+    assert err.endswith("no quantity of the world is called `camra`; did you mean `camera`?\n")
+
+
+def test_an_unknown_level_is_refused(command: Command) -> None:
+    code, _, err = command("assemble", "--level", "hihg")
+    assert (code, "high" in err) == (2, True)
+
+
+def test_a_world_can_be_chosen_again_by_its_words() -> None:
+    errors = ErrorOptions(
+        level="high", without=["camera,arm", "base"], settings=["part_mass=5%", "friction=0"]
+    )
+    assert WorldOptions(seed=3, errors=errors).words() == [
+        "--seed", "3", "--level", "high", "--without", "camera,arm", "--without", "base",
+        "--set", "part_mass=5%", "--set", "friction=0",
+    ]  # fmt: skip
+    assert WorldOptions().words() == ["--seed", "0"]
+
+
+def test_runs_that_are_to_be_broken_off_are_in_the_chosen_world(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    seen: list[str] = []
+
+    def handeye(*words: str) -> subprocess.CompletedProcess[str]:
+        seen.extend(words)
+        return subprocess.CompletedProcess(words, 1)
+
+    monkeypatch.setattr(breaking, "handeye", handeye)
+    with pytest.raises(breaking.TrialFailed):
+        breaking.whole_run(tmp_path, 3, CHOSEN)
+    assert tuple(seen) == ("assemble", *CHOSEN, "--out", str(tmp_path))
+
+
+# -- runs ---------------------------------------------------------------------------------------------
+
+SCRIPT = 'OPEN 2\nWHERE\nSTAGE "shut"\nOPEN 1\n'
+
+
+@pytest.fixture
+def half_run(command: Command, planned: Callable[[str], str]) -> Path:
+    """A run in a chosen world that stands before its second stage."""
+    code, _, _ = command("run", planned(SCRIPT), *CHOSEN, "--out", "half", "--until", "2")
+    assert code == 0
+    return Path("half")
+
+
+@pytest.mark.slow
+def test_a_run_records_its_world_and_goes_on_in_it(command: Command, half_run: Path) -> None:
+    assert command("resume", str(half_run))[0] == 0
+    result = json.loads((half_run / "result.json").read_text())
+    begun = json.loads((half_run / "events.jsonl").read_text().splitlines()[0])
+    assert (result["seed"], result["world"], begun["world"]) == (3, SPEC, SPEC)
+    code, out, _ = command("trace", "verify", str(half_run))
+    assert (code, "to the byte" in out) == (0, True)
+    assert (
+        "the world of seed 3, level high, without base.x, camera, part_mass set"
+        in command("trace", "show", str(half_run))[1]
+    )
+
+
+@pytest.mark.slow
+def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) -> None:
+    code, _, err = command("run", "job.plan.json", "--seed", "3", "--stage", "2", "--checkpoints", "half")
+    told = "is of another run (seed 3, level high, without base.x, camera, part_mass set, camera auto)"
+    assert (code, told in err.replace("\n", " ")) == (2, True)
+
+
+@pytest.mark.slow
+def test_a_checkpoint_brings_its_own_world(command: Command, half_run: Path) -> None:
+    kept = next((half_run / "checkpoints").glob("0002-*"))
+    code, _, err = command("do", "OPEN 1", "--from", str(kept), "--level", "low")
+    assert (code, "--level, --without and --set do not go with --from" in err.replace("\n", " ")) == (2, True)
+
+
+def test_equal_options_mean_equal_worlds() -> None:
+    errors = ErrorOptions(
+        level="high", without=["camera", "base.x,camera.place"], settings=["part_mass=0.05 "]
+    )
+    first = WorldOptions(seed=3, errors=errors).spec
+    assert first == WorldSpec(
+        seed=3, level="high", overrides=Overrides(without=("base.x", "camera"), set={"part_mass": 0.0005})
+    )
