@@ -17,6 +17,7 @@ import numpy as np
 from handeye.diagnostics import quoted, suggestion
 from handeye.distributions import Distribution
 from handeye.errors import InvalidInput
+from handeye.record import Record
 from handeye.units import UNITS, Unit
 
 DRAWING: Final = 1
@@ -48,16 +49,16 @@ class Quantity:
         return UNITS[self.unit]
 
 
-class Overrides(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Overrides(Record, frozen=True, kw_only=True):
     """What of a world is not as drawn."""
 
     without: tuple[str, ...] = ()
     """Quantities and groups at their nominal values, in the order of their names."""
-    set: dict[str, float] = {}
+    set: dict[str, float] = msgspec.field(default_factory=dict)
     """Values of quantities, SI; where both speak of one, this counts."""
 
 
-class WorldSpec(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class WorldSpec(Record, frozen=True, kw_only=True):
     """All that a world is drawn from, as a run records it. Equal specifications give equal worlds."""
 
     seed: Annotated[int, msgspec.Meta(ge=0)]

@@ -109,6 +109,7 @@ def verify(file: File, /) -> int:
         raise InvalidInput(
             f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too"
         )
+    trace.check_repeatable()
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
         sentence = (

@@ -108,4 +108,9 @@ def write_plan(path: Path, plan: Plan) -> None:
 
 def plan_digest(plan: Plan) -> str:
     """Sixteen hexadecimal digits that stand for a plan: of the bytes that `write_plan` writes."""
-    return hashlib.sha256(encode(plan).encode()).hexdigest()[:16]
+    return written_digest(encode(plan).encode())
+
+
+def written_digest(data: bytes) -> str:
+    """The digest of a plan by its bytes, as the handeye that wrote them took it."""
+    return hashlib.sha256(data).hexdigest()[:16]

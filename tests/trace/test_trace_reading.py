@@ -1,20 +1,20 @@
 """What is not a whole, sound trace of ours is refused with one sentence."""
 
+import hashlib
 import io
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
+from conftest import Command
 from hypothesis import given
 from hypothesis import strategies as st
 from mcap.writer import Writer
 from recordings import BOUNDARIES, EVENTS, PLAN, Recording, record
 
 from handeye.errors import InvalidInput
-from handeye.events import RunStarted
 from handeye.trace.channels import FORMAT, METADATA
 from handeye.trace.events_read import read_event
 from handeye.trace.reading import read_trace
@@ -166,28 +166,51 @@ def test_reading_leniently_ends_before_a_damaged_chunk(path: Path) -> None:
     assert events == EVENTS[: BOUNDARIES[-1]]
 
 
+PLAN_1 = (Path(__file__).parent.parent / "planfile" / "versions" / "1.plan.json").read_bytes()
 OLD = (
-    b'{"event":"RunStarted","time":10.0,"program":"short","steps":3,"plan":"x","arm":"stanford","arm_digest":"y",'
-    b'"seed":3,"camera":"ray casting","versions":{}}'
+    b'{"event":"RunStarted","time":10.0,"program":"short","steps":3,"plan":"%s","arm":"stanford","arm_digest":"y",'
+    b'"seed":3,"camera":"ray casting","versions":{}}' % hashlib.sha256(PLAN_1).hexdigest()[:16].encode()
 )
-"""How a run was said to begin before a world had a level."""
+"""How a run was said to begin before a world had a level, and the plan of one."""
 
 
-def test_an_event_of_an_older_handeye_is_read() -> None:
-    begun = read_event(OLD)
-    assert isinstance(begun, RunStarted)
-    assert begun.world == WorldSpec(seed=3, drawing=1)
+@pytest.fixture
+def old(tmp_path: Path) -> Path:
+    """A trace in format version 1."""
+    path = tmp_path / "old.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file, enable_data_crcs=True)
+        writer.start()
+        writer.add_metadata(METADATA, {"format": FORMAT, "version": "1"})
+        writer.add_attachment(0, 0, "plan.json", "application/json", PLAN_1)
+        channel = writer.register_channel(
+            "/events", "json", writer.register_schema("event", "jsonschema", b"{}")
+        )
+        writer.add_message(channel, 10**10, OLD, 10**10)
+        writer.finish()
+    return path
+
+
+def test_a_trace_of_an_older_handeye_is_told_and_counted(command: Command, old: Path) -> None:
+    code, out, _ = command("trace", "show", str(old))
+    assert (code, "short: 3 steps on the stanford arm, the world of seed 3" in out) == (0, True)
+    assert command("trace", "stats", str(old))[0] == 0
+    assert read_trace(old).head.world == WorldSpec(seed=3, drawing=1)
+
+
+@pytest.mark.parametrize("words", [("verify",), ("photograph", "--at", "10", "-o", "it.png")])
+def test_the_cell_of_a_trace_of_an_older_handeye_is_not_built_again(
+    command: Command, old: Path, words: tuple[str, ...]
+) -> None:
+    code, out, err = command("trace", words[0], str(old), *words[1:])
+    assert (code, out) == (2, "")
+    assert err == (
+        f"handeye: {old} was recorded by an older handeye, whose cell this one cannot build again: `trace show` and "
+        "`trace stats` tell of it; for the rest, carry the plan out again\n"
+    )
 
 
 @pytest.mark.parametrize("data", [b'{"event":"RunStarted","seed":-1}', b'{"event":"Gone"}', b"[3]", b"{"])
 def test_what_never_was_an_event_is_none_either(data: bytes) -> None:
     with pytest.raises(msgspec.DecodeError):
         read_event(data)
-
-
-def test_a_trace_of_an_older_handeye_is_read_but_not_built_again(path: Path) -> None:
-    trace = replace(read_trace(path), version=1)
-    with pytest.raises(
-        InvalidInput, match="was recorded by an older handeye, whose cell this one cannot build"
-    ):
-        trace.check_repeatable()
