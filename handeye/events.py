@@ -4,10 +4,14 @@ from typing import Literal
 
 import msgspec
 
+from handeye.ports.camera import Renderer
 from handeye.program.guards import GuardKind
 from handeye.record import Record
 from handeye.source import line_name
 from handeye.variation import WorldSpec
+
+Choice = Literal["proceed", "retry", "skip"]
+"""What an operator can do about a stop: go on after it, do the stage again, or leave out the rest of the stage."""
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
@@ -26,7 +30,7 @@ class RunStarted(Event, frozen=True, kw_only=True):
     arm: str
     arm_digest: str
     world: WorldSpec
-    camera: str
+    camera: Renderer
     """How pictures are made."""
     versions: dict[str, str]
 
@@ -174,7 +178,7 @@ class OperatorCalled(Event, frozen=True, kw_only=True):
 class OperatorAnswered(Event, frozen=True, kw_only=True):
     """What the operator chose after a stop, and the step the program goes on with (None: it ends)."""
 
-    choice: Literal["proceed", "retry", "skip"]
+    choice: Choice
     step: int | None
 
 

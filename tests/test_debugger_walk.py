@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from handeye.debugger.breakpoints import ToStage, stage_number
+from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.formatting import MOST, as_text
 from handeye.debugger.listing import listing_text
 from handeye.debugger.stepper import Stepper
@@ -16,6 +16,7 @@ from handeye.resources import plans
 from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.stops import AfterStage
 from handeye.trace.account import account
 from handeye.variation import WorldSpec
 
@@ -51,9 +52,10 @@ def plan() -> Plan:
 def stepper(plan: Plan) -> Stepper:
     """The run of the walk, where its commands begin."""
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=WorldSpec(seed=SEED), camera="auto")))
-    if not runner.cell.camera.renderer.startswith("OpenGL"):
+    if runner.cell.camera.renderer.method != "opengl":
         pytest.skip("the walk was made with pictures by OpenGL")
-    advance(runner, [ToStage(stage_number("insert", plan) - 1)])
+    before = stage_number("insert", plan) - 1
+    advance(runner, [AfterStage(stage=before, name=runner.stages[before])])
     return Stepper(runner)
 
 

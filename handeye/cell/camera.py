@@ -12,7 +12,7 @@ from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import CameraState, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
-from handeye.ports.camera import FIRST_LENS, Picture, TvCamera
+from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
 from handeye.vision.camera import DRAWING, CameraModel, View
 
 TURRET: Final = 20.0
@@ -79,8 +79,8 @@ class SimulatedCamera(TvCamera):
         return self._vidicon.expose(light, disc=disc, hold_target=hold_target), DIGITISE
 
     @property
-    def renderer(self) -> str:
-        return self._renderer.name
+    def renderer(self) -> Renderer:
+        return self._renderer.identity
 
     def capture(self) -> CameraState:
         """The state of mechanism, tube and noise."""

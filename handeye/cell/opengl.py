@@ -16,7 +16,7 @@ import numpy as np
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
 from handeye.errors import InvalidInput
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera import View
 
 PLATFORMS: Final = (
@@ -38,7 +38,7 @@ class OpenGlRenderer(SceneRenderer):
         """Raises InvalidInput if there is no usable OpenGL."""
         self._model = model
         platform, self._gl = context()
-        self.name = f"OpenGL ({platform})"
+        self.identity = Renderer(method="opengl", platform=platform)
         self._gl.make_current()
         self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, self._context)

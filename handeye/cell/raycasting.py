@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.pose import Array
 from handeye.vision.camera import View
 
@@ -19,7 +19,7 @@ SKY: Final = 0.1
 class RayRenderer(SceneRenderer):
     """Casts a ray for every sample, and another from every light for its shadow. Needs no OpenGL."""
 
-    name = "ray casting"
+    identity = Renderer(method="rays")
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self._model = model

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.vidicon import Luminance
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.pose import Array
 from handeye.vision.camera import View
 
@@ -27,7 +27,7 @@ SHOWN: Final = np.array([1, 0, 1, 0, 0, 0], dtype=np.uint8)
 class SceneRenderer(ABC):
     """Makes luminance of a scene and a view."""
 
-    name: str
+    identity: Renderer
 
     @abstractmethod
     def render(self, data: mujoco.MjData, view: View) -> Luminance:

@@ -11,11 +11,11 @@ from pathlib import Path
 from handeye.cli.common import note, notes, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
+from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import MOST
 from handeye.debugger.listing import labels
-from handeye.debugger.operator import Ask, Operator, attend, parse_policy
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
@@ -27,16 +27,19 @@ from handeye.report.pictures import keep_pictures
 from handeye.report.progress import Progress
 from handeye.report.result import Result, to_json
 from handeye.report.summary import summary
-from handeye.runs.advance import Pause, Stop
+from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
 from handeye.runs.folder import PICTURES, RESULT, RunFolder, open_new
 from handeye.runs.observer import Observer
+from handeye.runs.operator import Operator, attend, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.stops import AnyStop
 from handeye.tasks.water_pump.referee import judge
+from handeye.trace.sentences import renderer_name
 from handeye.versions import versions
 
-PANIC = Pause(kind="panic", sentence="stopped by hand; the brakes are set")
+PANIC = Pause(kind="panic")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +55,7 @@ class Job:
     """The run in that folder, if any, may be lost."""
     checkpoints: Path | None = None
     """Where states at the beginning of stages are kept besides."""
-    stops: Sequence[Stop] = ()
+    stops: Sequence[AnyStop] = ()
     """Where it ends, for now."""
     breaks: Sequence[str] = ()
     """Where it stops besides, as after --break."""
@@ -263,10 +266,10 @@ def _warn(runner: Runner) -> None:
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
     if begun is None:
         return
-    if begun.camera != runner.cell.camera.renderer:
-        note(
-            f"the run was begun with pictures by {begun.camera}; now they are by {runner.cell.camera.renderer}"
-        )
+    here = runner.cell.camera.renderer
+    if begun.camera != here:
+        before, now = renderer_name(begun.camera), renderer_name(here)
+        note(f"the run was begun with pictures by {before}; now they are by {now}")
     changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
     if changed:
         note(f"the run was begun with other versions of {', '.join(changed)}; it need not come out the same")

@@ -14,8 +14,8 @@ from handeye.planfile.store import read_plan
 from handeye.resources import plans
 
 if TYPE_CHECKING:
-    from handeye.runs.advance import Stop
     from handeye.runs.snapshot import Checkpoint
+    from handeye.runs.stops import AnyStop
 
 To = Annotated[str | None, Parameter(help="Stop when this stage has ended.")]
 Until = Annotated[
@@ -213,17 +213,19 @@ def resume(
     )
 
 
-def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) -> list["Stop"]:
+def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
     """Where a run ends; breaks are only looked at, so that a wrong one is told before anything moves."""
-    from handeye.debugger.breakpoints import ToStage, UntilStep, breakpoint, stage_number, step_number
+    from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
+    from handeye.runs.stops import AfterStage, BeforeStep
 
     for text in breaks:
         breakpoint(text, plan)
-    stops: list[Stop] = []
+    stops: list[AnyStop] = []
     if to is not None:
-        stops.append(ToStage(stage_number(to, plan)))
+        number = stage_number(to, plan)
+        stops.append(AfterStage(stage=number, name=plan.program.stages[number]))
     if until is not None:
-        stops.append(UntilStep(step_number(until, plan)))
+        stops.append(BeforeStep(steps=(step_number(until, plan),)))
     return stops
 
 
@@ -239,17 +241,18 @@ def _check_order(plan: Plan, first: str | None, last: str | None) -> None:
         raise InvalidInput(f"the run begins with “{begin}”, and “{end}” comes before that")
 
 
-def _check_ahead(start: "Checkpoint", stops: list["Stop"], breaks: list[str]) -> None:
+def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
     """Say of breaks that they lie behind where a run begins.
 
     Raises:
         InvalidInput: the step does at which it is to stop; it would run on to its end.
     """
     from handeye.debugger.ahead import is_ahead
-    from handeye.debugger.breakpoints import UntilStep, breakpoint
+    from handeye.debugger.breakpoints import breakpoint
+    from handeye.runs.stops import BeforeStep
 
     for stop in stops:
-        if isinstance(stop, UntilStep) and not is_ahead(stop, start):
+        if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
             raise InvalidInput(f"from where the run begins it never comes to step {stop.step}")
     for text in breaks:
         if not is_ahead(breakpoint(text, start.setup.plan), start):

@@ -1,109 +1,24 @@
-"""Reasons to stop, as a user names them: an error, a line, a label, an instruction, a stage, a step."""
+"""Breakpoints as a user names them: an error, a line, a label, an instruction, a stage, a step."""
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.debugger.listing import labels, numbered_stage
+from handeye.debugger.listing import labels
 from handeye.debugger.source_places import Place, named_place
 from handeye.diagnostics import nearest, quoted
 from handeye.errors import ERRORS, InvalidInput
-from handeye.events import AnyEvent, ErrorRaised, StageFinished
 from handeye.planfile.plan import Plan
-from handeye.runs.advance import Stop
-from handeye.runs.runner import Runner
+from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
 from handeye.source import line_name
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class _Watch:
-    """A reason to stop that never is one."""
-
-    def before(self, runner: Runner) -> str | None:
-        """Why to stop before the next step."""
-        return None
-
-    def after(self, events: Sequence[AnyEvent]) -> str | None:
-        """Why to stop behind a step."""
-        return None
-
-
-@dataclass(frozen=True, slots=True)
-class AtSteps(_Watch):
-    """Stop before any of some steps."""
-
-    steps: frozenset[int]
-    name: str
-    """What they are: `line 58`, `label L1`, `AOJ`."""
-
-    def before(self, runner: Runner) -> str | None:
-        return f"break at {self.name}" if runner.executor.state.at in self.steps else None
-
-    def __str__(self) -> str:
-        return self.name
-
-
-@dataclass(frozen=True, slots=True)
-class AtStage(_Watch):
-    """Stop when a stage is about to begin."""
-
-    stage: int
-    name: str
-
-    def before(self, runner: Runner) -> str | None:
-        step = runner.next
-        if step is None or step.stage != self.stage or not runner.executor.between_stages:
-            return None
-        return f"break at {self.name}"
-
-    def __str__(self) -> str:
-        return self.name
-
-
-@dataclass(frozen=True, slots=True)
-class OnError(_Watch):
-    """Stop behind the step that raised an error."""
-
-    number: int
-
-    def after(self, events: Sequence[AnyEvent]) -> str | None:
-        raised = any(isinstance(event, ErrorRaised) and event.number == self.number for event in events)
-        return f"break on {self}: {ERRORS[self.number]}" if raised else None
-
-    def __str__(self) -> str:
-        return f"error {self.number}"
-
-
-@dataclass(frozen=True, slots=True)
-class UntilStep(_Watch):
-    """Stop before a step, given by its number."""
-
-    step: int
-
-    def before(self, runner: Runner) -> str | None:
-        return f"step {self.step} is the next" if runner.executor.state.at == self.step else None
-
-
-@dataclass(frozen=True, slots=True)
-class ToStage(_Watch):
-    """Stop when a stage, given by its index, has ended."""
-
-    stage: int
-
-    def before(self, runner: Runner) -> str | None:
-        program, last = runner.setup.plan.program, runner.events[-1]
-        if not isinstance(last, StageFinished) or last.stage != program.stages[self.stage]:
-            return None
-        return f"{numbered_stage(program, self.stage)}, has ended"
-
-
-def breakpoint(text: str, plan: Plan) -> Stop:
-    """What a user wants to stop at.
+def breakpoint(text: str, plan: Plan) -> AnyStop:
+    """Read a breakpoint.
 
     Args:
         text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first behind it); a label; an
@@ -183,13 +98,13 @@ def meant(name: str, known: Iterable[str]) -> str:
 # -- one kind each --------------------------------------------------------------------------------------
 
 
-def _on_error(number: str) -> Stop:
+def _on_error(number: str) -> AnyStop:
     if not _NUMBER.fullmatch(number) or int(number) not in ERRORS:
         raise InvalidInput(f"there is no error {quoted(number)}; there are {', '.join(map(str, ERRORS))}")
-    return OnError(int(number))
+    return OnError(number=int(number))
 
 
-def _at_line(place: Place, plan: Plan) -> Stop:
+def _at_line(place: Place, plan: Plan) -> AnyStop:
     file, line = place
     lines = {i: step.line for i, step in enumerate(plan.program.steps) if step.file == file}
     if not lines:
@@ -199,14 +114,14 @@ def _at_line(place: Place, plan: Plan) -> Stop:
         behind, on = line_name(line, file), line_name(last, file)
         raise InvalidInput(f"line {behind} lies behind the last step, which is on line {on}")
     first = min(number for number in lines.values() if number >= line)
-    steps = frozenset(i for i, number in lines.items() if number == first)
-    return AtSteps(steps, f"line {line_name(first, file)}")
+    steps = tuple(i for i, number in lines.items() if number == first)
+    return AtLine(steps=steps, file=file, line=first)
 
 
-def _at_label(text: str, plan: Plan) -> Stop | None:
+def _at_label(text: str, plan: Plan) -> AnyStop | None:
     known = labels(plan.program)
     label = text if text in known else text.upper()
-    return AtSteps(frozenset(known[label]), f"label {label}") if label in known else None
+    return AtLabel(steps=tuple(known[label]), label=label) if label in known else None
 
 
 def _words(plan: Plan) -> list[str]:
@@ -214,14 +129,14 @@ def _words(plan: Plan) -> list[str]:
     return [step.text.split()[0].upper() if step.text.strip() else "" for step in plan.program.steps]
 
 
-def _at_word(text: str, plan: Plan) -> Stop | None:
-    steps = frozenset(i for i, word in enumerate(_words(plan)) if word == text.upper())
-    return AtSteps(steps, text.upper()) if steps else None
+def _at_word(text: str, plan: Plan) -> AnyStop | None:
+    steps = tuple(i for i, word in enumerate(_words(plan)) if word == text.upper())
+    return AtInstruction(steps=steps, word=text.upper()) if steps else None
 
 
-def _at_stage(text: str, plan: Plan) -> Stop | None:
+def _at_stage(text: str, plan: Plan) -> AnyStop | None:
     stage = _stage(text, plan)
-    return None if stage is None else AtStage(stage, numbered_stage(plan.program, stage))
+    return None if stage is None else AtStage(stage=stage, name=plan.program.stages[stage])
 
 
 def _stage(text: str, plan: Plan) -> int | None:

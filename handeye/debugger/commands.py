@@ -7,7 +7,7 @@ from typing import Final
 
 from msgspec import UNSET
 
-from handeye.debugger.breakpoints import ToStage, breakpoint
+from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.experiments import set_position, set_saved
 from handeye.debugger.reply import Break, CommandResult
 from handeye.debugger.session import DebugSession
@@ -15,11 +15,13 @@ from handeye.debugger.source_places import named_place, text_of
 from handeye.debugger.views import show, write_picture
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.execution.executor import Choice
+from handeye.events import Choice
 from handeye.files import check_place
+from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
 from handeye.runs.runner import reach
+from handeye.runs.stops import AfterStage, AfterSteps
 
 WIDE: Final = 8
 """Lines that `list` tells before and behind a line."""
@@ -31,14 +33,15 @@ def step(hands: DebugSession, rest: str) -> CommandResult:
     """Do so many steps."""
     count = _count(rest, "step takes a number from 1 up")
     pause = hands.go(steps=count)
-    as_asked = pause.kind == "break" and pause.sentence.startswith(f"{count} step")
+    as_asked = isinstance(pause.met, AfterSteps)
     return CommandResult(pause=pause, source=hands.source()) if as_asked else _told(hands, pause)
 
 
 def stage(hands: DebugSession, _: str) -> CommandResult:
     """Go on to the end of the stage."""
     present = hands.stage
-    return _told(hands, hands.go([] if present is None else [ToStage(present)]))
+    stops = [] if present is None else [AfterStage(stage=present, name=hands.runner.stages[present])]
+    return _told(hands, hands.go(stops))
 
 
 def go_on(hands: DebugSession, _: str) -> CommandResult:
@@ -53,7 +56,7 @@ def until(hands: DebugSession, rest: str) -> CommandResult:
 
 def _told(hands: DebugSession, pause: Pause) -> CommandResult:
     """How far a command came, and why no farther."""
-    said = hands.at_its_end() or pause.sentence
+    said = hands.at_its_end() or pause_sentence(pause)
     if pause.kind == "panic":
         said += "; the step that was broken off is undone"
     return CommandResult(pause=pause, source=hands.source(), said=said)
@@ -101,7 +104,7 @@ def set_break(hands: DebugSession, rest: str) -> CommandResult:
 
 def breaks(hands: DebugSession, _: str) -> CommandResult:
     """Tell which are set."""
-    return CommandResult(breaks=tuple(Break(number=n, at=str(stop)) for n, stop in hands.breaks.items()))
+    return CommandResult(breaks=tuple(Break(number=n, stop=stop) for n, stop in hands.breaks.items()))
 
 
 def delete(hands: DebugSession, rest: str) -> CommandResult:
@@ -180,7 +183,7 @@ def abort(hands: DebugSession, _: str) -> CommandResult:
 
 
 def _check_called(hands: DebugSession, word: str) -> None:
-    if not hands.runner.called:
+    if hands.runner.call is None:
         raise InvalidInput(f"`{word}` is for when the operator is called, and nobody has called")
 
 
@@ -213,7 +216,7 @@ def _file(name: str) -> Path:
 def leave(hands: DebugSession, _: str) -> CommandResult:
     """Keep the present state, and end."""
     hands.over = True
-    if hands.runner.ended and not hands.runner.called:
+    if hands.runner.ended and hands.runner.call is None:
         return CommandResult(said="nothing is left to go on with")
     if hands.idle:
         return CommandResult(said="nothing was done, so that nothing is kept")

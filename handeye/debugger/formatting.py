@@ -19,6 +19,7 @@ from handeye.debugger.view_records import (
     Shown,
     Taught,
 )
+from handeye.report.pauses import pause_sentence, stop_name
 from handeye.source import line_name
 
 MOST: Final = 24
@@ -26,7 +27,6 @@ MOST: Final = 24
 STATEMENT: Final = 30
 """Columns for a statement."""
 
-_encoder = msgspec.json.Encoder()
 _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in CommandResult.__struct_fields__)
 """Of the fields of an answer: the command and where the run stands first."""
 
@@ -34,7 +34,15 @@ _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in Command
 def as_json(reply: Reply) -> str:
     """The answer as a JSON object on one line."""
     fields = {name: getattr(reply, name) for name in _ORDER}
-    return _encoder.encode({n: value for n, value in fields.items() if value is not UNSET}).decode()
+    told = {name: msgspec.to_builtins(value) for name, value in fields.items() if value is not UNSET}
+    if reply.pause is not None:
+        told["pause"] |= {"sentence": pause_sentence(reply.pause)}
+    if reply.breaks is not UNSET:
+        told["breaks"] = [
+            {**shown, "at": stop_name(each.stop)}
+            for shown, each in zip(told["breaks"], reply.breaks, strict=True)
+        ]
+    return msgspec.json.encode(told).decode()
 
 
 def as_text(reply: Reply, most: int | None = None) -> str:
@@ -47,7 +55,9 @@ def as_text(reply: Reply, most: int | None = None) -> str:
     if reply.show is not UNSET:
         lines += shown_lines(reply.show)
     if reply.breaks is not UNSET:
-        lines += [f"{each.number:3}  {each.at}" for each in reply.breaks] or ["no breaks are set"]
+        lines += [f"{each.number:3}  {stop_name(each.stop)}" for each in reply.breaks] or [
+            "no breaks are set"
+        ]
     if reply.said is not UNSET:
         lines.append(reply.said)
     return "\n".join(lines)

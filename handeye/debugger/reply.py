@@ -8,13 +8,14 @@ from handeye.debugger.view_records import Shown
 from handeye.events import AnyEvent
 from handeye.record import Record
 from handeye.runs.advance import Pause
+from handeye.runs.stops import AnyStop
 
 
 class Break(Record, frozen=True, kw_only=True):
-    """A reason to stop, and the number to delete it by."""
+    """A breakpoint, and the number to delete it by."""
 
     number: int
-    at: str
+    stop: AnyStop
 
 
 class CommandResult(Record, frozen=True, kw_only=True):

@@ -6,16 +6,17 @@ from typing import Final
 
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.listing import SourceLine, excerpt
-from handeye.debugger.operator import beginnings
 from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.events import StepStarted
 from handeye.execution.drive import Halted
 from handeye.program.program import Program
-from handeye.runs.advance import Pause, Stop, advance
+from handeye.runs.advance import Pause, advance, ended
+from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AnyStop, ByHand
 
 AROUND: Final = 2
 """Lines of the script that are told before and behind the one where the run stands."""
@@ -28,7 +29,7 @@ class DebugSession:
         self,
         runner: Runner,
         *,
-        stops: Sequence[Stop] = (),
+        stops: Sequence[AnyStop] = (),
         kept: Callable[[int], Checkpoint | None],
         keep: Callable[[Checkpoint], Path | None],
         pictures: Path | None,
@@ -36,7 +37,7 @@ class DebugSession:
         """Take a run in hand.
 
         Args:
-            stops: reasons to stop besides breaks.
+            stops: conditions to stop at besides breakpoints.
             kept: the newest checkpoint on disk at a position or before it.
             keep: writes a checkpoint to where the run's are kept; None: they are kept nowhere.
             pictures: folder that the last picture is kept in when it is shown; None: nowhere.
@@ -46,7 +47,7 @@ class DebugSession:
         self.kept = kept
         self.keep = keep
         self.pictures = pictures
-        self.breaks: dict[int, Stop] = {}
+        self.breaks: dict[int, AnyStop] = {}
         """By their numbers, which are never used twice."""
         self.over = False
         self._set = 0
@@ -75,11 +76,11 @@ class DebugSession:
         if number is None:
             number = self._set = self._set + 1
             self.breaks[number] = stop
-        return Break(number=number, at=str(stop))
+        return Break(number=number, stop=stop)
 
     # -- going ----------------------------------------------------------------------------------------
 
-    def go(self, stops: Sequence[Stop] = (), steps: int | None = None) -> Pause:
+    def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
         """Go on to the next of these stops or a break, or so many steps.
 
         A step that is broken off, by the panic button or because something cannot be written, is undone.
@@ -103,8 +104,8 @@ class DebugSession:
     def pause(self) -> Pause:
         """Why the run stands still now."""
         if self.runner.ended:
-            return advance(self.runner)  # which then does nothing but say why
-        return Pause(kind="break", sentence="left by hand")
+            return ended(self.runner)
+        return Pause(kind="break", next=self.runner.at, met=ByHand())
 
     def at_its_end(self) -> str | None:
         """Why the run cannot go on by itself; None if it can."""
@@ -113,7 +114,7 @@ class DebugSession:
             return None
         if runner.trouble is not None:
             return f"the run cannot go on from here, only back: {runner.trouble}"
-        if runner.called:
+        if runner.call is not None:
             return "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
         return "the program has come to its end: `back` goes back from here, `quit` leaves"
 
@@ -150,7 +151,7 @@ class DebugSession:
     def stage(self) -> int | None:
         """The stage under way or about to begin, by index; None behind the last."""
         step = self.runner.next
-        present = self.runner.executor.state.stage
+        present = self.runner.stage
         return present if present is not None or step is None else step.stage
 
     @property

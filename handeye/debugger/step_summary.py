@@ -6,6 +6,7 @@ from typing import Final
 from handeye import events as happened
 from handeye.debugger.listing import one_line
 from handeye.events import AnyEvent
+from handeye.program.operations import Center, Close, Open
 from handeye.program.program import Program
 from handeye.record import Record
 from handeye.trace.sentences import inches, sentence
@@ -15,8 +16,8 @@ _BETWEEN: Final = (happened.StageStarted, happened.OperatorAnswered, happened.Ex
 """What happens between two steps."""
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
 """What happens in a step and is told otherwise, or not at all."""
-_HAND: Final = ("OPEN", "CLOSE", "CENTER")
-"""Instructions that come to a gap; other actions come to a place."""
+_HAND: Final = (Open, Close, Center)
+"""Operations that come to a gap; other actions come to a place."""
 
 
 class StepSummary(Record, frozen=True, kw_only=True):
@@ -62,7 +63,7 @@ def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Pro
     busy = sum(event.seconds for event in group if isinstance(event, happened.CameraBusy))
     if busy:
         said.append(f"the camera took {busy:.1f} s")
-    return "; ".join(said) or _end(group, step)
+    return "; ".join(said) or _end(group, step, program)
 
 
 def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Program) -> str:
@@ -72,11 +73,11 @@ def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Pr
     return "to the end" if onward is None else f"on at line {program.steps[onward].place}"
 
 
-def _end(group: Sequence[AnyEvent], step: happened.StepStarted) -> str:
+def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Program) -> str:
     """Where a step ended of which there is nothing else to say; nothing for one that took no time."""
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
-    if step.text.upper().startswith(_HAND):
+    if isinstance(program.steps[step.step].operation, _HAND):
         return f"gap {last.gap / INCH:.2f} in"
     return f"hand at {inches(last.hand)}"

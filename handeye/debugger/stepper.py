@@ -10,9 +10,10 @@ from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.session import DebugSession
 from handeye.debugger.step_summary import step_summaries
 from handeye.errors import HandeyeError
-from handeye.runs.advance import Pause, Stop
+from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AnyStop
 
 
 class Stepper:
@@ -23,7 +24,7 @@ class Stepper:
         runner: Runner,
         *,
         breaks: Sequence[str] = (),
-        stops: Sequence[Stop] = (),
+        stops: Sequence[AnyStop] = (),
         kept: Callable[[int], Checkpoint | None] = lambda _: None,
         keep: Callable[[Checkpoint], Path | None] = lambda _: None,
         pictures: Path | None = None,
@@ -92,7 +93,7 @@ class Stepper:
             time=runner.run.time,
             stage=None if stage is None else hands.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
-            step=runner.executor.state.at,
+            step=runner.at,
             script="" if step is None else step.file,
             line=None if step is None else step.line,
             text=None if step is None else step.text,

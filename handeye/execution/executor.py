@@ -9,6 +9,7 @@ import numpy as np
 from handeye import errors
 from handeye.arm.kinematics import forward
 from handeye.events import (
+    Choice,
     ErrorRaised,
     ErrorTested,
     HandTold,
@@ -33,9 +34,6 @@ from handeye.program.world_model import place
 
 IDLE_LIMIT: Final = 10_000
 """Steps without time passing after which a program is taken to run in a circle."""
-
-Choice = Literal["proceed", "retry", "skip"]
-"""What an operator can do about a stop: go on behind it, do the stage again, or leave out the rest of the stage."""
 
 _ACTIONS: Final[dict[type, Callable[[ExecutionContext, Any], Fault | None]]] = {
     op.Change: acting.change,
@@ -63,11 +61,6 @@ class Executor:
     def state(self) -> ExecutionState:
         """What it remembers, shared with the actions."""
         return self.run.state
-
-    @property
-    def between_stages(self) -> bool:
-        """No stage is under way, and one is to come."""
-        return self.state.stage is None and self.state.at is not None
 
     def step(self) -> None:
         """Do one step; the operator is called if it raises an error that the next one does not test."""

@@ -1,10 +1,12 @@
 """The television camera: a pan/tilt mount, a two-lens turret, a vidicon and its digitiser."""
 
 from abc import ABC, abstractmethod
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+
+from handeye.record import Record
 
 COLUMNS: Final = 333
 ROWS: Final = 256
@@ -20,6 +22,14 @@ FIRST_LENS: Final = CLOSE_UP
 
 Picture = NDArray[np.uint8]
 """A digitised television picture: ROWS by COLUMNS of intensities 0..15."""
+
+
+class Renderer(Record, frozen=True, kw_only=True):
+    """Method by which pictures are made; two methods, or two platforms, need not give the same picture."""
+
+    method: Literal["opengl", "rays", "none"]
+    platform: str = ""
+    """Library that draws for OpenGL: `EGL`, `OSMesa`, ..."""
 
 
 class TvCamera(ABC):
@@ -60,5 +70,5 @@ class TvCamera(ABC):
 
     @property
     @abstractmethod
-    def renderer(self) -> str:
-        """How pictures are made, for reports (`OpenGL (EGL)`, `ray casting`, ...)."""
+    def renderer(self) -> Renderer:
+        """How its pictures are made."""

@@ -100,7 +100,7 @@ def referee(result: Result) -> Table:
 def verdict(result: Result) -> Text:
     """The last word."""
     if result.paused:
-        return Text(f"The run stands still: {result.message}.", "bold")
+        return Text(f"{result.message[:1].upper()}{result.message[1:]}.", "bold")
     if not result.completed:
         where = f" in stage “{result.stopped_at}”" if result.stopped_at else ""
         number = f" (error {result.error})" if result.error is not None else ""

@@ -12,10 +12,12 @@ from handeye.events import (
     StageStarted,
 )
 from handeye.judge.finding import Finding
+from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.tasks.water_pump.referee import assembled
+from handeye.trace.sentences import renderer_name
 from handeye.units import INCH
 from handeye.versions import versions
 
@@ -31,8 +33,7 @@ def summary(
         planning: seconds of its processor for the planning phase.
     """
     completed = pause.kind == "end"
-    executor, names = runner.executor, runner.setup.plan.program.stages
-    stopped = executor.state.stopped
+    names = runner.stages
     checks = {
         name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
         for name, f in (findings or {}).items()
@@ -41,11 +42,9 @@ def summary(
         assembled=None if findings is None else completed and assembled(findings),
         completed=completed,
         paused=pause.kind == "break",
-        stopped_at=names[executor.state.stage]
-        if not completed and executor.state.stage is not None
-        else None,
-        error=stopped.error if stopped else None,
-        message=pause.sentence,
+        stopped_at=names[runner.stage] if not completed and runner.stage is not None else None,
+        error=pause.error,
+        message=pause_sentence(pause),
         interventions=tuple(interventions(runner.events)),
         stages=stage_times(names, runner.events),
         timing=_timing(runner, wall, planning),
@@ -104,7 +103,7 @@ def _timing(runner: Runner, wall: float, planning: float) -> Timing:
 
 
 def _camera(runner: Runner) -> CameraReport:
-    renderer, calibration = runner.cell.camera.renderer, runner.calibration
+    renderer, calibration = renderer_name(runner.cell.camera.renderer), runner.calibration
     if calibration is None:
         return CameraReport(renderer=renderer, sightings_rms_px={}, residual_in=None)
     residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}

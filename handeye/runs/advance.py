@@ -1,82 +1,90 @@
-"""Going on, step after step, until there is a reason to stop; states worth keeping are handed to the observers."""
+"""Going on, step after step, until a run pauses; states worth keeping are handed to the observers."""
 
 from collections.abc import Sequence
-from typing import Literal, Protocol
+from typing import Literal
 
-from handeye.events import AnyEvent
 from handeye.execution.drive import Halted
 from handeye.record import Record
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
-
-
-class Stop(Protocol):
-    """A reason to stop."""
-
-    def before(self, runner: Runner) -> str | None:
-        """Why to stop before the next step, in words."""
-
-    def after(self, events: Sequence[AnyEvent]) -> str | None:
-        """Why to stop behind a step in which these events happened."""
+from handeye.runs.stops import AfterSteps, AnyStop
 
 
 class Pause(Record, frozen=True, kw_only=True):
-    """Why a run stands still."""
+    """Why a run pauses, as facts."""
 
     kind: Literal["end", "operator", "trouble", "break", "panic"]
-    """The program came to its end, called the operator, cannot go on; a reason to stop was met; panic button."""
-    sentence: str
+    """The program ended, called the operator, cannot go on; a stop condition was met; the panic button."""
+    done: int = 0
+    """Steps done since the run went on."""
+    next: int | None = None
+    """The step to be done next; None if the run cannot go on by itself."""
+    met: AnyStop | None = None
+    """The stop condition, if one was met."""
+    error: int | None = None
+    """The error that the operator is called for."""
+    message: str = ""
+    """The words of the program to the operator, or of the cell that cannot go on."""
+    back: bool = False
+    """The panic button was hit on the way back in time."""
 
 
-def advance(runner: Runner, stops: Sequence[Stop] = (), steps: int | None = None) -> Pause:
-    """Do `steps` steps, or all that are left, but at least one before a reason to stop counts."""
+def advance(runner: Runner, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
+    """Do `steps` steps, or all that are left, but at least one before a stop condition counts."""
     done = 0
     while not runner.ended:
-        if runner.executor.between_stages:
+        if runner.between_stages:
             keep(runner, runner.history[-1])
-        sentence = _step(runner, stops)
-        if sentence is not None:
-            return sentence
+        pause = _step(runner, stops, done)
+        if pause is not None:
+            return pause
         done += 1
         if done == steps:
-            return Pause(
-                kind="end" if runner.ended else "break",
-                sentence=f"{done} step{'' if done == 1 else 's'} done",
-            )
-        reason = next((why for stop in stops if (why := stop.before(runner)) is not None), None)
-        if reason is not None and not runner.ended:
-            keep(runner, runner.history[-1])
-            return Pause(kind="break", sentence=reason)
-    return _ended(runner)
+            return Pause(kind="break", done=done, next=runner.at, met=AfterSteps(count=done))
+        pause = None if runner.ended else paused_before(runner, stops, done)
+        if pause is not None:
+            return pause
+    return ended(runner, done)
 
 
-def _step(runner: Runner, stops: Sequence[Stop]) -> Pause | None:
-    """One step; why to stop behind it."""
+def paused_before(runner: Runner, stops: Sequence[AnyStop], done: int = 0) -> Pause | None:
+    """Pause before the next step, if a condition says so; the state is kept then."""
+    met = next((stop for stop in stops if stop.met_before(runner)), None)
+    if met is None:
+        return None
+    keep(runner, runner.history[-1])
+    return Pause(kind="break", done=done, next=runner.at, met=met)
+
+
+def _step(runner: Runner, stops: Sequence[AnyStop], done: int) -> Pause | None:
+    """Do one step; the pause after it, if there is one."""
     happened = len(runner.events)
     try:
         runner.step()
     except Halted:
         keep(runner, runner.history[-1])
-        return Pause(kind="panic", sentence="stopped by hand; the brakes are set")
+        return Pause(kind="panic", done=done, next=runner.at)
+    done += 1
     if runner.ended:
-        pause = _ended(runner)
+        pause = ended(runner, done)
         keep(runner, runner.history[-2 if pause.kind == "operator" else -1])
         return pause
     events = runner.events[happened:]
-    reason = next((why for stop in stops if (why := stop.after(events)) is not None), None)
-    if reason is None:
+    met = next((stop for stop in stops if stop.met_after(events)), None)
+    if met is None:
         return None
     keep(runner, runner.history[-1])
-    return Pause(kind="break", sentence=reason)
+    return Pause(kind="break", done=done, next=runner.at, met=met)
 
 
-def _ended(runner: Runner) -> Pause:
+def ended(runner: Runner, done: int = 0) -> Pause:
+    """Say why a run cannot go on by itself."""
     if runner.trouble is not None:
-        return Pause(kind="trouble", sentence=runner.trouble)
-    called = runner.executor.state.stopped
-    if called is not None:
-        return Pause(kind="operator", sentence=called.message)
-    return Pause(kind="end", sentence="the program came to its end")
+        return Pause(kind="trouble", done=done, message=runner.trouble)
+    call = runner.call
+    if call is not None:
+        return Pause(kind="operator", done=done, error=call.error, message=call.message)
+    return Pause(kind="end", done=done)
 
 
 def keep(runner: Runner, snapshot: Snapshot) -> None:

@@ -14,8 +14,10 @@ from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
+    Choice,
     ExperimentMade,
     OperatorAnswered,
+    OperatorCalled,
     PanicStopped,
     RunStarted,
     StageStarted,
@@ -25,7 +27,7 @@ from handeye.events import (
 from handeye.execution.camera_calibration import LAST_LENS, CalibrationFailed, calibrate_camera
 from handeye.execution.context import ExecutionContext
 from handeye.execution.drive import Halted
-from handeye.execution.executor import Choice, Executor
+from handeye.execution.executor import Executor
 from handeye.execution.stopwatch import Stopwatch
 from handeye.planfile.store import plan_digest
 from handeye.ports.workcell import Sensed
@@ -122,18 +124,42 @@ class Runner:
     @property
     def ended(self) -> bool:
         """No step can be done, unless the operator says how to go on."""
-        return self.executor.state.at is None or self.trouble is not None
+        return self.at is None or self.trouble is not None
 
     @property
-    def called(self) -> bool:
-        """The operator has been called and has not answered."""
-        return self.executor.state.stopped is not None
+    def call(self) -> OperatorCalled | None:
+        """The call of the operator that has not been answered."""
+        return self.executor.state.stopped
+
+    @property
+    def at(self) -> int | None:
+        """The number of the step to be done next; None if the run cannot go on by itself."""
+        return self.executor.state.at
 
     @property
     def next(self) -> Step | None:
         """The step to be done next."""
-        at = self.executor.state.at
-        return None if at is None else self.setup.plan.program.steps[at]
+        return None if self.at is None else self.setup.plan.program.steps[self.at]
+
+    @property
+    def onward(self) -> int | None:
+        """After a call of the operator: the number of the step that would have been next."""
+        return self.executor.state.onward
+
+    @property
+    def stages(self) -> tuple[str, ...]:
+        """The names of the stages."""
+        return self.setup.plan.program.stages
+
+    @property
+    def stage(self) -> int | None:
+        """The index of the stage under way; None between two stages."""
+        return self.executor.state.stage
+
+    @property
+    def between_stages(self) -> bool:
+        """No stage is under way, and one is to come."""
+        return self.stage is None and self.at is not None
 
     @property
     def touched(self) -> bool:
@@ -187,7 +213,7 @@ class Runner:
         """
         while len(self.events) < len(events):
             then = events[len(self.events)]
-            if isinstance(then, OperatorAnswered) and self.called:
+            if isinstance(then, OperatorAnswered) and self.call is not None:
                 self.answer(then.choice)
             elif isinstance(then, ExperimentMade):
                 self._try_again(then)

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Final
 
 from handeye.events import (
     AnyEvent,
@@ -19,13 +18,11 @@ from handeye.runs.snapshot import Checkpoint, Setup
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import Trace, read_trace
 
-RAYS: Final = "ray casting"
-"""How `RunStarted` names a camera that uses no OpenGL."""
-
 
 def setup_of(begun: RunStarted, plan: Plan) -> Setup:
     """What a recorded run began with; its pictures are made in the way they were."""
-    return Setup(plan=plan, world=begun.world, camera="ray" if begun.camera == RAYS else "gl")
+    camera = "gl" if begun.camera.method == "opengl" else "ray"
+    return Setup(plan=plan, world=begun.world, camera=camera)
 
 
 def settled(events: Sequence[AnyEvent]) -> int:

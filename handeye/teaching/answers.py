@@ -12,6 +12,7 @@ from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import Shown
 from handeye.diagnostics import Diagnostic, as_json, has_errors, render
 from handeye.record import Record
+from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.source import Source
 
@@ -66,6 +67,8 @@ def json_line(answer: Answer) -> str:
     """The answer as a JSON object on one line."""
     found = [as_json(diagnostic, answer.source) for diagnostic in answer.diagnostics]
     told = msgspec.to_builtins(answer.said)
+    if answer.said.pause is not UNSET:
+        told["pause"] |= {"sentence": pause_sentence(answer.said.pause)}
     fields = {"typed": answer.typed, "time": answer.time, **({"diagnostics": found} if found else {}), **told}
     return msgspec.json.encode(fields).decode()
 
@@ -78,7 +81,7 @@ def text(answer: Answer) -> str:
     lines += [] if said.show is UNSET else shown_lines(said.show)
     lines += [] if said.lines is UNSET else said.lines
     if said.pause is not UNSET and answer.stopped in ("panic", "trouble"):
-        lines.append(said.pause.sentence)
+        lines.append(pause_sentence(said.pause))
     lines += [sentence for sentence in (said.said, said.error) if isinstance(sentence, str)]
     return "\n".join(lines)
 

@@ -14,7 +14,7 @@ from handeye.al.parser import parse
 from handeye.debugger.views import show
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import HandeyeError, InvalidInput
-from handeye.execution.executor import Choice
+from handeye.events import Choice
 from handeye.files import beside, write_whole
 from handeye.teaching.answers import Answer, CommandResult
 from handeye.teaching.functions import lasting

@@ -6,6 +6,7 @@ from msgspec import UNSET
 
 from handeye.debugger.step_summary import step_summaries
 from handeye.diagnostics import Diagnostic
+from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.source import Source
 from handeye.teaching.answers import NOTHING, Answer, CommandResult
@@ -32,7 +33,7 @@ def done(workplace: Workplace, pause: Pause, happened: int = 0) -> CommandResult
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.setup.plan.program)
     did = tuple(deed for deed in told if deed.line is not None)
-    return CommandResult(did=did, pause=pause, said=UNSET if did else pause.sentence)
+    return CommandResult(did=did, pause=pause, said=UNSET if did else pause_sentence(pause))
 
 
 def about(

@@ -9,7 +9,7 @@ import msgspec
 from handeye.al.includes import sewn
 from handeye.diagnostics import has_errors
 from handeye.errors import InvalidInput
-from handeye.execution.executor import Choice
+from handeye.events import Choice
 from handeye.source import Source, read_source
 from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED, is_open, mistakes

@@ -8,8 +8,7 @@ import msgspec
 
 from handeye.cell.simulated import PARK
 from handeye.errors import InvalidInput
-from handeye.events import RunStarted
-from handeye.execution.executor import Choice
+from handeye.events import Choice, RunStarted
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
@@ -144,7 +143,7 @@ class Workplace:
         Raises:
             InvalidInput: nobody has called.
         """
-        if not self.runner.called:
+        if self.runner.call is None:
             raise InvalidInput(f"`{choice}` is for when the operator is called, and nobody has called")
         self.runner.answer(choice)
         return self._go()

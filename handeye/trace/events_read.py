@@ -1,5 +1,6 @@
 """Events as traces and event lists hold them, those of an older handeye brought up to date."""
 
+import re
 from typing import Any, Final
 
 import msgspec
@@ -29,5 +30,14 @@ def _bring_up_to_date(event: dict[str, Any]) -> bool:
     """Write an event as it would be written today; False: there is nothing to be done."""
     if event.get("event") == "RunStarted" and "seed" in event:
         event["world"] = {"seed": event.pop("seed"), "drawing": 1}  # one generator in a fixed order, no level
+        event["camera"] = _renderer(str(event.get("camera")))
         return True
     return False
+
+
+def _renderer(name: str) -> dict[str, str]:
+    """How pictures are made, by the name that an older handeye wrote: `OpenGL (EGL)`, `ray casting`."""
+    opengl = re.fullmatch(r"OpenGL \((.*)\)", name)
+    if opengl is not None:
+        return {"method": "opengl", "platform": opengl[1]}
+    return {"method": "rays" if name == "ray casting" else "none"}

@@ -13,12 +13,10 @@ from mcap.writer import Writer
 from handeye import __version__
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
-from handeye.trace.channels import CHANNELS, EVENTS, FORMAT, METADATA, NUMBERS, PLAN, VERSION, nanoseconds
+from handeye.trace.channels import CHANNELS, FORMAT, METADATA, NUMBERS, PLAN, VERSION, nanoseconds
 
 CHUNK: Final = 1 << 20
 """Bytes of messages after which a chunk is closed."""
-_BOUNDARIES: Final = (b'{"event":"RunStarted"', b'{"event":"StageFinished"')
-"""Events behind which a run may be taken up again."""
 
 
 @dataclass(slots=True)
@@ -69,10 +67,8 @@ class GrowingFile:
     def begin(self, head: RunStarted, plan: bytes) -> None:
         """Write what stands before all messages: what the file is, the plan, the channels."""
         said = msgspec.to_builtins(head)
-        versions = said.pop("versions")
-        said |= {"seed": head.world.seed, "world": msgspec.json.encode(head.world).decode()}
-        said |= {f"versions.{name}": value for name, value in sorted(versions.items())}
-        metadata = {"format": FORMAT, "version": VERSION, **said}
+        said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
+        metadata = {"format": FORMAT, "version": VERSION, **_flat(said)}
         with self._complaining():
             self._writer.start(library=f"handeye {__version__}")
             self._writer.add_metadata(METADATA, {key: str(value) for key, value in metadata.items()})
@@ -83,8 +79,11 @@ class GrowingFile:
                 )
                 self._writer.register_channel(channel.topic, channel.encoding, schema)
 
-    def write(self, topic: str, time: int, data: bytes) -> None:
+    def write(self, topic: str, time: int, data: bytes, *, boundary: bool = False) -> None:
         """Write a message; `time` in ns. Nothing is written any more once something could not be.
+
+        Args:
+            boundary: a run may be taken up again after it: a chunk ends there.
 
         Raises:
             InvalidInput: it cannot be written (said once).
@@ -94,7 +93,7 @@ class GrowingFile:
         with self._complaining():
             self._writer.add_message(NUMBERS[topic], time, data, time)
             self._pending += len(data)
-            if self._pending >= CHUNK or (topic == EVENTS and data.startswith(_BOUNDARIES)):
+            if self._pending >= CHUNK or boundary:
                 self._end_chunk()
 
     def sync(self) -> None:
@@ -152,3 +151,14 @@ class GrowingFile:
         except BaseException:  # Ctrl-C in the middle of a chunk: what is there may be half of it
             self.broken = True
             raise
+
+
+def _flat(fields: dict[str, Any], before: str = "") -> dict[str, Any]:
+    """Fields within fields side by side, their names joined by points."""
+    flat: dict[str, Any] = {}
+    for name, value in fields.items():
+        inner = isinstance(value, dict)
+        flat |= (
+            _flat(dict(sorted(value.items())), f"{before}{name}.") if inner else {f"{before}{name}": value}
+        )
+    return flat

@@ -9,6 +9,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from handeye import errors
 from handeye import events as happened
 from handeye.events import Event
+from handeye.ports.camera import Renderer
 from handeye.program.guards import GuardKind
 from handeye.units import DEGREE, INCH, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
 
@@ -51,11 +52,17 @@ def inches(vector: Sequence[float], places: int = 2) -> str:
     return "(" + ", ".join(f"{round(c / INCH, places) + 0.0:.{places}f}" for c in vector) + ") in"
 
 
+def renderer_name(renderer: Renderer) -> str:
+    """How pictures are made: `OpenGL (EGL)`, `ray casting`, `none`."""
+    named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none"}[renderer.method]
+    return f"{named} ({renderer.platform})" if renderer.platform else named
+
+
 def sentence(event: Event) -> str:
     """What happened, without the time."""
     match event:
         case happened.RunStarted():
-            world = f"the world of {event.world}, pictures by {event.camera}"
+            world = f"the world of {event.world}, pictures by {renderer_name(event.camera)}"
             steps = f"{event.steps} step{'' if event.steps == 1 else 's'}"
             return f"{event.program}: {steps} on the {event.arm} arm, {world}"
         case happened.StageStarted():

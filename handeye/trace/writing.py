@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
-from handeye.events import Event, RunStarted, StepStarted
+from handeye.events import Event, RunStarted, StageFinished, StepStarted
 from handeye.ports.camera import Picture
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
@@ -23,6 +23,9 @@ MOVED: Final = 1e-6
 """Change of a pose (m, or of a component of its quaternion) that is worth writing down."""
 PUT_AWAY: Final = -1.0
 """Height (m) below which parts lie that have become something else; the floor is higher."""
+
+_BOUNDARIES: Final = (RunStarted, StageFinished)
+"""Events after which a run may be taken up again."""
 
 
 class Writing:
@@ -63,7 +66,7 @@ class Writing:
             file, line = self._place[0] or name, self._place[1]
             said = messages.log(time, level, sentence(event), name=name, file=file, line=line)
             self.file.write(LOG, time, said)
-        self.file.write(EVENTS, time, event_data(event))
+        self.file.write(EVENTS, time, event_data(event), boundary=isinstance(event, _BOUNDARIES))
         self.events += 1
 
     def picture(self, time: float, picture: Picture) -> None:
@@ -91,10 +94,10 @@ class Writing:
 
     def copy(self, message: RawMessage) -> None:
         """Write a message of another file."""
-        self.file.write(message.topic, message.time, message.data)
-        if message.topic == EVENTS:
+        event = read_event(message.data) if message.topic == EVENTS else None
+        self.file.write(message.topic, message.time, message.data, boundary=isinstance(event, _BOUNDARIES))
+        if event is not None:
             self.events += 1
-            event = read_event(message.data)
             self._place = (event.file, event.line) if isinstance(event, StepStarted) else self._place
         elif message.topic == FRAMES:
             for frame in FrameTransforms.FromString(message.data).transforms:

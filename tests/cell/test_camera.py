@@ -11,7 +11,7 @@ from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.vision.beam import Scan
 from handeye.vision.camera import DRAWING, View
@@ -39,7 +39,7 @@ def scene() -> mujoco.MjData:
 class Plain(SceneRenderer):
     """Light that gets brighter from left to right."""
 
-    name = "plain"
+    identity = Renderer(method="none")
 
     def render(self, data: mujoco.MjData, view: View) -> np.ndarray:
         return np.tile(np.linspace(0.1, 0.9, COLUMNS, dtype=np.float32), (ROWS, 1))

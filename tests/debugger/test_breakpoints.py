@@ -4,12 +4,14 @@ import pytest
 from short_runs import begin, plan_of
 from stepper_bench import AIR, reset
 
-from handeye.debugger.breakpoints import ToStage, UntilStep, breakpoint, stage_number, step_number
+from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
 from handeye.debugger.listing import labels
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
-from handeye.runs.advance import Pause, Stop, advance
+from handeye.report.pauses import pause_sentence
+from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
+from handeye.runs.stops import AfterStage, AnyStop, BeforeStep
 
 MACRO = """\
 DEFINE TWICE
@@ -47,10 +49,10 @@ def macro() -> Plan:
     return plan_of(MACRO)
 
 
-def stopped(runner: Runner, *stops: Stop) -> tuple[str, int | None]:
+def stopped(runner: Runner, *stops: AnyStop) -> tuple[str, int | None]:
     """Why the run stops, and before which line."""
-    pause: Pause = advance(runner, stops)
-    return pause.sentence, None if runner.next is None else runner.next.line
+    pause = advance(runner, stops)
+    return pause_sentence(pause), None if runner.next is None else runner.next.line
 
 
 @pytest.mark.slow
@@ -89,14 +91,18 @@ def test_a_break_that_was_met_does_not_stop_the_run_again_where_it_stands(runner
 
 @pytest.mark.slow
 def test_a_run_goes_to_the_end_of_a_stage(runner: Runner) -> None:
-    assert stopped(runner, ToStage(0)) == ("stage 1, open the hand, has ended", 7)
-    assert runner.executor.between_stages
-    assert stopped(runner, ToStage(1)) == ("stage 2, search in the air, has ended", 18)
+    assert stopped(runner, AfterStage(stage=0, name="open the hand")) == (
+        "stage 1, open the hand, has ended",
+        7,
+    )
+    assert runner.between_stages
+    searched = AfterStage(stage=1, name="search in the air")
+    assert stopped(runner, searched) == ("stage 2, search in the air, has ended", 18)
 
 
 @pytest.mark.slow
 def test_a_run_goes_until_a_step(runner: Runner) -> None:
-    assert stopped(runner, UntilStep(3)) == ("step 3 is the next", 8)
+    assert stopped(runner, BeforeStep(steps=(3,))) == ("paused before step 3", 8)
     assert runner.position == 3
 
 

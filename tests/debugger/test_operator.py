@@ -4,14 +4,19 @@ import pytest
 from short_runs import begin, history, plan_of
 from stepper_bench import AIR, reset
 
-from handeye.debugger.breakpoints import ToStage, breakpoint
-from handeye.debugger.operator import Abort, Ask, Back, Retry, attend, beginnings, parse_policy
+from handeye.debugger.ask import Ask
+from handeye.debugger.breakpoints import breakpoint
 from handeye.errors import InvalidInput
 from handeye.events import OperatorAnswered, OperatorCalled, StageFinished, StepStarted
+from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.observer import Observer
+from handeye.runs.operator import Abort, Back, Retry, attend, beginnings, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AfterStage
+
+SEARCHED = AfterStage(stage=1, name="search in the air")
 
 pytestmark = pytest.mark.slow
 
@@ -70,7 +75,7 @@ def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
 def test_abort_ends_the_run_where_the_operator_was_called(runner: Runner) -> None:
     pause = attend(runner, Abort())
     assert (pause.kind, calls(runner), answers(runner)) == ("operator", 1, [])
-    assert runner.called
+    assert runner.call is not None
 
 
 @pytest.mark.parametrize("times", [1, 3])
@@ -183,8 +188,8 @@ def test_whoever_is_asked_can_look_first(runner: Runner) -> None:
 
 
 def test_a_stage_that_is_skipped_has_ended(runner: Runner) -> None:
-    pause = attend(runner, Talk("s").operator, [ToStage(2)])
-    assert pause == Pause(kind="break", sentence="stage 3, grasp nothing, has ended")
+    pause = attend(runner, Talk("s").operator, [AfterStage(stage=2, name="grasp nothing")])
+    assert pause == Pause(kind="break", next=13, met=AfterStage(stage=2, name="grasp nothing"))
     assert [event.status for event in runner.events if isinstance(event, StageFinished)][-1] == "skipped"
 
 
@@ -199,7 +204,7 @@ def test_a_break_where_the_program_goes_on_after_an_answer_stops_it_and_the_stat
 
     runner.observers.append(Keep())
     pause = attend(runner, Talk("p").operator, [breakpoint("20", plan_of(AIR))])
-    assert pause == Pause(kind="break", sentence="break at line 20")
+    assert (pause.kind, pause_sentence(pause)) == ("break", "break at line 20")
     assert history(list(kept[-1].events)) == history(runner.events)
 
 
@@ -207,11 +212,11 @@ def test_a_run_that_nobody_needs_to_attend_to_comes_to_its_end(runner: Runner) -
     asked: list[str] = []
 
     class Never:
-        def answer(self, runner: Runner, sentence: str) -> Back:
-            asked.append(sentence)
+        def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> Back:
+            asked.append(call.message)
             return Back(stage=0)
 
-    pause = attend(runner, Never(), [ToStage(1)])
+    pause = attend(runner, Never(), [SEARCHED])
     assert (pause.kind, asked) == ("break", [])
 
 
@@ -222,7 +227,7 @@ def test_stages_are_known_by_where_they_began(runner: Runner) -> None:
 
 def test_going_back_reaches_what_is_only_on_disk(runner: Runner) -> None:
     at_start = runner.checkpoint()
-    attend(runner, Abort(), [ToStage(1)])
+    attend(runner, Abort(), [SEARCHED])
     late = Runner(runner.checkpoint())
     attend(late, Talk("b 1", "a").operator, kept=lambda _: at_start)
     attend(runner, Abort())
@@ -239,7 +244,7 @@ def test_help_says_again_what_can_be_said(runner: Runner, word: str) -> None:
 
 
 def test_going_back_behind_what_was_kept_is_told_and_asked_for_again(runner: Runner) -> None:
-    attend(runner, Abort(), [ToStage(1)])
+    attend(runner, Abort(), [SEARCHED])
     talk = Talk("b 1", "a")
     pause = attend(Runner(runner.checkpoint()), talk.operator)
     assert pause.kind == "operator"
@@ -250,14 +255,15 @@ def test_going_back_behind_what_was_kept_is_told_and_asked_for_again(runner: Run
 
 def test_the_panic_button_on_the_way_back_stops_the_run(runner: Runner) -> None:
     at_start = runner.checkpoint()
-    attend(runner, Abort(), [ToStage(1)])
+    attend(runner, Abort(), [SEARCHED])
     pressed: list[bool] = []
     late = Runner(runner.checkpoint(), halt=lambda: bool(pressed and pressed.pop()))
 
     class Panic:
-        def answer(self, runner: Runner, sentence: str) -> Back:
+        def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> Back:
             pressed.append(True)
             return Back(stage=1)
 
     pause = attend(late, Panic(), kept=lambda _: at_start)
-    assert pause == Pause(kind="panic", sentence="stopped by hand on the way back; the brakes are set")
+    assert pause == Pause(kind="panic", next=late.at, back=True)
+    assert pause_sentence(pause) == "stopped by hand on the way back; the brakes are set"

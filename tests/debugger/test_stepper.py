@@ -28,12 +28,13 @@ from handeye.events import (
 from handeye.execution.state import Shot
 from handeye.files import write_whole
 from handeye.pose import hand, hand_angles
-from handeye.runs.advance import Pause
+from handeye.report.pauses import pause_sentence, stop_name
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AtLabel, ByHand
 from handeye.units import INCH
 from handeye.vision.camera import DRAWING
 
@@ -74,6 +75,12 @@ def whole(built: Runner) -> bytes:
     return history(through(reset(built)).events)
 
 
+def why(reply: Reply) -> tuple[str, str]:
+    """The kind of a pause, and its sentence."""
+    assert reply.pause is not None
+    return reply.pause.kind, pause_sentence(reply.pause)
+
+
 def lines_of(stepper: Stepper, *commands: str, json: bool = False, prompt: bool = False) -> list[str]:
     """What is put out for some lines of input."""
     out: list[str] = []
@@ -101,7 +108,7 @@ def test_the_pin_insertion_with_breaks_and_ten_times_back_gives_the_events_of_a_
     said = ["c", "b", "s", "b 3", "c", "s", "c", "b 2", "c", "b", "b", "until AOJ", "bs", "until AOJ", "c"]
     said += ["b 4", "c", "c", "b", "c", "c", "b", "c", "b 9", *["c"] * 20]
     out = lines_of(stepper, *said)
-    assert not runner.called
+    assert runner.call is None
     assert history(runner.events) == expected
     assert sum("undone" in answer for answer in out) == 10
 
@@ -166,7 +173,7 @@ def test_of_a_long_way_the_last_lines_are_told(say: Say) -> None:
 
 def test_breaks_stop_the_run_and_can_be_listed_and_deleted(say: Say) -> None:
     listed = say("break AOJ", "break error:23", "break 8", "delete 1", "breaks")[-1]
-    assert [(each.number, each.at) for each in listed.breaks] == [(2, "error 23"), (3, "line 8")]
+    assert [(each.number, stop_name(each.stop)) for each in listed.breaks] == [(2, "error 23"), (3, "line 8")]
     assert [answer.line for answer in say("c", "c", "delete 2", "delete 3", "u 18")] == [8, 11, 11, 11, 18]
 
 
@@ -184,7 +191,9 @@ def test_a_break_that_is_set_already_is_not_set_again(say: Say, place: str, agai
 
 def test_breaks_given_at_the_beginning_are_set(runner: Runner, tmp_path: Path) -> None:
     stepper = Stepper(runner, breaks=["L1"], pictures=tmp_path)
-    assert stepper.do("c").pause == Pause(kind="break", sentence="break at label L1")
+    pause = stepper.do("c").pause
+    assert pause is not None
+    assert (pause.met, pause.next) == (AtLabel(steps=(3,), label="L1"), 3)
 
 
 def test_a_stepper_with_a_wrong_break_is_refused(runner: Runner, tmp_path: Path) -> None:
@@ -312,7 +321,7 @@ def test_going_back_undoes_an_experiment(say: Say) -> None:
 
 def test_the_call_of_the_operator_is_told_with_what_can_be_said(say: Say) -> None:
     called = say("c")[0]
-    assert called.pause == Pause(kind="operator", sentence=CALLED)
+    assert why(called) == ("operator", CALLED)
     assert (
         called.said == "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
     )
@@ -333,7 +342,7 @@ def test_abort_ends_the_run_where_the_operator_was_called(stepper: Stepper) -> N
 
 
 def test_one_can_go_back_instead_of_answering(say: Say, whole: bytes, runner: Runner) -> None:
-    assert say("c", "b", "c")[-1].pause == Pause(kind="operator", sentence=CALLED)
+    assert why(say("c", "b", "c")[-1]) == ("operator", CALLED)
     assert history(runner.events) == whole
 
 
@@ -342,7 +351,7 @@ def test_one_can_go_back_instead_of_answering(say: Say, whole: bytes, runner: Ru
 
 def test_the_end_of_the_program_is_told_and_one_can_go_back_from_it(say: Say) -> None:
     ended = say("c", "skip", "c")[-1]
-    assert ended.pause == Pause(kind="end", sentence="the program came to its end")
+    assert why(ended) == ("end", "the program came to its end")
     assert (ended.stage, ended.line) == (None, None)
     assert (
         say("step")[0].error == "the program has come to its end: `back` goes back from here, `quit` leaves"
@@ -354,14 +363,14 @@ def test_an_answer_that_ends_the_program_says_so(tmp_path: Path) -> None:
     stepper = Stepper(Runner(begin("OPEN .3\nWAIT HERE\n")), pictures=tmp_path)
     called, ended = stepper.do("c"), stepper.do("proceed")
     assert called.did[-1].outcome == "brakes set, the operator is called: HERE"
-    assert ended.pause == Pause(kind="end", sentence="the program came to its end")
+    assert why(ended) == ("end", "the program came to its end")
     assert ended.said == "the program has come to its end: `back` goes back from here, `quit` leaves"
 
 
 def test_the_end_of_the_input_is_taken_for_quit(stepper: Stepper) -> None:
     out: list[str] = []
     pause = interact(stepper, iter(["s"]), out.append)
-    assert pause == Pause(kind="break", sentence="left by hand")
+    assert (pause.kind, pause.met) == ("break", ByHand())
     assert out[-1].splitlines()[-1] == "nothing is kept"
 
 
@@ -451,7 +460,7 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
     runner = Runner(begin(AIR), halt=lambda: next(pressed, False))
     stepper = Stepper(runner, pictures=tmp_path)
     stopped = stepper.do("s 2")
-    assert stopped.pause == Pause(kind="panic", sentence="stopped by hand; the brakes are set")
+    assert why(stopped) == ("panic", "stopped by hand; the brakes are set")
     assert stopped.said == "stopped by hand; the brakes are set; the step that was broken off is undone"
     assert stopped.position < 2
     stepper.do("c")
@@ -564,7 +573,7 @@ def test_the_json_of_an_answer_says_where_the_run_stands_and_what_happened(stepp
     assert (first["position"], first["stage"], first["line"], first["text"]) == (
         3, "search in the air", 8, "MOVE    T"
     )  # fmt: skip
-    assert first["pause"] == {"kind": "break", "sentence": "break at label L1"}
+    assert (first["pause"]["kind"], first["pause"]["sentence"]) == ("break", "break at label L1")
     assert [event["event"] for event in first["events"]].count("StepFinished") == 3
     assert (first["error"], wrong["error"]) == (
         None,

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 from short_runs import GRASP, begin, history, plan_of
 
-from handeye.debugger.breakpoints import ToStage
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, WentBack
 from handeye.planfile.store import write_plan
@@ -20,6 +19,7 @@ from handeye.runs.folder import RunFolder, open_again, open_new
 from handeye.runs.journal import Journal
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AfterStage
 from handeye.trace.eventlist import effective, read_events
 
 pytestmark = pytest.mark.slow
@@ -347,5 +347,5 @@ def test_a_stage_alone_ends_in_the_state_it_has_within_the_whole_run(whole: Path
     assert start is not None
     assert end is not None
     runner = Runner(start)
-    assert advance(runner, [ToStage(1)]).kind == "break"
+    assert advance(runner, [AfterStage(stage=1, name=runner.stages[1])]).kind == "break"
     assert encode(runner.checkpoint()) == encode(end)

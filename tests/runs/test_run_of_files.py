@@ -6,14 +6,16 @@ from pathlib import Path
 import pytest
 from short_runs import begin, plan_of
 
-from handeye.debugger.breakpoints import AtSteps, breakpoint
+from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
 from handeye.debugger.listing import excerpt, excerpt_lines, labels, listing_text
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
+from handeye.report.pauses import stop_name
 from handeye.runs.runner import Runner
+from handeye.runs.stops import AtSteps
 
 FILES = {
     "lib/hand.al": '        STAGE   "hand"\n        OPEN    .5\nLH:     OPEN    .4\n',
@@ -72,7 +74,9 @@ def test_an_excerpt_of_a_required_file_names_it(plan: Plan) -> None:
 def test_a_break_is_a_line_of_the_script_or_of_a_file(
     plan: Plan, text: str, steps: set[int], name: str
 ) -> None:
-    assert breakpoint(text, plan) == AtSteps(frozenset(steps), name)
+    stop = breakpoint(text, plan)
+    assert isinstance(stop, AtSteps)
+    assert (set(stop.steps), stop_name(stop)) == (steps, name)
 
 
 @pytest.mark.parametrize(

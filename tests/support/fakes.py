@@ -8,7 +8,7 @@ import numpy as np
 from handeye.arm.dynamics import inverse_dynamics, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
-from handeye.ports.camera import COLUMNS, ROWS, Picture, TvCamera
+from handeye.ports.camera import COLUMNS, ROWS, Picture, Renderer, TvCamera
 from handeye.ports.workcell import Drive, Sensed, Workcell
 from handeye.pose import Array
 from handeye.units import JIFFY
@@ -34,7 +34,7 @@ class Wall:
 class FakeCamera(TvCamera):
     """Hands out scripted pictures; every mechanical action takes one second."""
 
-    renderer = "none"
+    renderer = Renderer(method="none")
 
     def __init__(self, pictures: list[Picture] | None = None) -> None:
         self.pictures = list(pictures or [])

@@ -16,7 +16,7 @@ from handeye.events import Event, RunStarted, StageFinished
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest
 from handeye.planning.planner import make_plan
-from handeye.ports.camera import Picture
+from handeye.ports.camera import Picture, Renderer
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.taught import Taught
@@ -107,7 +107,7 @@ def started(time: float = 10.0) -> RunStarted:
     """The beginning of the run."""
     return RunStarted(
         time=time, program="short", steps=3, plan=plan_digest(plan()), arm=STANFORD.name, arm_digest="0" * 16,
-        world=WorldSpec(seed=7), camera="none", versions={"handeye": "0", "mujoco": "4"},
+        world=WorldSpec(seed=7), camera=Renderer(method="none"), versions={"handeye": "0", "mujoco": "4"},
     )  # fmt: skip
 
 

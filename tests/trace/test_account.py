@@ -2,12 +2,13 @@
 
 from handeye import events as happened
 from handeye.events import AnyEvent
+from handeye.ports.camera import Renderer
 from handeye.trace.account import account
 from handeye.variation import WorldSpec
 
 BEGUN = happened.RunStarted(
     time=10.0, program="pins", steps=5, plan="0123456789abcdef", arm="Stanford", arm_digest="0" * 16,
-    world=WorldSpec(seed=7), camera="ray casting", versions={"handeye": "0.1.0"},
+    world=WorldSpec(seed=7), camera=Renderer(method="rays"), versions={"handeye": "0.1.0"},
 )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from handeye import events as happened
 from handeye.events import AnyEvent, Event
+from handeye.ports.camera import Renderer
 from handeye.trace.sentences import LEVELS, inches, sentence
 from handeye.variation import Overrides, WorldSpec
 
@@ -53,7 +54,7 @@ def test_only_events_that_there_are_are_logged() -> None:
                 arm="stanford",
                 arm_digest="",
                 world=WorldSpec(seed=2),
-                camera="ray casting",
+                camera=Renderer(method="rays"),
                 versions={},
             ),
             "first: 1 step on the stanford arm, the world of seed 2, pictures by ray casting",

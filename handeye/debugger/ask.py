@@ -1,0 +1,103 @@
+"""Asks a person how to go on when the operator is called."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from handeye.debugger.breakpoints import stage_number
+from handeye.debugger.formatting import shown_lines
+from handeye.debugger.listing import excerpt, excerpt_lines, numbered_stage
+from handeye.debugger.views import show
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.events import Choice, OperatorCalled, StepStarted
+from handeye.runs.operator import Back, OperatorChoice, beginnings
+from handeye.runs.runner import Runner
+
+_CHOICES: Final[dict[str, Choice | Literal["abort"]]] = {
+    "p": "proceed", "r": "retry", "s": "skip", "a": "abort"
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """Asks in words; the end of the lines is taken for `abort`."""
+
+    lines: Iterator[str]
+    write: Callable[[str], None]
+    """Puts out lines of text; the end of the last one is not in them."""
+
+    def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
+        """How to go on."""
+        self._say(_question(runner, refused or call.message))
+        for line in self.lines:
+            word, _, rest = line.strip().partition(" ")
+            try:
+                answer = self._understood(runner, word.casefold(), rest.strip())
+            except InvalidInput as mistake:
+                self._say([str(mistake)])
+                continue
+            if answer is not None:
+                return answer
+        self._say(["the answers have come to their end: abort"])
+        return "abort"
+
+    def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
+        """The answer in a line; None if it only wanted to see something.
+
+        Raises:
+            InvalidInput: it is none.
+        """
+        if word in ("b", "back"):
+            return Back(stage=_begun(runner, rest))
+        if word in ("h", "help", "?"):
+            self._say(_choices(runner))
+            return None
+        if word == "show":
+            self._say(shown_lines(show(runner, rest)))
+            return None
+        choice = _CHOICES.get(word[:1])
+        if choice is None or rest or not choice.startswith(word):
+            said = quoted(f"{word} {rest}".strip())
+            raise InvalidInput(f"{said} is no answer; say p, r, s, b, a or show")
+        return choice
+
+    def _say(self, lines: Sequence[str]) -> None:
+        self.write("\n".join(lines))
+
+
+def _begun(runner: Runner, text: str) -> int:
+    """The stage a user names, the present one if none, that has begun."""
+    present = runner.stage
+    stage = present if not text and present is not None else stage_number(text, runner.setup.plan)
+    if stage not in beginnings(runner):
+        raise InvalidInput(f"{numbered_stage(runner.setup.plan.program, stage)}, has not begun yet")
+    return stage
+
+
+def _question(runner: Runner, sentence: str) -> list[str]:
+    """What happened, where, and what can be said to it."""
+    program, stage = runner.setup.plan.program, runner.stage
+    assert stage is not None
+    step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
+    return [
+        f"The operator is called in {numbered_stage(program, stage)}:",
+        f"    {sentence}",
+        *excerpt_lines(excerpt(program, step.line, step.line, 2, step.file), "■"),
+        *_choices(runner),
+    ]
+
+
+def _choices(runner: Runner) -> list[str]:
+    """What can be said, and what it does here."""
+    program, onward = runner.setup.plan.program, runner.onward
+    first = next(step.place for step in program.steps if step.stage == runner.stage)
+    where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"
+    return [
+        f"p          proceed behind it: {where}",
+        f"r          retry: the stage again from line {first}, with the world as it is now",
+        "s          skip: leave out the rest of the stage",
+        "b [STAGE]  back: in time to the beginning of this stage, or of an earlier one",
+        "a          abort",
+        "show       see joints, hand, force, saved differences, parts and so on",
+    ]

@@ -1,0 +1,54 @@
+"""Sentences about a run that pauses."""
+
+from handeye.errors import ERRORS
+from handeye.inspection.wording import counted
+from handeye.runs import stops
+from handeye.runs.advance import Pause
+from handeye.runs.stops import AnyStop
+from handeye.source import line_name
+
+
+def pause_sentence(pause: Pause) -> str:
+    """Say why a run pauses, without a full stop."""
+    if pause.met is not None:
+        return _met(pause.met)
+    if pause.kind == "panic":
+        return f"stopped by hand{' on the way back' if pause.back else ''}; the brakes are set"
+    return "the program came to its end" if pause.kind == "end" else pause.message
+
+
+def stop_name(stop: AnyStop) -> str:
+    """Name a stop condition as people do: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
+    match stop:
+        case stops.AtLine():
+            return f"line {line_name(stop.line, stop.file)}"
+        case stops.AtLabel():
+            return f"label {stop.label}"
+        case stops.AtInstruction():
+            return stop.word
+        case stops.BeforeStep():
+            return f"step {stop.step}"
+        case stops.AtStage() | stops.AfterStage():
+            return f"stage {stop.stage + 1}, {stop.name}"
+        case stops.OnError():
+            return f"error {stop.number}"
+        case stops.AfterSteps():
+            return counted(stop.count, "step")
+        case stops.ByHand():
+            return "by hand"
+
+
+def _met(stop: AnyStop) -> str:
+    match stop:
+        case stops.BeforeStep():
+            return f"paused before {stop_name(stop)}"
+        case stops.AfterStage():
+            return f"{stop_name(stop)}, has ended"
+        case stops.OnError():
+            return f"break on {stop_name(stop)}: {ERRORS[stop.number]}"
+        case stops.AfterSteps():
+            return f"{stop_name(stop)} done"
+        case stops.ByHand():
+            return "left by hand"
+        case _:
+            return f"break at {stop_name(stop)}"

@@ -1,0 +1,145 @@
+"""Policies for when the operator is called: give up, or try again so many times; asking people is the debugger's."""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.events import Choice, OperatorAnswered, OperatorCalled, StageStarted, StepFinished
+from handeye.execution.drive import Halted
+from handeye.record import Record
+from handeye.runs.advance import Pause, advance, keep, paused_before
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AnyStop
+
+
+class Back(Record, frozen=True, kw_only=True):
+    """Go back in time to where a stage, given by its index, last began."""
+
+    stage: int
+
+
+OperatorChoice = Choice | Literal["abort"] | Back
+
+
+class Operator(Protocol):
+    """Somebody, or a rule, to say how to go on."""
+
+    def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
+        """How to go on with a run that called the operator.
+
+        Args:
+            refused: why the last answer to this call could not be carried out.
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class Abort:
+    """Gives up."""
+
+    def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
+        """How to go on."""
+        return "abort"
+
+
+@dataclass(frozen=True, slots=True)
+class Retry:
+    """Does each stage again at most so many times, then gives up.
+
+    It counts what has happened in the run, so that a run taken up again goes on as if never broken off.
+    """
+
+    times: int
+
+    def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
+        """How to go on."""
+        done, now = 0, None
+        for event in runner.events:
+            if isinstance(event, StageStarted):
+                now = runner.stages.index(event.stage)
+            elif isinstance(event, OperatorAnswered) and event.choice == "retry" and now == runner.stage:
+                done += 1
+        return "retry" if done < self.times else "abort"
+
+
+def parse_policy(text: str) -> Operator | None:
+    """The operator that `abort` or `retry:N` stands for; None for `ask`, which takes somebody to ask.
+
+    Raises:
+        InvalidInput: it is none of these.
+    """
+    if text == "abort":
+        return Abort()
+    if text == "ask":
+        return None
+    times = re.fullmatch(r"retry:([1-9][0-9]{0,5})", text)
+    if times is None:
+        raise InvalidInput(
+            f"what to do on a stop is abort, ask, or retry:N with N from 1 up; {quoted(text)} is none of these"
+        )
+    return Retry(int(times[1]))
+
+
+def attend(
+    runner: Runner,
+    operator: Operator,
+    stops: Sequence[AnyStop] = (),
+    kept: Callable[[int], Checkpoint | None] = lambda _: None,
+) -> Pause:
+    """Go on until the run pauses in a way that the operator does not settle.
+
+    Args:
+        kept: the newest checkpoint on disk at a position or before it, for going back.
+    """
+    refused: str | None = None
+    while True:
+        pause, call = advance(runner, stops), runner.call
+        if call is None:
+            return pause
+        answer = operator.answer(runner, call, refused)
+        if answer == "abort":
+            return pause
+        refused = None
+        try:
+            stopped = _carry_out(runner, answer, stops, kept)
+        except InvalidInput as mistake:
+            refused = str(mistake)
+            continue
+        if stopped is not None:
+            return stopped
+
+
+def _carry_out(
+    runner: Runner, answer: Choice | Back, stops: Sequence[AnyStop], kept: Callable[[int], Checkpoint | None]
+) -> Pause | None:
+    """Do what the operator says; the pause after it, if there is one.
+
+    Raises:
+        InvalidInput: no state from so far back was kept.
+    """
+    if isinstance(answer, Back):
+        try:
+            runner.back_to(beginnings(runner)[answer.stage], kept)
+        except Halted:
+            keep(runner, runner.history[-1])
+            return Pause(kind="panic", next=runner.at, back=True)
+        return None
+    runner.answer(answer)
+    return None if runner.ended else paused_before(runner, stops)
+
+
+def beginnings(runner: Runner) -> dict[int, int]:
+    """Where each stage last began: steps done then, by index of the stage, the last to begin last."""
+    found: dict[int, int] = {}
+    done = 0
+    for event in runner.events:
+        if isinstance(event, StepFinished):
+            done += 1
+        elif isinstance(event, StageStarted):
+            stage = runner.stages.index(event.stage)
+            found.pop(stage, None)
+            found[stage] = done
+    return found

@@ -1,0 +1,99 @@
+"""Conditions that pause a run, as facts: a breakpoint, the end of a stage, so many steps."""
+
+from collections.abc import Sequence
+
+from handeye.events import AnyEvent, ErrorRaised, StageFinished
+from handeye.record import Record
+from handeye.runs.runner import Runner
+
+
+class StopCondition(Record, frozen=True, kw_only=True, tag_field="stop", tag=True):
+    """Base of the conditions; one by itself never pauses a run."""
+
+    def met_before(self, runner: Runner) -> bool:
+        """Pause before the step that is next."""
+        return False
+
+    def met_after(self, events: Sequence[AnyEvent]) -> bool:
+        """Pause after a step in which these events happened."""
+        return False
+
+
+class AtSteps(StopCondition, frozen=True, kw_only=True):
+    """Pause before any of some steps, given by their numbers."""
+
+    steps: tuple[int, ...]
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.at in self.steps
+
+
+class AtLine(AtSteps, frozen=True, kw_only=True):
+    """Pause before the steps on a line of the source, or of a required file."""
+
+    file: str
+    line: int
+
+
+class AtLabel(AtSteps, frozen=True, kw_only=True):
+    """Pause before the steps that a label stands before."""
+
+    label: str
+
+
+class AtInstruction(AtSteps, frozen=True, kw_only=True):
+    """Pause before the steps that begin with an instruction word."""
+
+    word: str
+
+
+class BeforeStep(AtSteps, frozen=True, kw_only=True):
+    """Pause before one step."""
+
+    @property
+    def step(self) -> int:
+        """Its number."""
+        return self.steps[0]
+
+
+class AtStage(StopCondition, frozen=True, kw_only=True):
+    """Pause when a stage, given by its index and name, is about to begin."""
+
+    stage: int
+    name: str
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.between_stages and runner.next is not None and runner.next.stage == self.stage
+
+
+class OnError(StopCondition, frozen=True, kw_only=True):
+    """Pause after the step that raised an error."""
+
+    number: int
+
+    def met_after(self, events: Sequence[AnyEvent]) -> bool:
+        return any(isinstance(event, ErrorRaised) and event.number == self.number for event in events)
+
+
+class AfterStage(StopCondition, frozen=True, kw_only=True):
+    """Pause when a stage, given by its index and name, has ended."""
+
+    stage: int
+    name: str
+
+    def met_before(self, runner: Runner) -> bool:
+        last = runner.events[-1]
+        return isinstance(last, StageFinished) and last.stage == self.name
+
+
+class AfterSteps(StopCondition, frozen=True, kw_only=True):
+    """Pause after so many steps; who goes on counts them."""
+
+    count: int
+
+
+class ByHand(StopCondition, frozen=True, kw_only=True):
+    """Pause because somebody left the run as it was."""
+
+
+AnyStop = AtLine | AtLabel | AtInstruction | BeforeStep | AtStage | OnError | AfterStage | AfterSteps | ByHand
