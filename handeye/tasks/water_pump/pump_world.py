@@ -6,10 +6,10 @@ from typing import Self
 import numpy as np
 
 from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
+from handeye.tasks.water_pump.stations import Station
 from handeye.tasks.water_pump.variation import (
     ARM_CENTRE,
     ARM_PERIOD,
-    FIXTURES,
     JOINT_UNITS,
     RUBBING,
     SEVENTH,
@@ -52,8 +52,8 @@ class PumpWorld:
     hand: HandErrors
     camera: CameraErrors
     light: Light
-    fixtures: dict[str, Placing]
-    """Error of each fixture, by the names in FIXTURES."""
+    fixtures: dict[Station, Placing]
+    """Error of each fixture."""
     holes: tuple[tuple[float, float], ...]
     """Error of each tapped hole in the base, m; as many as there are holes."""
     part_mass: float
@@ -79,7 +79,7 @@ class PumpWorld:
                 strength=world["light.strength"],
                 ambient=world["light.ambient"],
             ),
-            fixtures={name: _placing(world, f"fixtures.{name}") for name in FIXTURES},
+            fixtures={station: _placing(world, f"fixtures.{station}") for station in Station},
             holes=tuple((world[f"holes.{hole}.x"], world[f"holes.{hole}.y"]) for hole in holes),
             part_mass=1 + world["part_mass"],
             friction={name: 1 + world[f"friction.{name}"] for name in RUBBING},

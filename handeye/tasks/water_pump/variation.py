@@ -11,6 +11,7 @@ import numpy as np
 
 from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
 from handeye.tasks.water_pump.old_draws import OldVariation
+from handeye.tasks.water_pump.stations import Station
 from handeye.variation import Quantity, Variation
 
 JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
@@ -22,7 +23,6 @@ BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
 """Where the base lies: its reference point (in) and the direction of its line of centres (deg)."""
-FIXTURES: Final = ("blocks", "pin_holder", "gasket_stand", "top_stand", "rack", "dispenser")
 RUBBING: Final = ("pad", "table", "part", "thread")
 SEVENTH: Final = 7_000_000
 """The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
@@ -190,9 +190,9 @@ def _light() -> Iterator[Quantity]:
 
 
 def _fixtures() -> Iterator[Quantity]:
-    for fixture in FIXTURES:
+    for station in Station:
         yield from _group(
-            f"fixtures.{fixture}", {"x": Normal(0.02), "y": Normal(0.02), "yaw": Normal(0.2)},
+            f"fixtures.{station}", {"x": Normal(0.02), "y": Normal(0.02), "yaw": Normal(0.2)},
             ("in", "in", "deg"), "Where the fixture stands against its drawing. Placeholder.",
         )  # fmt: skip
 

@@ -14,6 +14,7 @@ from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.dimensions import dimensions, parse
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.scene.shapes import Bore
+from handeye.tasks.water_pump.stations import Station
 from handeye.units import INCH
 
 
@@ -87,7 +88,7 @@ def test_blocks_touch_the_base_in_its_standard_position(bench):
 
 def test_fixtures_stand_off_their_places_by_the_worlds_error():
     world = PumpWorld.sample(4)
-    first, error = Bench(world), world.fixtures["rack"]
+    first, error = Bench(world), world.fixtures[Station.RACK]
     away = first.data.body("driver").xpos[:2] - np.array([6, 33]) * INCH
     assert away == pytest.approx((error.x, error.y), abs=1e-9)
 

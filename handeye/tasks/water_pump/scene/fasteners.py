@@ -14,6 +14,7 @@ from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import dispenser_places, pin_seat
 from handeye.tasks.water_pump.scene.fixtures import add_fixture
 from handeye.tasks.water_pump.scene.shapes import MESH, Bore, Shaper
+from handeye.tasks.water_pump.stations import Station
 
 
 def add_pins(shaper: Shaper, world: PumpWorld) -> None:
@@ -22,7 +23,7 @@ def add_pins(shaper: Shaper, world: PumpWorld) -> None:
     x0, y0, x1, y1 = d.all("pin_holder.places")
     radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
     hole = Bore(radius=radius, outer=0.0125, height=0.021, above=chamfer)
-    fixture = add_fixture(shaper, world, "pin_holder", ((x0 + x1) / 2, (y0 + y1) / 2))
+    fixture = add_fixture(shaper, world, Station.PIN_HOLDER, ((x0 + x1) / 2, (y0 + y1) / 2))
     block = solids.extruded(solids.rectangle(x0 - 0.02, y0 - 0.02, x1 + 0.02, y1 + 0.02, 0.004), 0.0, height)
     for number, (x, y) in enumerate([(x0, y0), (x1, y1)]):
         shaper.ring(fixture.body, "holder", hole, (x, y, height - hole.height), lambda _: "bore")
@@ -51,7 +52,7 @@ def add_screws(shaper: Shaper, world: PumpWorld) -> None:
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
     hole = Bore(radius=0.0034, outer=0.0095, height=0.010, above=0.0015)
-    fixture = add_fixture(shaper, world, "dispenser", (x, y))
+    fixture = add_fixture(shaper, world, Station.DISPENSER, (x, y))
     beyond = (len(world.holes) - 6) * d("dispenser.pitch")
     low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064 + beyond)
     block = solids.extruded(solids.rectangle(*low, *high, 0.004), 0.0, height)

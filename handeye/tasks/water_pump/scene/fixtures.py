@@ -10,6 +10,7 @@ from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import Point
 from handeye.tasks.water_pump.scene.shapes import Shaper
+from handeye.tasks.water_pump.stations import Station
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,11 +40,11 @@ def upright(angle: float) -> list[float]:
     return [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
 
 
-def add_fixture(shaper: Shaper, world: PumpWorld, name: str, middle: Point) -> Fixture:
-    """An empty fixture; `name` is one of the world's fixtures, `middle` (m) what its error turns about."""
-    error = world.fixtures[name]
+def add_fixture(shaper: Shaper, world: PumpWorld, station: Station, middle: Point) -> Fixture:
+    """An empty fixture; `middle` (m) is what its error turns about."""
+    error = world.fixtures[station]
     X = planar(middle[0] + error.x, middle[1] + error.y, 0.0, error.yaw) @ inverse(planar(*middle, 0.0, 0.0))
-    body = shaper.spec.worldbody.add_body(name=name, pos=X[:3, 3].tolist(), quat=upright(yaw(X)))
+    body = shaper.spec.worldbody.add_body(name=station, pos=X[:3, 3].tolist(), quat=upright(yaw(X)))
     return Fixture(body=body, X_WF=X)
 
 
@@ -51,7 +52,7 @@ def add_blocks(shaper: Shaper, world: PumpWorld) -> None:
     """The two aligning blocks: the base is pushed against the far one (+y), then the left one (-x)."""
     d = dimensions()
     far, left, height = d.all("blocks.far"), d.all("blocks.left"), d("blocks.height")
-    fixture = add_fixture(shaper, world, "blocks", (left[2], far[1]))
+    fixture = add_fixture(shaper, world, Station.BLOCKS, (left[2], far[1]))
     for name, (x0, y0, x1, y1) in (("block_far", far), ("block_left", left)):
         block = shaper.box(fixture.body, "solid", (x0, y0, 0.0), (x1, y1, height), "block", name)
         block.group = 2
@@ -69,7 +70,7 @@ def add_gasket_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
     """Two rails under the gasket's rims, open in the middle for the fingers."""
     d = dimensions()
     (x, y), height = d.all("gasket_stand.grasp"), d("gasket_stand.height")
-    fixture = add_fixture(shaper, world, "gasket_stand", (x, y))
+    fixture = add_fixture(shaper, world, Station.GASKET_STAND, (x, y))
     for side in (-1, 1):
         low, high = sorted((y + side * 0.0165, y + side * 0.0365))
         rail = shaper.box(
@@ -87,7 +88,7 @@ def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
     """A table for the pump's top."""
     d = dimensions()
     (x, y), height = d.all("top_stand.grasp"), d("top_stand.height")
-    fixture = add_fixture(shaper, world, "top_stand", (x, y))
+    fixture = add_fixture(shaper, world, Station.TOP_STAND, (x, y))
     plate = shaper.box(
         fixture.body,
         "solid",

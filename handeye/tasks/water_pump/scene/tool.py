@@ -6,13 +6,14 @@ from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
+from handeye.tasks.water_pump.stations import Station
 
 
 def add_driver(shaper: Shaper, world: PumpWorld) -> None:
     """The rack, and the screwdriver hanging in it: a square grip block with a spindle below."""
     d = dimensions()
     x, y = d.all("rack.place")
-    fixture = add_fixture(shaper, world, "rack", (x, y))
+    fixture = add_fixture(shaper, world, Station.RACK, (x, y))
     _add_rack(shaper, fixture)
     half, high = d("driver.width") / 2, d("driver.height") / 2
     body = fixture.stand(shaper, "driver", x, y, d("rack.height") + high)
