@@ -52,7 +52,7 @@ def plan() -> Plan:
 def stepper(plan: Plan) -> Stepper:
     """The run of the walk, where its commands begin."""
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=WorldSpec(seed=SEED), camera="auto")))
-    if runner.cell.camera.renderer.method != "opengl":
+    if runner.cell.renderer.method != "opengl":
         pytest.skip("the walk was made with pictures by OpenGL")
     before = stage_number("insert", plan) - 1
     advance(runner, [AfterStage(stage=before, name=runner.stages[before])])

@@ -2,47 +2,80 @@
 
 import numpy as np
 import pytest
-from fakes import FakeWorkcell, Wall
+from driving import Drive, tick
+from fakes import FakeArm, FakeAxes, FakeCell, FakeClock, Wall
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
-from handeye.ports.workcell import Drive
-from handeye.pose import Array
+from handeye.errors import InvalidInput
+from handeye.ports.axes import AxisSpec
+from handeye.ports.workcell import Workcell
 from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7, 104.0, 0.0, 0.0, 76.0, 70.3]) * DEGREE + np.array([0, 0, 17.5 * INCH, 0, 0, 0])
 
 
-def drive(torque: Array, *, gap: float = 0.05, brakes: bool = False) -> Drive:
-    return Drive(torque=torque, brakes=brakes, gap=gap, grip=20.0, tool=0.0)
-
-
 def test_the_fake_arm_rests_under_its_own_gravity_torque() -> None:
-    cell = FakeWorkcell(q=PARK)
+    cell = FakeCell(PARK)
     for _ in range(60):
-        cell.tick(drive(gravity(STANFORD, cell.sense().q)))
-    assert np.abs(cell.sense().q - PARK).max() < 1e-6
+        tick(cell.devices, Drive(torque=gravity(STANFORD, cell.arm.q)))
+    assert np.abs(cell.arm.q - PARK).max() < 1e-6
 
 
 def test_a_fake_wall_carries_what_presses_on_it() -> None:
-    cell = FakeWorkcell(q=PARK)
-    cell.walls.append(Wall(point=(0.0, 0.0, float(cell.tcp[2]))))
+    cell = FakeCell(PARK)
+    cell.arm.walls.append(Wall(point=(0.0, 0.0, float(cell.arm.tcp[2]))))
     for _ in range(90):
-        J = jacobian(STANFORD, cell.sense().q)
-        cell.tick(drive(gravity(STANFORD, cell.sense().q) + J.T @ np.array([0, 0, -20.0, 0, 0, 0])))
-    assert cell.walls[0].force(cell.tcp, np.zeros(3))[2] == pytest.approx(20.0, abs=2.0)
+        pressing = jacobian(STANFORD, cell.arm.q).T @ np.array([0, 0, -20.0, 0, 0, 0])
+        tick(cell.devices, Drive(torque=gravity(STANFORD, cell.arm.q) + pressing))
+    assert cell.arm.walls[0].force(cell.arm.tcp, np.zeros(3))[2] == pytest.approx(20.0, abs=2.0)
 
 
 def test_fake_fingers_close_on_what_stands_between_them() -> None:
-    cell = FakeWorkcell(q=PARK, thickness=lambda p: 0.02)
-    for _ in range(60):
-        cell.tick(drive(np.zeros(6), gap=0.0, brakes=True))
-    assert (cell.sense().gap, cell.sense().touch) == (0.02, (True, True))
+    cell = FakeCell(PARK)
+    cell.hand.thickness = lambda p: 0.02
+    read = tick(cell.devices, Drive(gap=0.0), ticks=60)
+    assert (read.gap, read.touch) == (0.02, (True, True))
 
 
-def test_fake_time_is_exact_and_late_periods_set_the_brakes() -> None:
-    cell = FakeWorkcell(q=PARK)
-    cell.tick(drive(np.zeros(6)))
-    cell.late()
-    assert (cell.sense().time, cell.sense().braked) == (2 * JIFFY, True)
+def test_fake_time_is_exact_and_a_fake_arm_that_is_not_driven_anew_sets_its_brakes() -> None:
+    cell = FakeCell(PARK)
+    tick(cell.devices, Drive(torque=np.zeros(6)))
+    cell.clock.advance(JIFFY)
+    assert (cell.clock.now, cell.arm.read().braked) == (2 * JIFFY, True)
+
+
+def test_time_passes_in_whole_physics_steps_only() -> None:
+    with pytest.raises(
+        InvalidInput, match=r"^a period of 0.0035 s is not a whole number of physics steps of "
+    ):
+        FakeClock().advance(0.0035)
+
+
+def test_a_lack_of_devices_reads_as_nothing() -> None:
+    arm = FakeArm(PARK)
+    read = Workcell(clock=FakeClock(arm), arm=arm).sense()
+    assert (read.gap, read.touch, read.tool_torque) == (0.0, (False, False), 0.0)
+
+
+def gantry(clock: FakeClock) -> FakeAxes:
+    spec = AxisSpec(name="x", kind="prismatic", lower=0.0, upper=1.0, speed=0.5)
+    return FakeAxes(clock, spec)
+
+
+def test_axes_go_where_they_are_told_by_themselves_within_their_limits() -> None:
+    axes = gantry(clock := FakeClock())
+    axes.put(np.array([3.0]), hand=0.0)
+    clock.advance(1.0)
+    assert axes.read().q == pytest.approx([0.5])
+    clock.advance(5.0)
+    assert axes.read().q == pytest.approx([1.0])
+
+
+def test_axes_read_twice_within_a_step_give_the_same() -> None:
+    axes = gantry(FakeClock())
+    axes.channels["left finger"] = 0.56
+    axes.put(np.array([1.0]), hand=0.0)
+    first, second = axes.read(), axes.read()
+    assert (first.time, first.q, first.channels) == (second.time, second.q, second.channels)

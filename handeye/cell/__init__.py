@@ -1,1 +1,1 @@
-"""The work cell: abstract ports, and the simulated cell behind them. Importing this package needs no MuJoCo."""
+"""The simulated cell: MuJoCo behind the ports. It knows no task; a task composes its own cell of what is here."""

@@ -8,11 +8,13 @@ import mujoco
 import numpy as np
 
 from handeye.cell.device_errors import CameraErrors
+from handeye.cell.mechanism import Mechanism
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
-from handeye.cell.state import CameraState, noise_state, set_noise
+from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
+from handeye.record import Record
 from handeye.vision.camera import DRAWING, CameraModel, View
 
 TURRET: Final = 20.0
@@ -22,8 +24,25 @@ DIGITISE: Final = 0.5
 """s. Fitted to the 90 s that the paper gives for all lens changes and focusing; layout study, section 6."""
 
 
-class SimulatedCamera(TvCamera):
+class CameraState(Record, frozen=True, kw_only=True):
+    """The camera's mechanism and tube."""
+
+    noise: str
+    """State of its generator, as JSON."""
+    lens: float
+    pots: tuple[float, float]
+    stand: tuple[float, float]
+    """Pan and tilt as they really are, rad."""
+    focus: float | None
+    """m; None: at infinity."""
+    gain: float | None
+
+
+class SimulatedCamera(Mechanism[CameraState], TvCamera):
     """Takes pictures of the simulated cell."""
+
+    name = "camera"
+    kind = CameraState
 
     def __init__(
         self,
@@ -82,8 +101,7 @@ class SimulatedCamera(TvCamera):
     def renderer(self) -> Renderer:
         return self._renderer.identity
 
-    def capture(self) -> CameraState:
-        """The state of mechanism, tube and noise."""
+    def state(self) -> CameraState:
         return CameraState(
             noise=noise_state(self._rng),
             lens=self._lens,
@@ -93,13 +111,13 @@ class SimulatedCamera(TvCamera):
             gain=self._vidicon.gain,
         )
 
-    def restore(self, state: CameraState) -> None:
-        """Put mechanism, tube and noise into a state.
+    def check(self, state: CameraState) -> None:
+        check_noise(state.noise)
+        self._model.lens(state.lens)
+        numbers = (*state.pots, *state.stand, state.focus or 0.0, state.gain or 0.0)
+        finite(numbers, "the camera")
 
-        Raises:
-            InvalidInput: there is no such lens.
-            ValueError, KeyError, TypeError: the state of the generator is none.
-        """
+    def restore(self, state: CameraState) -> None:
         set_noise(self._rng, state.noise)
         self._lens = self._model.lens(state.lens).focal_length
         self._pots, self._stand = state.pots, state.stand

@@ -5,8 +5,8 @@ import numpy as np
 
 from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.renderers import make_renderer
-from handeye.cell.simulated import PARK
 from handeye.pose import Pose, pose
+from handeye.tasks.water_pump.cell import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import ARM, build
 

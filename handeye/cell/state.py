@@ -1,64 +1,34 @@
 """The complete state of a simulated cell, as plain figures: for checkpoints and for going back in time."""
 
 import json
-from typing import Annotated, Final
+from collections.abc import Sequence
+from typing import Any, TypeVar
 
-import msgspec
 import numpy as np
 
-from handeye.ports.workcell import Sensed
+from handeye.errors import InvalidInput
 from handeye.pose import Array
-from handeye.tasks.water_pump.threads import Thread
+from handeye.record import Record
 
-MUTABLE: Final = (
-    "dof_frictionloss",
-    "actuator_gainprm",
-    "actuator_biasprm",
-    "actuator_forcerange",
-    "eq_data",
-    "geom_contype",
-    "geom_conaffinity",
-    "geom_group",
-    "mat_rgba",
-    "mat_emission",
-)
-"""Fields of the model that the events of a cell change: brakes, threads, clamping, the fingers' force, the lamp."""
-
-Pair = tuple[float, float]
-Hole = Annotated[int, msgspec.Meta(ge=0, le=6)]
+V = TypeVar("V", bound=Array | Sequence[float])
 
 
-class CameraState(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """The camera's mechanism and tube."""
-
-    noise: str
-    """State of its generator, as JSON."""
-    lens: float
-    pots: Pair
-    stand: Pair
-    focus: float | None
-    """None: at infinity."""
-    gain: float | None
-
-
-class CellState(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class CellState(Record, frozen=True, kw_only=True):
     """All that a cell's future depends on, besides its world and what is put out to it."""
 
     physics: Array
-    """MuJoCo's integration state."""
+    """MuJoCo's integration state; it begins with the time."""
     figures: dict[str, Array]
-    """The fields of the model named in MUTABLE, as numbers."""
-    threads: tuple[Thread, ...]
-    driven: Hole
-    """The hole whose carrier the driver's motor is coupled to."""
-    clamped: bool
-    fingers: float
-    """Set-point of the finger servo, m."""
-    tripped: bool
-    sensed: Sensed
+    """The fields of the model that the mechanisms of the cell change, as numbers."""
     noise: str
     """State of the sensors' generator, as JSON."""
-    camera: CameraState
+    mechanisms: dict[str, dict[str, Any]]
+    """The state of each device and mechanism by its name; each checks its own before it is used."""
+
+    @property
+    def time(self) -> float:
+        """s on the cell's clock."""
+        return float(self.physics[0])
 
 
 def noise_state(rng: np.random.Generator) -> str:
@@ -70,6 +40,31 @@ def set_noise(rng: np.random.Generator, state: str) -> None:
     """Put a generator into a state.
 
     Raises:
-        ValueError, KeyError, TypeError: it is not one.
+        ValueError, KeyError, TypeError, OverflowError, RecursionError: it is not one.
     """
     rng.bit_generator.state = json.loads(state)
+
+
+def check_noise(state: str) -> None:
+    """See that a generator can be put into a state.
+
+    Raises:
+        ValueError, KeyError, TypeError, OverflowError, RecursionError: it cannot.
+    """
+    set_noise(np.random.Generator(np.random.PCG64(0)), state)
+
+
+def figures(values: Array) -> tuple[float, ...]:
+    """An array of one dimension as plain numbers."""
+    return tuple(values.tolist())
+
+
+def finite(values: V, what: str) -> V:
+    """The same values; `what` names them.
+
+    Raises:
+        InvalidInput: one of them is not a finite number.
+    """
+    if not np.isfinite(values).all():
+        raise InvalidInput(f"{what} holds a value that is not a finite number")
+    return values

@@ -1,14 +1,16 @@
 """What is really so in a simulated cell: for the referee, the trace and tests, never for the working phase."""
 
 import copy
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
+import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.tasks.water_pump.clamping import Resting
-from handeye.tasks.water_pump.threads import Thread
+from handeye.cell.mechanism import Mechanism
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,12 +30,12 @@ class Truth:
     model: mujoco.MjModel
     data: mujoco.MjData
     drawn: Drawn
-    threads: tuple[Thread, ...]
-    """The tapped holes of the base, in the order of the carriers."""
-    resting: Resting
+    states: Mapping[str, msgspec.Struct]
+    """What the mechanisms of the cell remember, by their names, when this truth was asked for."""
+    mechanisms: tuple[Mechanism[Any], ...]
 
     def copy(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
-        """A copy of the state to experiment with: all awake, nothing welded."""
+        """A copy of the state to experiment with: all awake, nothing left out for speed."""
         kind = int(mujoco.mjtState.mjSTATE_INTEGRATION)
         state = np.empty(mujoco.mj_stateSize(self.model, kind))
         mujoco.mj_getState(self.model, self.data, state, kind)
@@ -41,6 +43,7 @@ class Truth:
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         data = mujoco.MjData(model)
         mujoco.mj_setState(model, data, state, kind)
-        self.resting.part(model, data)
+        for mechanism in self.mechanisms:
+            mechanism.release(model, data)
         mujoco.mj_forward(model, data)
         return model, data

@@ -20,7 +20,7 @@ from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
-from handeye.execution.drive import Halted
+from handeye.execution.servo_loop import Halted
 from handeye.files import write_whole
 from handeye.report.page import page
 from handeye.report.pictures import keep_pictures
@@ -266,7 +266,7 @@ def _warn(runner: Runner) -> None:
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
     if begun is None:
         return
-    here = runner.cell.camera.renderer
+    here = runner.cell.renderer
     if begun.camera != here:
         before, now = renderer_name(begun.camera), renderer_name(here)
         note(f"the run was begun with pictures by {before}; now they are by {now}")

@@ -43,11 +43,11 @@ def render(
 ) -> int:
     """Render a picture of the work cell."""
     from handeye.cell.photograph import PNG, photograph_png
-    from handeye.cell.simulated import SimulatedCell
+    from handeye.tasks.water_pump.cell import build_cell
     from handeye.tasks.water_pump.pump_world import PumpWorld
 
     check_place(output, PNG)
-    cell = SimulatedCell(PumpWorld.draw(world.spec), camera="ray")
+    cell = build_cell(PumpWorld.draw(world.spec), camera="ray")
     write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0

@@ -10,7 +10,7 @@ from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.events import StepStarted
-from handeye.execution.drive import Halted
+from handeye.execution.servo_loop import Halted
 from handeye.program.program import Program
 from handeye.runs.advance import Pause, advance, ended
 from handeye.runs.operator import beginnings

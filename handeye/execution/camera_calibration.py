@@ -21,7 +21,7 @@ from handeye.execution.state import DriveState
 from handeye.ports.camera import CLOSE_UP, WIDE
 from handeye.ports.workcell import Workcell
 from handeye.pose import hand
-from handeye.units import DEGREE, INCH, JIFFY
+from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera import CameraModel
 from handeye.vision.spot import find_spot
@@ -104,7 +104,7 @@ def calibrate_camera(
 
 
 def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
-    outcome = drive.follow(trajectory.sample(JIFFY))
+    outcome = drive.follow(trajectory.sample(drive.period))
     if outcome.error is not None:
         raise CalibrationFailed(
             f"while the camera was being calibrated, {outcome.detail or 'the drives were cut'}"
@@ -113,6 +113,7 @@ def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
 
 def _sightings(drive: ArmDrive, drawing: CameraModel, look: _Look) -> Iterator[Sighting]:
     camera = drive.cell.camera
+    assert camera is not None
     target = np.array(look.at) * INCH
     drive.brake(camera.lens(look.lens))
     drive.brake(camera.aim(*drawing.aim(target, look.lens)))

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from handeye.pose import Array
-from handeye.units import DEGREE, JIFFY, OUNCE_INCH
+from handeye.units import DEGREE, OUNCE_INCH
 
 GAIN: Final = 0.0015
 """Speed per force, m/s/N: slow enough for the arm's 20 kg of felt inertia."""
@@ -50,9 +50,9 @@ class Course:
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """1 about the axes of W about which the hand gives way, else 0, shape (3,)."""
 
-    def patience(self, pressing: int) -> int:
-        """Servo periods the motion may take: `pressing` ones, beside those of an unhindered way."""
-        return pressing + math.ceil(self.distance / self.speed / JIFFY)
+    def patience(self, pressing: int, period: float) -> int:
+        """Servo periods (s) the motion may take: `pressing` ones, beside those of an unhindered way."""
+        return pressing + math.ceil(self.distance / self.speed / period)
 
     def advance(self, wrench: Array, tick: int) -> float:
         """Speed along the way (m/s) for an external wrench on the hand, in servo period number `tick`."""
@@ -65,15 +65,15 @@ class Course:
         """Velocity (m/s) with which the hand gives way, shape (3,)."""
         return np.clip(_beyond(self.free * wrench[:3], NOISE) * GAIN, -GREATEST, GREATEST)
 
-    def turned(self, turn: Array, wrench: Array) -> Array:
-        """How far the hand is turned (a rotation vector, rad) one servo period after `turn`, shape (3,)."""
+    def turned(self, turn: Array, wrench: Array, period: float) -> Array:
+        """How far the hand is turned (a rotation vector, rad) one servo period (s) after `turn`, shape (3,)."""
         felt = wrench[3:]
         missing = _beyond(self.spin * felt, TURN_NOISE)
         wanted = float(np.linalg.norm(self.moment))
         if wanted:
             axis = self.moment / wanted
             missing += axis * (wanted + float((felt - missing) @ axis))
-        turn = turn + np.clip(missing * TURN_GAIN, -TURN_GREATEST, TURN_GREATEST) * JIFFY
+        turn = turn + np.clip(missing * TURN_GAIN, -TURN_GREATEST, TURN_GREATEST) * period
         return turn * (TURN_MOST / max(float(np.linalg.norm(turn)), TURN_MOST))
 
 

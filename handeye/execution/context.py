@@ -12,7 +12,6 @@ from handeye.planfile.plan import Plan
 from handeye.ports.workcell import Workcell
 from handeye.program.world_model import WorldModel
 from handeye.records import put_back
-from handeye.units import JIFFY
 from handeye.vision.camera import CameraModel
 
 
@@ -40,7 +39,8 @@ class ExecutionContext:
     @property
     def time(self) -> float:
         """The cell's clock, rounded to its period so that it prints the same everywhere."""
-        return round(round(self.drive.sensed.time / JIFFY) * JIFFY, 6)
+        period = self.arm.servo.period
+        return round(round(self.drive.sensed.time / period) * period, 6)
 
     def restore(self, state: ExecutionState) -> None:
         """Go on from a copy of a state; the cell must be as it was then.

@@ -11,7 +11,7 @@ from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.events import Adjusted, GuardTripped, Restored
 from handeye.execution.compliance import Course
 from handeye.execution.context import ExecutionContext
-from handeye.execution.drive import Outcome
+from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import Fault, vector
 from handeye.planning.motions import (
     Unreachable,
@@ -28,7 +28,7 @@ from handeye.record import Vector3
 from handeye.touch.centring import Centring
 from handeye.touch.guards import monitor
 from handeye.touch.hold import at_least, within
-from handeye.units import INCH, JIFFY
+from handeye.units import INCH
 
 HAND_SPEED: Final = 0.05
 """Speed of the finger gap when nothing is between them, m/s; the hand does .08 free (data sheet of 1974)."""
@@ -64,7 +64,7 @@ def move(run: ExecutionContext, number: int, operation: Move) -> Fault | None:
         return Fault(
             number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
         )
-    samples = trajectory.sample(JIFFY)
+    samples = trajectory.sample(run.drive.period)
     along = directions(samples, run.arm, run.drive.state.q)
     return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
 
@@ -157,7 +157,7 @@ def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
 def _to_gap(run: ExecutionContext, goal: float) -> None:
     drive = run.drive
     start = drive.state.gap = drive.sensed.gap
-    ticks = max(1, round(abs(goal - start) / (HAND_SPEED * JIFFY)))
+    ticks = max(1, round(abs(goal - start) / (HAND_SPEED * drive.period)))
     for i in range(1, ticks + 1):
         drive.state.gap = start + (goal - start) * i / ticks
         drive.hold(1)
@@ -169,7 +169,7 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
     drive.state.gap = drive.sensed.gap
     floor = min(operation.minimum, drive.state.gap)
     while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > -0.02:
-        drive.state.gap -= HAND_SPEED * JIFFY
+        drive.state.gap -= HAND_SPEED * drive.period
         drive.hold(1)
     drive.state.gap = -0.02
     drive.hold(GRASP_TICKS)
@@ -195,7 +195,7 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     drive.state.gap = drive.sensed.gap
     centring = Centring(minimum=operation.minimum, speed=CENTRE_SPEED)
     while not centring.done:
-        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=JIFFY)
+        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=drive.period)
         drive.state.gap += step.gap
         X_WT = translated(X_WT, step.hand * line)
         outcome = drive.shift(here, X_WT)

@@ -8,15 +8,22 @@ from handeye import errors
 from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
+from handeye.ports.camera import TvCamera
 from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.gasket import inspect as inspect_gasket
 
 
+def _tv(run: ExecutionContext) -> TvCamera:
+    """The camera of the cell; a plan that looks is not begun in a cell without one."""
+    assert run.cell.camera is not None
+    return run.cell.camera
+
+
 def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
     """Turn the lens turret."""
-    _wait(run, "lens", run.cell.camera.lens(operation.focal_length))
+    _wait(run, "lens", _tv(run).lens(operation.focal_length))
     run.state.lens = operation.focal_length
     return None
 
@@ -25,9 +32,9 @@ def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
     """Point the camera at a part's face or at a hand position, and focus there."""
     p_W = _target(run, operation.target)
     pan, tilt = run.camera.aim(p_W, run.state.lens)
-    _wait(run, "aim", run.cell.camera.aim(pan, tilt))
+    _wait(run, "aim", _tv(run).aim(pan, tilt))
     distance = math.dist(run.camera.mount, p_W)
-    _wait(run, "focus", run.cell.camera.focus(distance))
+    _wait(run, "focus", _tv(run).focus(distance))
     return None
 
 
@@ -48,9 +55,9 @@ def _middle(X_WP: Pose, x: float, y: float) -> Array:
 
 def look(run: ExecutionContext, operation: Look) -> Fault | None:
     """Take a picture."""
-    picture, seconds = run.cell.camera.digitise(hold_target=operation.hold_target)
+    picture, seconds = _tv(run).digitise(hold_target=operation.hold_target)
     _wait(run, "digitise", seconds)
-    pan, tilt = run.cell.camera.pots()
+    pan, tilt = _tv(run).pots()
     run.state.shots[operation.picture] = Shot(
         picture=picture, view=run.camera.view(run.state.lens, pan, tilt)
     )

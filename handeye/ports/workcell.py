@@ -1,64 +1,56 @@
-"""The whole cell as one interface: what is sensed in a servo period, and what is put out for it."""
+"""The devices of a cell as one value, and all of their readings as one record."""
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
+from handeye.ports.arm import ArmPort
 from handeye.ports.camera import TvCamera
+from handeye.ports.clock import Clock
+from handeye.ports.hand import HandPort
+from handeye.ports.lamp import LampPort
+from handeye.ports.screwdriver import ScrewdriverPort
 from handeye.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensed:
-    """What the interface reads in one servo period."""
+    """All readings at the end of a servo period; of devices that the cell has not, zero and False."""
 
     time: float
     q: Array
-    """Joint positions by the potentiometers, shape (6,), rad and (joint 3) m, calibration error included."""
+    """As `ArmReading.q`, shape (n,)."""
     qd: Array
-    """Joint rates by the tachometers, shape (6,)."""
+    """As `ArmReading.qd`, shape (n,)."""
     gap: float
-    """Opening between the finger tips by the hand potentiometer, m."""
+    """As `HandReading.gap`, m."""
     touch: tuple[bool, bool]
-    """The microswitch inside each finger: (finger on the +y side of the hand frame, finger on the -y side)."""
+    """As `HandReading.touch`."""
     tool_torque: float
-    """Torque of the screwdriver's own motor by its current, N m, positive when it drives a screw in."""
+    """As `ScrewdriverPort.torque`, N m."""
     braked: bool
-    """Brakes set, drives off."""
+    """As `ArmReading.braked`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Drive:
-    """What the interface puts out for one servo period; held constant over it."""
+class Workcell:
+    """An arm with the devices about it, under one clock. A cell with two arms is two of these with the same clock."""
 
-    torque: Array
-    """Joint torques, shape (6,), N m and (joint 3) N. Ignored while `brakes`."""
-    brakes: bool
-    gap: float
-    """Finger gap set-point, m."""
-    grip: float
-    """Most force each finger may press with, N."""
-    tool: float
-    """Screwdriver spindle speed set-point, rad/s, positive drives a right-hand screw in; 0 is off."""
-    lamp: bool = False
-    """The small lamp on the hand, which the camera is calibrated by."""
+    clock: Clock
+    arm: ArmPort
+    hand: HandPort | None = None
+    screwdriver: ScrewdriverPort | None = None
+    lamp: LampPort | None = None
+    camera: TvCamera | None = None
 
-
-class Workcell(ABC):
-    """Drives, sensors, hand, screwdriver, camera and clock of a cell."""
-
-    camera: TvCamera
-
-    @abstractmethod
     def sense(self) -> Sensed:
-        """Read the interface at the present tick. Reading twice in one tick gives the same values."""
-
-    @abstractmethod
-    def tick(self, drive: Drive) -> None:
-        """Put `drive` out and let one servo period pass.
-
-        The servo of the arm may miss its period; the cell then cuts drives and sets brakes (see `late`).
-        """
-
-    @abstractmethod
-    def late(self) -> None:
-        """Let one servo period pass without an answer of the computer: the watchdog cuts drives, sets brakes."""
+        """Read all devices."""
+        arm = self.arm.read()
+        hand = None if self.hand is None else self.hand.read()
+        return Sensed(
+            time=self.clock.now,
+            q=arm.q,
+            qd=arm.qd,
+            gap=0.0 if hand is None else hand.gap,
+            touch=(False, False) if hand is None else hand.touch,
+            tool_torque=0.0 if self.screwdriver is None else self.screwdriver.torque(),
+            braked=arm.braked,
+        )

@@ -44,7 +44,7 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
     for name in runner.run.state.shots:
         write_whole(folder / f"{name.lower()}.png", annotated_png(runner.run, name))
     truth = runner.cell.truth
-    if runner.cell.camera.renderer.method == "opengl":
+    if runner.cell.renderer.method == "opengl":
         for camera in PHOTOGRAPHS:
             png = photograph_png(truth.model, truth.data, camera, 1280, 960)
             write_whole(folder / f"end_{camera}.png", png)

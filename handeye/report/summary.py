@@ -103,7 +103,7 @@ def _timing(runner: Runner, wall: float, planning: float) -> Timing:
 
 
 def _camera(runner: Runner) -> CameraReport:
-    renderer, calibration = renderer_name(runner.cell.camera.renderer), runner.calibration
+    renderer, calibration = renderer_name(runner.cell.renderer), runner.calibration
     if calibration is None:
         return CameraReport(renderer=renderer, sightings_rms_px={}, residual_in=None)
     residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}

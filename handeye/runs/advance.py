@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Literal
 
-from handeye.execution.drive import Halted
+from handeye.execution.servo_loop import Halted
 from handeye.record import Record
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot

@@ -80,7 +80,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         position=checkpoint.position,
         stage=checkpoint.stage,
         between_stages=checkpoint.between_stages,
-        time=None if snapshot is None else round(snapshot.cell.sensed.time, 6),
+        time=None if snapshot is None else round(snapshot.cell.time, 6),
         touched=checkpoint.touched,
         judged=setup.judged,
     )

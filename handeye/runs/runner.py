@@ -10,7 +10,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.cell.simulated import SimulationError
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
@@ -26,8 +26,8 @@ from handeye.events import (
 )
 from handeye.execution.camera_calibration import LAST_LENS, CalibrationFailed, calibrate_camera
 from handeye.execution.context import ExecutionContext
-from handeye.execution.drive import Halted
 from handeye.execution.executor import Executor
+from handeye.execution.servo_loop import Halted
 from handeye.execution.stopwatch import Stopwatch
 from handeye.planfile.store import plan_digest
 from handeye.ports.workcell import Sensed
@@ -37,6 +37,7 @@ from handeye.record import Vector3
 from handeye.records import copied
 from handeye.runs.observer import Observer
 from handeye.runs.snapshot import Checkpoint, Snapshot, arm_of, interfered
+from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
@@ -77,7 +78,7 @@ class Runner:
         self.setup = start.setup
         plan = start.setup.plan
         self.arm = arm_of(plan)
-        self.cell = SimulatedCell(PumpWorld.draw(start.setup.world), camera=start.setup.camera)
+        self.cell = build_cell(PumpWorld.draw(start.setup.world), camera=start.setup.camera)
         self._unable: str | None = None
         self.calibration = start.calibration
         if start.snapshot is None:
@@ -92,7 +93,7 @@ class Runner:
         self.run = ExecutionContext(
             plan=plan,
             arm=self.arm,
-            cell=self.cell,
+            cell=self.cell.devices,
             camera=model,
             emit=self._emit,
             vision=self.vision,
@@ -321,7 +322,7 @@ class Runner:
                 arm=plan.arm,
                 arm_digest=plan.arm_digest,
                 world=self.setup.world,
-                camera=self.cell.camera.renderer,
+                camera=self.cell.renderer,
                 versions=versions(),
             )
         )
@@ -337,7 +338,7 @@ class Runner:
         if not self._looks:
             return None
         try:
-            return calibrate_camera(self.cell, self.arm, DRAWING, halt)
+            return calibrate_camera(self.cell.devices, self.arm, DRAWING, halt)
         except (CalibrationFailed, SimulationError) as error:
             self._unable = str(error)
             return None

@@ -6,7 +6,6 @@ from typing import Final
 
 import msgspec
 
-from handeye.cell.simulated import PARK
 from handeye.errors import InvalidInput
 from handeye.events import Choice, RunStarted
 from handeye.execution.state import ExecutionState
@@ -19,6 +18,7 @@ from handeye.runs.advance import Pause, advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
 from handeye.source import Source
+from handeye.tasks.water_pump.cell import PARK
 from handeye.teaching.functions import TYPED, Planned, planned
 from handeye.variation import WorldSpec
 

@@ -22,13 +22,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from fakes import FakeWorkcell, Wall
+from fakes import FakeCell, Wall
 from pump_bench import at_standard, put, settle
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.cell.simulated import SimulatedCell
 from handeye.ports.workcell import Workcell
 from handeye.pose import Array
+from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import INCH, OUNCE_INCH
 
@@ -55,25 +55,25 @@ def cell_of(words: str, q: Array) -> Workcell:
     lines = words.splitlines()
     if SIMULATED in lines:
         return _simulated(lines)
-    cell = FakeWorkcell(q=q)
+    cell = FakeCell(q)
     for line in lines:
         _furnish(cell, line)
-    return cell
+    return cell.devices
 
 
-def _simulated(lines: list[str]) -> SimulatedCell:
-    cell = SimulatedCell(PumpWorld.nominal(), camera="ray")
+def _simulated(lines: list[str]) -> Workcell:
+    cell = build_cell(PumpWorld.nominal(), camera="ray")
     assert set(lines) <= {SIMULATED, "the base in its standard position"}, lines
     if len(lines) > 1:
         put(cell, "base", at_standard()["base"])
     settle(cell)
-    return cell
+    return cell.devices
 
 
 N = r"(-?[\d.]+)"
 
 
-def _furnish(cell: FakeWorkcell, line: str) -> None:
+def _furnish(cell: FakeCell, line: str) -> None:
     for pattern, act in _LINES.items():
         found = re.fullmatch(pattern, line)
         if found is not None:
@@ -82,30 +82,30 @@ def _furnish(cell: FakeWorkcell, line: str) -> None:
     raise AssertionError(f"no cell can be furnished with {line!r}")
 
 
-def _below(cell: FakeWorkcell, z: float) -> None:
-    cell.walls.append(Wall(point=(0.0, 0.0, z * INCH)))
+def _below(cell: FakeCell, z: float) -> None:
+    cell.arm.walls.append(Wall(point=(0.0, 0.0, z * INCH)))
 
 
-def _plate(cell: FakeWorkcell, z: float, wide: float, x: float, y: float, floor: float) -> None:
+def _plate(cell: FakeCell, z: float, wide: float, x: float, y: float, floor: float) -> None:
     centre = (x * INCH, y * INCH)
     plate = Plate(point=(0, 0, z * INCH), centre=centre, radius=wide / 2 * INCH, floor=floor * INCH)
-    cell.walls.append(plate)
+    cell.arm.walls.append(plate)
 
 
-def _beyond_x(cell: FakeWorkcell, x: float) -> None:
-    cell.walls.append(Wall(point=(x * INCH, 0.0, 0.0), normal=(-1.0, 0.0, 0.0)))
+def _beyond_x(cell: FakeCell, x: float) -> None:
+    cell.arm.walls.append(Wall(point=(x * INCH, 0.0, 0.0), normal=(-1.0, 0.0, 0.0)))
 
 
-def _beyond_y(cell: FakeWorkcell, y: float) -> None:
-    cell.walls.append(Wall(point=(0.0, y * INCH, 0.0), normal=(0.0, -1.0, 0.0)))
+def _beyond_y(cell: FakeCell, y: float) -> None:
+    cell.arm.walls.append(Wall(point=(0.0, y * INCH, 0.0), normal=(0.0, -1.0, 0.0)))
 
 
-def _between(cell: FakeWorkcell, thick: float, below: float = 1000.0) -> None:
-    cell.thickness = lambda p: thick * INCH if p[2] < below * INCH else 0.0
+def _between(cell: FakeCell, thick: float, below: float = 1000.0) -> None:
+    cell.hand.thickness = lambda p: thick * INCH if p[2] < below * INCH else 0.0
 
 
-def _driver(cell: FakeWorkcell, torque: float) -> None:
-    cell.tool_load = torque * OUNCE_INCH
+def _driver(cell: FakeCell, torque: float) -> None:
+    cell.screwdriver.load = torque * OUNCE_INCH
 
 
 _LINES: dict[str, Callable[..., None]] = {

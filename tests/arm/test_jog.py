@@ -8,8 +8,8 @@ from handeye.arm.ik.reasons import BelowTable, OutOfReach
 from handeye.arm.jog import jog
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
-from handeye.cell.simulated import PARK
 from handeye.pose import hand
+from handeye.tasks.water_pump.cell import PARK
 from handeye.units import INCH
 
 PERIOD = 1 / 60

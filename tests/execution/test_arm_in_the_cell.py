@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
+from driving import Drive, tick
 from pump_bench import Bench, bench, written
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
 from handeye.errors import WATCHDOG
-from handeye.ports.workcell import Drive, Sensed
+from handeye.ports.workcell import Sensed
+from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import DEGREE
 
@@ -21,9 +23,8 @@ POUND = 4.448
 def released(cell: SimulatedCell, seconds: float, weight: float = 0.0) -> Sensed:
     """Brakes off, no set-point: the drives carry the arm's own weight wherever it is."""
     for _ in range(round(seconds * 60)):
-        torque = gravity(STANFORD, cell.sense().q)
-        cell.tick(Drive(torque=torque, brakes=False, gap=0.05, grip=20.0, tool=0.0))
-    return cell.sense()
+        tick(cell.devices, Drive(torque=gravity(STANFORD, cell.devices.arm.read().q)))
+    return cell.devices.sense()
 
 
 def push(cell: SimulatedCell, axis: int, force: float) -> None:
@@ -33,16 +34,16 @@ def push(cell: SimulatedCell, axis: int, force: float) -> None:
 
 @pytest.fixture
 def cell() -> SimulatedCell:
-    return SimulatedCell(PumpWorld.nominal(), camera="ray")
+    return build_cell(PumpWorld.nominal(), camera="ray")
 
 
 def test_row_31_the_released_arm_drifts_less_than_half_a_degree_in_ten_seconds(cell: SimulatedCell) -> None:
-    before = cell.sense().q
+    before = cell.devices.sense().q
     assert np.abs(released(cell, 10.0).q - before)[[0, 1, 3, 4, 5]].max() < 0.5 * DEGREE
 
 
 def test_row_31_a_push_of_three_pounds_moves_the_released_arm(cell: SimulatedCell) -> None:
-    before = cell.sense().q
+    before = cell.devices.sense().q
     push(cell, 1, 3 * POUND)
     assert np.abs(released(cell, 1.0).q - before).max() > 2 * DEGREE
 
@@ -54,7 +55,7 @@ def late_in(script: str, ticks: int) -> Bench:
 
     def watch(_: Sensed, __: object) -> None:
         if next(count) == ticks:
-            run.cell.late()
+            run.cell.advance(run.run.drive.period)
 
     run.run.drive.watch = watch
     return run.go()

@@ -60,7 +60,7 @@ def rate(moment: tuple[float, float, float] = (0, 0, 0), spin: tuple[float, floa
     course = Course(
         direction=DOWN, distance=0.01, speed=0.02, moment=np.array(moment, float), spin=np.array(spin, float)
     )
-    return course.turned(np.zeros(3), np.array([0.0, 0.0, 0.0, *felt])) / JIFFY
+    return course.turned(np.zeros(3), np.array([0.0, 0.0, 0.0, *felt]), JIFFY) / JIFFY
 
 
 def test_the_hand_turns_about_the_axes_it_may_spin_about_only() -> None:
@@ -91,5 +91,5 @@ def test_the_hand_turns_no_farther_than_the_most() -> None:
     course = Course(direction=DOWN, distance=0.01, speed=0.02, spin=np.ones(3))
     turn = np.zeros(3)
     for _ in range(1000):
-        turn = course.turned(turn, np.array([0, 0, 0, 5.0, -5.0, 0.0]))
+        turn = course.turned(turn, np.array([0, 0, 0, 5.0, -5.0, 0.0]), JIFFY)
     assert np.linalg.norm(turn) == pytest.approx(TURN_MOST)

@@ -11,7 +11,7 @@ from types import FrameType
 
 import numpy as np
 import pytest
-from fakes import FakeWorkcell
+from fakes import FakeCell
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
@@ -44,7 +44,7 @@ def plan_of(text: str) -> Plan:
 def carried_out(plan: Plan) -> bytes:
     """Everything that happens when a plan is carried out, as bytes."""
     events: list[AnyEvent] = []
-    cell = FakeWorkcell(q=np.array(plan.motions[0].knots[0]))
+    cell = FakeCell(np.array(plan.motions[0].knots[0])).devices
     executor = Executor(
         run=ExecutionContext(plan=plan, arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
     )

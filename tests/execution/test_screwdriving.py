@@ -6,6 +6,7 @@ from pump_bench import Bench, bench, stacked, stage
 from handeye.errors import WRONG_TRAVEL
 from handeye.events import GuardTripped
 from handeye.tasks.water_pump import threads
+from handeye.tasks.water_pump.threads import holes_of
 from handeye.units import INCH, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
@@ -36,7 +37,7 @@ def test_row_60_driving_ends_by_torque(driven: Bench) -> None:
 
 
 def test_row_60_the_screw_is_home_and_clamps(driven: Bench) -> None:
-    (thread, *others) = driven.cell.truth.threads
+    (thread, *others) = holes_of(driven.cell.truth)
     assert (thread.screw, thread.crossed) == (0, False)
     assert thread.clamp > 40.0
     assert all(other.screw is None for other in others)

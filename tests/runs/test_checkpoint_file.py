@@ -153,12 +153,16 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("state", "found"), {"../../x": {}}, "does not fit this plan"),
         (("state", "drive", "q"), ["<f8", [5], b"\0" * 40], "does not fit this plan"),
         (("state", "drive", "tare"), ["<f8", [7], b"\0" * 56], "does not fit this plan"),
-        (("cell", "sensed", "time"), 1e300, "what they cannot"),
+        (("cell", "mechanisms", "stanford", "q"), [0.0] * 5, "another number of joints"),
+        (("cell", "mechanisms", "stanford", "q"), [float("nan")] * 6, "not a finite number"),
+        (("cell", "mechanisms", "threads", "driven"), 9, "not those of this scene"),
+        (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),
+        (("cell", "mechanisms"), {}, "other devices"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),
         (("cell", "figures"), {}, "figures that change"),
         (("cell", "noise"), "{}", "not a state of this work cell"),
         (("cell", "noise"), "[" * 5000, "not a state of this work cell"),
-        (("cell", "camera", "lens"), 0.5, "no lens"),
+        (("cell", "mechanisms", "camera", "lens"), 0.5, "no lens"),
     ],
 )
 def test_a_state_that_does_not_fit_is_refused_before_it_is_used(

@@ -1,20 +1,48 @@
-"""A work cell without physics of parts: a perfect arm, scripted contacts, instant ticks."""
+"""Devices without physics of parts, a few lines each, under one clock: a perfect arm, scripted contacts."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from handeye.arm.dynamics import inverse_dynamics, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
+from handeye.ports.arm import ArmPort, ArmReading
+from handeye.ports.axes import Axes, AxesReading, AxisSpec
 from handeye.ports.camera import COLUMNS, ROWS, Picture, Renderer, TvCamera
-from handeye.ports.workcell import Drive, Sensed, Workcell
+from handeye.ports.clock import Clock, whole_steps
+from handeye.ports.hand import HandPort, HandReading
+from handeye.ports.lamp import LampPort
+from handeye.ports.screwdriver import ScrewdriverPort
+from handeye.ports.workcell import Workcell
 from handeye.pose import Array
-from handeye.units import JIFFY
 
+STEP = 1 / 960  # s, of the fake clock
 STIFFNESS = 20e3  # N/m of whatever the hand meets
 CRITICAL = 800.0  # N s/m, keeps it from ringing
+
+
+class Device(Protocol):
+    """Something that time passes for."""
+
+    def elapse(self, seconds: float) -> None: ...
+
+
+class FakeClock(Clock):
+    """Time that passes at once."""
+
+    now = 0.0
+
+    def __init__(self, *devices: Device) -> None:
+        self.devices = devices
+
+    def advance(self, seconds: float) -> None:
+        whole_steps(seconds, STEP)
+        for device in self.devices:
+            device.elapse(seconds)
+        self.now += seconds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,13 +59,99 @@ class Wall:
         return n * max(0.0, STIFFNESS * depth - CRITICAL * float(v @ n)) if depth > 0 else 0.0 * n
 
 
+class FakeArm(ArmPort):
+    """Rigid bodies without error or noise, starting at rest at `q`; its walls push on the tool centre point."""
+
+    def __init__(self, q: Array) -> None:
+        self.q, self.qd = np.array(q, dtype=np.float64), np.zeros(len(q))
+        self.walls: list[Wall] = []
+        self.braked, self.cut, self.torque, self.driven = True, False, None, True
+
+    @property
+    def tcp(self) -> Array:
+        """Where the tool centre point is, m."""
+        return np.asarray(forward(STANFORD, self.q)[:3, 3])
+
+    def read(self) -> ArmReading:
+        return ArmReading(q=self.q.copy(), qd=self.qd.copy(), braked=self.braked)
+
+    def drive(self, torque: Array | None) -> None:
+        self.torque, self.driven = torque, True
+        self.cut = self.cut and torque is not None
+
+    def elapse(self, seconds: float) -> None:
+        self.cut = self.cut or not self.driven
+        self.driven, self.braked = self.torque is None, self.cut or self.torque is None
+        if self.braked:
+            self.qd = np.zeros(len(self.q))
+        else:
+            self._move(self.torque, seconds)
+
+    def _move(self, torque: Array, seconds: float, steps: int = 16) -> None:
+        """Semi-implicit steps under a held torque; the arm's matrices are taken once for all of them."""
+        M = mass_matrix(STANFORD, self.q)
+        bias = inverse_dynamics(STANFORD, self.q, self.qd, np.zeros(6))
+        J, X = jacobian(STANFORD, self.q), self.tcp
+        q0, damping = self.q.copy(), np.array([joint.damping for joint in STANFORD.joints])
+        for _ in range(steps):
+            p, v = X + (J @ (self.q - q0))[:3], (J @ self.qd)[:3]
+            push = sum((wall.force(p, v) for wall in self.walls), np.zeros(3))
+            tau = torque - bias - damping * self.qd + J[:3].T @ push
+            self.qd = self.qd + np.linalg.solve(M, tau) * seconds / steps
+            self.q = self.q + self.qd * seconds / steps
+
+
+class FakeHand(HandPort):
+    """Fingers that close on what stands between them: `thickness` (m, 0 for nothing) where the arm's hand is."""
+
+    def __init__(self, arm: FakeArm, gap: float = 0.05) -> None:
+        self.arm, self.gap, self.goal = arm, gap, gap
+        self.thickness: Callable[[Array], float] = lambda p: 0.0
+
+    def read(self) -> HandReading:
+        touching = 0.0 < self.thickness(self.arm.tcp) >= self.gap - 1e-9
+        return HandReading(gap=self.gap, touch=(touching, touching))
+
+    def drive(self, gap: float, grip: float) -> None:
+        self.goal = gap
+
+    def elapse(self, seconds: float) -> None:
+        step = STANFORD.hand.gap_speed * seconds
+        moved = self.gap + min(max(self.goal - self.gap, -step), step)
+        self.gap = max(moved, self.thickness(self.arm.tcp))
+
+
+@dataclass
+class FakeScrewdriver(ScrewdriverPort):
+    """A motor that meets one load as long as it turns."""
+
+    load: float = 0.0
+    speed: float = 0.0
+
+    def torque(self) -> float:
+        return self.load if self.speed else 0.0
+
+    def drive(self, speed: float) -> None:
+        self.speed = speed
+
+
+@dataclass
+class FakeLamp(LampPort):
+    """A lamp in the dark."""
+
+    lit: bool = False
+
+    def switch(self, lit: bool) -> None:
+        self.lit = lit
+
+
 class FakeCamera(TvCamera):
     """Hands out scripted pictures; every mechanical action takes one second."""
 
     renderer = Renderer(method="none")
 
-    def __init__(self, pictures: list[Picture] | None = None) -> None:
-        self.pictures = list(pictures or [])
+    def __init__(self, pictures: Sequence[Picture] = ()) -> None:
+        self.pictures = list(pictures)
         self.actions: list[tuple[object, ...]] = []
         self._pots = (0.0, 0.0)
 
@@ -63,67 +177,38 @@ class FakeCamera(TvCamera):
         return picture, 0.5
 
 
-@dataclass(kw_only=True)
-class FakeWorkcell(Workcell):
-    """Rigid-body arm without error or noise, starting at rest at `q`.
+class FakeAxes(Axes):
+    """Axes that go to where they were told with their greatest speed."""
 
-    `walls` push on the tool centre point; `thickness(p)` is what stands between the fingers when the hand is
-    at `p` (m, 0 for nothing); `tool_load` is the torque that the screwdriver meets.
-    """
+    specs: tuple[AxisSpec, ...] = ()
+    period = 1 / 100
 
-    q: Array
-    walls: list[Wall] = field(default_factory=list)
-    thickness: Callable[[Array], float] = lambda p: 0.0
-    tool_load: float = 0.0
-    gap: float = 0.05
-    time: float = 0.0
-    braked: bool = True
-    camera: TvCamera = field(default_factory=FakeCamera)
-    drives: list[Drive] = field(default_factory=list)
-    """Everything that was put out."""
+    def __init__(self, clock: FakeClock, *specs: AxisSpec) -> None:
+        self.clock, self.specs = clock, specs
+        self.q = self.goal = np.zeros(len(specs))
+        self.channels: dict[str, float] = {}
+        clock.devices = (*clock.devices, self)
 
-    def __post_init__(self) -> None:
-        self.q = np.array(self.q, dtype=np.float64)
-        self.qd = np.zeros(6)
-        self.tool = 0.0
+    def read(self) -> AxesReading:
+        return AxesReading(time=self.clock.now, q=self.q.copy(), channels=dict(self.channels))
 
-    @property
-    def tcp(self) -> Array:
-        """Where the tool centre point is, m."""
-        return np.asarray(forward(STANFORD, self.q)[:3, 3])
+    def put(self, goal: Array, hand: float) -> None:
+        self.goal = np.clip(goal, [s.lower for s in self.specs], [s.upper for s in self.specs])
 
-    def sense(self) -> Sensed:
-        touching = 0.0 < self.thickness(self.tcp) >= self.gap - 1e-9
-        return Sensed(
-            time=self.time, q=self.q.copy(), qd=self.qd.copy(), gap=self.gap, touch=(touching, touching),
-            tool_torque=self.tool_load if self.tool else 0.0, braked=self.braked,
+    def elapse(self, seconds: float) -> None:
+        reach = np.array([spec.speed for spec in self.specs]) * seconds
+        self.q = self.q + np.clip(self.goal - self.q, -reach, reach)
+
+
+class FakeCell:
+    """One fake device of each kind, and the cell that they make."""
+
+    def __init__(self, q: Array) -> None:
+        self.arm = FakeArm(q)
+        self.hand = FakeHand(self.arm)
+        self.screwdriver, self.lamp, self.camera = FakeScrewdriver(), FakeLamp(), FakeCamera()
+        self.clock = FakeClock(self.arm, self.hand)
+        self.devices = Workcell(
+            clock=self.clock, arm=self.arm, hand=self.hand, screwdriver=self.screwdriver,
+            lamp=self.lamp, camera=self.camera,
         )  # fmt: skip
-
-    def tick(self, drive: Drive) -> None:
-        self.drives.append(drive)
-        self.braked, self.tool = drive.brakes, drive.tool
-        if drive.brakes:
-            self.qd = np.zeros(6)
-        else:
-            self._move(drive.torque)
-        step = STANFORD.hand.gap_speed * JIFFY
-        self.gap = max(self.gap + min(max(drive.gap - self.gap, -step), step), self.thickness(self.tcp))
-        self.time += JIFFY
-
-    def late(self) -> None:
-        self.braked, self.tool = True, 0.0
-        self.qd = np.zeros(6)
-        self.time += JIFFY
-
-    def _move(self, torque: Array, steps: int = 16) -> None:
-        """Semi-implicit steps under a held torque; the arm's matrices are taken once per tick."""
-        M = mass_matrix(STANFORD, self.q)
-        bias = inverse_dynamics(STANFORD, self.q, self.qd, np.zeros(6))
-        J, X = jacobian(STANFORD, self.q), self.tcp
-        q0, damping = self.q.copy(), np.array([joint.damping for joint in STANFORD.joints])
-        for _ in range(steps):
-            p, v = X + (J @ (self.q - q0))[:3], (J @ self.qd)[:3]
-            push = sum((wall.force(p, v) for wall in self.walls), np.zeros(3))
-            tau = torque - bias - damping * self.qd + J[:3].T @ push
-            self.qd = self.qd + np.linalg.solve(M, tau) * JIFFY / steps
-            self.q = self.q + self.qd * JIFFY / steps

@@ -11,6 +11,7 @@ from typing import Final, TypeVar
 
 import mujoco
 import numpy as np
+from driving import Drive, tick
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
@@ -20,12 +21,12 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
-from handeye.ports.workcell import Drive
 from handeye.pose import Array, Pose, planar, pose, translated
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source
+from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard
@@ -200,12 +201,14 @@ def bench(
     assert program is not None, diagnostics
     plan, problems = make_plan(program, STANFORD)
     assert plan is not None, problems
-    cell = SimulatedCell(world or PumpWorld.nominal(), camera=camera)
+    cell = build_cell(world or PumpWorld.nominal(), camera=camera)
     for part, X_WP in (lay or {}).items():
         put(cell, part, X_WP)
     settle(cell)
     events: list[Event] = []
-    run = ExecutionContext(plan=edited(plan), arm=STANFORD, cell=cell, camera=DRAWING, emit=events.append)
+    run = ExecutionContext(
+        plan=edited(plan), arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append
+    )
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
 
@@ -221,9 +224,8 @@ def put(cell: SimulatedCell, part: str, X_WP: Pose) -> None:
 
 def settle(cell: SimulatedCell) -> None:
     """A tenth of a second with brakes set: what was laid comes to rest, and the interface reads anew."""
-    gap = cell.sense().gap
-    for _ in range(6):
-        cell.tick(Drive(torque=np.zeros(6), brakes=True, gap=gap, grip=80.0, tool=0.0))
+    gap = cell.devices.sense().gap
+    tick(cell.devices, Drive(gap=gap, grip=80.0), ticks=6)
 
 
 def at_standard(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, Pose]:

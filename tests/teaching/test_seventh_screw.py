@@ -17,6 +17,7 @@ from handeye.program.taught import load_taught
 from handeye.resources import plans
 from handeye.source import Source
 from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.variation import SEVENTH
 from handeye.units import DEGREE, INCH
 
@@ -79,7 +80,7 @@ def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position)
         WHERE + text[:first] + SCREW + text[last:],
         world=PumpWorld.nominal(7), positions={"H6": hole}, lay=stacked(),
     ).go()  # fmt: skip
-    *others, seventh = run.cell.truth.threads
+    *others, seventh = holes_of(run.cell.truth)
     assert (run.finished, seventh.screw, seventh.crossed) == (True, 6, False)
     assert seventh.clamp > 40
     assert [other.screw for other in others] == [None] * 6

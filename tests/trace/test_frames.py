@@ -8,7 +8,8 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.cell.simulated import PARK, SimulatedCell
+from handeye.cell.simulated import SimulatedCell
+from handeye.tasks.water_pump.cell import PARK, build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.trace.frames import Frames
 
@@ -17,7 +18,7 @@ SCENE_LIMIT = 300_000  # bytes: what a trace may grow by to show shapes and not 
 
 @pytest.fixture(scope="module")
 def cell() -> SimulatedCell:
-    return SimulatedCell(PumpWorld.nominal(), camera="ray")
+    return build_cell(PumpWorld.nominal(), camera="ray")
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +57,7 @@ def test_looking_changes_nothing_in_the_cell(cell: SimulatedCell, frames: Frames
     after = cell.capture()
     assert np.array_equal(after.physics, before.physics)
     assert all(np.array_equal(after.figures[name], before.figures[name]) for name in before.figures)
-    assert (after.noise, after.camera) == (before.noise, before.camera)
+    assert (after.noise, after.mechanisms) == (before.noise, before.mechanisms)
 
 
 def test_the_scene_shows_everything_that_pictures_show_and_is_small(
@@ -80,7 +81,7 @@ def test_the_meshes_of_the_scene_are_those_of_the_simulator(cell: SimulatedCell,
 
 
 def test_the_scene_is_told_as_it_was_drawn_whatever_has_happened_since() -> None:
-    cell = SimulatedCell(PumpWorld.nominal(), camera="ray")
+    cell = build_cell(PumpWorld.nominal(), camera="ray")
     before = Frames(cell.truth).scene(0)
     cell.truth.model.geom_group[:] = 2  # as if every hidden shape had become a screw in its thread
     cell.truth.model.mat_rgba[:] = 0.5  # as if the lamp had been switched

@@ -16,8 +16,10 @@ from typing import Final
 import mujoco
 import numpy as np
 
+from handeye.cell.mechanism import Mechanism
 from handeye.pose import inverse, pose
-from handeye.tasks.water_pump.threads import Thread
+from handeye.record import Record
+from handeye.tasks.water_pump.threads import Threads
 
 SCREWS: Final = 2
 CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways and no hand lifts them. Chosen.
@@ -27,33 +29,50 @@ _LAYERS: Final = ("gasket", "top")
 _LANDS: Final = (64, 128)  # contact bits of the lands of gasket and top; scenes/water_pump/workcell.xml
 
 
-class Resting:
+class ClampingState(Record, frozen=True, kw_only=True):
+    """Whether the layers are held by welds at present."""
+
+    clamped: bool
+
+
+class Clamping(Mechanism[ClampingState]):
     """Sleep and clamping for one cell."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, *, allowed: bool) -> None:
+    name = "clamping"
+    kind = ClampingState
+    changes = ("eq_data", "geom_contype", "geom_conaffinity")
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, threads: Threads, *, allowed: bool
+    ) -> None:
         """With `allowed` false everything stays awake and apart: the same physics, slower."""
-        self._model, self._data, self._allowed = model, data, allowed
+        self._model, self._data, self._threads, self._allowed = model, data, threads, allowed
         self._base = model.body("base").id
         self._layers = [model.body(name).id for name in _LAYERS]
         self._welds = [model.equality(f"merge_{name}").id for name in _LAYERS]
         self._lands = np.flatnonzero(np.isin(model.geom_contype, _LANDS))
         self._bits = model.geom_contype[self._lands].copy(), model.geom_conaffinity[self._lands].copy()
-        self.clamped = False
-        """Whether the layers are held by welds at present."""
+        self._clamped = False
         if allowed:
             trees = [model.body_treeid[model.body(name).id] for name in _MOTORED]
             model.tree_sleep_policy[trees] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
         else:
             model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 
-    def before(self, threads: tuple[Thread, ...]) -> None:
-        """The events at the start of a tick."""
-        clamped = self._allowed and sum(hole.clamp > CLAMP for hole in threads) >= SCREWS
-        if clamped and not self.clamped:
+    def before(self, seconds: float) -> None:
+        """Join or part the layers as the screws press now."""
+        clamped = self._allowed and sum(hole.clamp > CLAMP for hole in self._threads.holes) >= SCREWS
+        if clamped and not self._clamped:
             self._join()
-        elif self.clamped and not clamped:
-            self.part(self._model, self._data)
-        self.clamped = clamped
+        elif self._clamped and not clamped:
+            self.release(self._model, self._data)
+        self._clamped = clamped
+
+    def state(self) -> ClampingState:
+        return ClampingState(clamped=self._clamped)
+
+    def restore(self, state: ClampingState) -> None:
+        self._clamped = state.clamped
 
     def _join(self) -> None:
         model, data = self._model, self._data
@@ -67,7 +86,7 @@ class Resting:
         model.geom_contype[self._lands] = 0
         model.geom_conaffinity[self._lands] = 0
 
-    def part(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         """Give the layers their contacts back, in this model or a copy of it."""
         data.eq_active[self._welds] = 0
         model.geom_contype[self._lands], model.geom_conaffinity[self._lands] = self._bits

@@ -12,6 +12,7 @@ from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.measure import Measured, displacement, tilt
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes
+from handeye.tasks.water_pump.threads import holes_of
 from handeye.units import INCH
 
 _MM: Final = 1e3
@@ -78,7 +79,7 @@ def _layer(
 
 def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
     size = dimensions()
-    filled = [k for k, thread in enumerate(truth.threads) if thread.screw is not None]
+    filled = [k for k, thread in enumerate(holes_of(truth)) if thread.screw is not None]
     height = size("top.flange") + size("screw.head_height") / 2
     gaps = []
     for k in filled:
@@ -86,11 +87,11 @@ def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
         X_WT = measured.pose("top")
         gaps.append(float(X_WT[:3, 2] @ (measured.data.geom_xpos[head] - X_WT[:3, 3]) - height))
     forces = [measured.head_force(k) for k in filled]
-    crossed = sum(thread.crossed for thread in truth.threads)
+    crossed = sum(thread.crossed for thread in holes_of(truth))
     nothing = float(size("screw.length") * _MM)  # a missing screw counts as one that stands full length high
     worst = max((abs(gap) * _MM for gap in gaps), default=nothing)
     return {
-        "screws": at_least(len(filled), len(truth.threads), "screws", "screws in their threads"),
+        "screws": at_least(len(filled), len(holes_of(truth)), "screws", "screws in their threads"),
         "screws_depth": at_most(worst, limits.SCREW_GAP, "mm", "greatest gap under a screw's head"),
         "screws_clamp": at_least(
             min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw"
@@ -101,8 +102,8 @@ def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
 
 def _cell(measured: Measured, truth: Truth) -> dict[str, Finding]:
     pins = [measured.place(pin, _PINS) for pin in _PINS]
-    screws = tuple(f"screw{k}" for k in range(len(truth.threads)))
-    in_threads = {thread.screw for thread in truth.threads}
+    screws = tuple(f"screw{k}" for k in range(len(holes_of(truth))))
+    in_threads = {thread.screw for thread in holes_of(truth)}
     loose = [name for k, name in enumerate(screws) if k not in in_threads]
     strayed = [measured.place(name, screws)[0] for name in loose]
     away, lean = measured.place("driver", ("driver",))

@@ -9,16 +9,20 @@ friction grows with the clamp force, and the motor turns the carrier against the
 and base feel the torque. Limits of the model are in scenes/water_pump/README.md.
 """
 
-from dataclasses import dataclass, replace
 from math import acos, pi, radians
-from typing import Final
+from typing import Annotated, Final
 
+import msgspec
 import mujoco
 import numpy as np
 
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.state import finite
+from handeye.cell.truth import Truth
 from handeye.pose import Array
+from handeye.record import Record
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import JIFFY
 
 CAPTURE: Final = 0.0008  # m, tip to axis. The bore leaves .35 mm of play; assembly study, section 3.
 START_DEPTH: Final = 0.00127  # m, tip below the mouth: one turn of the thread.
@@ -39,25 +43,42 @@ ON_HEAD: Final = (
     0.003,
 )  # m, axial and lateral way off a head at which the bit still turns it. Placeholder.
 _NUDGE: Final = 1e-12  # rad/s: a velocity that is not zero wakes a sleeping driver
+Number = Annotated[int, msgspec.Meta(ge=0)]
 SEEN: Final = 2  # geom group that pictures show; the carriers' looks are compiled into a hidden one
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Thread:
+class Thread(Record, frozen=True, kw_only=True):
     """What has become of one tapped hole."""
 
-    screw: int | None = None
+    screw: Number | None = None
     """The screw in it."""
     crossed: bool = False
     clamp: float = 0.0
     """Force of the head on the part beneath, N, smoothed over a few ticks, when it was last turned."""
 
 
-class Threads:
+class ThreadsState(Record, frozen=True, kw_only=True):
+    """What has become of all holes."""
+
+    holes: tuple[Thread, ...]
+    """In the order of the carriers."""
+    driven: Number
+    """The hole whose carrier the driver's motor is coupled to."""
+
+
+class Threads(Mechanism[ThreadsState]):
     """The tapped holes, the loose screws and the driver's motor."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, world: PumpWorld) -> None:
-        self._model, self._data = model, data
+    name = "threads"
+    kind = ThreadsState
+    changes = (
+        "dof_frictionloss", "actuator_gainprm", "actuator_biasprm", "geom_contype", "geom_conaffinity", "geom_group",
+    )  # fmt: skip
+
+    def __init__(
+        self, model: mujoco.MjModel, data: mujoco.MjData, world: PumpWorld, driver: SimulatedScrewdriver
+    ) -> None:
+        self._model, self._data, self._driver = model, data, driver
         holes = range(sum(model.body(i).name.startswith("carrier") for i in range(model.nbody)))
         self.holes: tuple[Thread, ...] = tuple(Thread() for _ in holes)
         self._phase = world.thread_phase
@@ -90,26 +111,32 @@ class Threads:
     def driven(self, hole: int) -> None:
         self._model.actuator_trnid[self._drive, 0] = self._site[hole]
 
-    @property
-    def torque(self) -> float:
-        """Torque of the driver's motor, N m, positive when it drives a screw in."""
-        force = self._data.actuator_force
-        return -float(force[self._drive] + force[self._spindle])
-
-    def before(self, speed: float) -> None:
-        """The events at the start of a tick; `speed` of the motor in rad/s, positive drives a screw in."""
-        data = self._data
+    def before(self, seconds: float) -> None:
+        """Turn the spindle with the speed of the driver's motor, and let screws take their threads."""
+        data, speed = self._data, self._driver.speed
         data.ctrl[self._spindle] = -speed
         if speed != 0 and data.qvel[self._spin] == 0.0:
             data.qvel[self._spin] = _NUDGE
         if speed > 0:
-            self._engage()
+            self._engage(seconds)
         self._couple(speed)
+
+    def state(self) -> ThreadsState:
+        return ThreadsState(holes=self.holes, driven=self.driven)
+
+    def check(self, state: ThreadsState) -> None:
+        screws = {hole.screw for hole in state.holes if hole.screw is not None} | {state.driven}
+        if len(state.holes) != len(self.holes) or max(screws) >= len(self.holes):
+            raise ValueError("its screws are not those of this scene")
+        finite([hole.clamp for hole in state.holes], "a thread")
+
+    def restore(self, state: ThreadsState) -> None:
+        self.holes, self.driven = state.holes, state.driven
 
     # --- loose screws ---
 
-    def _engage(self) -> None:
-        """Let every loose screw that meets the conditions take its thread."""
+    def _engage(self, seconds: float) -> None:
+        """Let every loose screw that meets the conditions take its thread in the time to come (s)."""
         taken = {hole.screw for hole in self.holes}
         mouths = self._data.xpos[self._base] + self._local_mouths() @ self._axes().T
         for j, body in enumerate(self._screw):
@@ -117,7 +144,7 @@ class Threads:
                 continue
             offsets = (self._data.xpos[body] - mouths) @ self._axes()
             k = int(np.argmin(np.hypot(offsets[:, 0], offsets[:, 1])))
-            if self.holes[k].screw is None and self._bites(j, k, offsets[k]):
+            if self.holes[k].screw is None and self._bites(j, k, offsets[k], seconds):
                 self._take(j, k, depth=-float(offsets[k, 2]))
 
     def _axes(self) -> Array:
@@ -130,15 +157,15 @@ class Threads:
         axis = self._data.xmat[self._screw[screw]].reshape(3, 3)[:, 2]
         return acos(min(1.0, float(axis @ self._axes()[:, 2])))
 
-    def _bites(self, screw: int, hole: int, offset: Array) -> bool:
-        """Whether the tip of a screw, `offset` from the mouth of a hole (3,), takes the thread now."""
+    def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
+        """Whether the tip of a screw, `offset` from the mouth of a hole (3,), takes the thread within a time (s)."""
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)
         if not in_bore or rate < START_RATE or self._tilt(screw) > STEEPEST:
             return False
         R = self._axes().T @ self._data.xmat[self._screw[screw]].reshape(3, 3)
         ahead = (np.arctan2(R[1, 0], R[0, 0]) - self._phase[hole]) % (2 * pi)
-        return bool(ahead < 1.2 * rate * JIFFY + 0.05)  # the thread starts within the turn of this tick
+        return bool(ahead < 1.2 * rate * seconds + 0.05)  # the thread starts within this turn
 
     def _rate(self, screw: int) -> float:
         """Rate of a loose screw about its own axis, rad/s, counter-clockwise positive."""
@@ -207,7 +234,11 @@ class Threads:
         clamp = (state.clamp + self.head_force(hole)) / 2  # a head that chatters on its seat still presses
         torque = CROSSED_TORQUE if state.crossed else RUNNING_TORQUE + self._friction * THREAD_RADIUS * clamp
         self._model.dof_frictionloss[self._model.jnt_dofadr[self._turn[hole]]] = min(torque, CROSSED_TORQUE)
-        self.holes = (*self.holes[:hole], replace(state, clamp=clamp), *self.holes[hole + 1 :])
+        self.holes = (
+            *self.holes[:hole],
+            msgspec.structs.replace(state, clamp=clamp),
+            *self.holes[hole + 1 :],
+        )
 
     def head_force(self, hole: int) -> float:
         """Force with which the head of a hole's screw presses on the part beneath it, N."""
@@ -216,6 +247,13 @@ class Threads:
         mine = (pairs == head).any(axis=1) & ~np.isin(pairs, self._driver_geoms).any(axis=1)
         rows = contact.efc_address[mine & (contact.efc_address >= 0)]
         return float(self._data.efc_force[rows].sum())  # elliptic cones: a contact's first row is its normal
+
+
+def holes_of(truth: Truth) -> tuple[Thread, ...]:
+    """The tapped holes of the base, in the order of the carriers."""
+    state = truth.states[Threads.name]
+    assert isinstance(state, ThreadsState)
+    return state.holes
 
 
 def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:

@@ -1,12 +1,13 @@
 """A bare hand: straight moves by computed torque, through the ports only."""
 
 import numpy as np
+from driving import Drive, tick
 
 from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
-from handeye.ports.workcell import Drive, Workcell
+from handeye.ports.workcell import Workcell
 from handeye.pose import Array, hand
 from handeye.units import DEGREE, INCH, JIFFY
 
@@ -43,8 +44,8 @@ class Hand:
         J = jacobian(STANFORD, sensed.q)
         torque = M @ (2 * STIFFNESS * (rate - sensed.qd) + STIFFNESS**2 * (self.q - sensed.q)) + h
         torque += J.T @ np.array([0, 0, self.load, 0, 0, 0])
-        self.cell.tick(Drive(torque=torque, brakes=False, gap=self.gap, grip=self.grip, tool=self.tool))
-        pushed = M @ (self.cell.sense().qd - sensed.qd) / JIFFY + h - torque
+        now = tick(self.cell, Drive(torque=torque, gap=self.gap, grip=self.grip, tool=self.tool))
+        pushed = M @ (now.qd - sensed.qd) / JIFFY + h - torque
         self.force = np.linalg.solve(J.T, pushed) - self.tare
 
     def hold(self, ticks: int) -> None:

@@ -4,18 +4,18 @@ from dataclasses import replace
 from functools import cache
 
 import mujoco
-import numpy as np
+from driving import tick
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
-from handeye.ports.workcell import Drive
 from handeye.pose import Pose, planar, translated
+from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, standard
+from handeye.tasks.water_pump.threads import Threads
 from handeye.units import JIFFY
 
-BRAKED = Drive(torque=np.zeros(6), brakes=True, gap=0.05, grip=20.0, tool=0.0)
 TIGHTENING = 0.30  # N m
 
 
@@ -32,7 +32,7 @@ def put(truth: Truth, part: str, X_WP: Pose) -> None:
 
 def stacked(*, rest: bool = True) -> SimulatedCell:
     """Base against the blocks, gasket and top on it, nothing screwed."""
-    cell = SimulatedCell(PumpWorld.nominal(), camera="ray", rest=rest)
+    cell = build_cell(PumpWorld.nominal(), camera="ray", rest=rest)
     X = translated(standard(), (1e-4, -1e-4, 0.0))
     top = base_top() + dimensions()("gasket.thickness")
     for part, height in (("base", 0.0), ("gasket", base_top()), ("top", top)):
@@ -40,16 +40,22 @@ def stacked(*, rest: bool = True) -> SimulatedCell:
     return cell
 
 
+def threads_of(cell: SimulatedCell) -> Threads:
+    """The threads of a cell."""
+    (threads,) = (part for part in cell.truth.mechanisms if isinstance(part, Threads))
+    return threads
+
+
 def tighten(cell: SimulatedCell, hole: int) -> None:
     """Let a screw take its thread just under its head's full depth, and turn it home with a wrench."""
-    size, threads, truth = dimensions(), cell._threads, cell.truth
+    size, threads, truth = dimensions(), threads_of(cell), cell.truth
     seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
     threads._take(hole, hole, depth=seated - 1e-4)
     dof = truth.model.joint(f"thread_turn{hole}").dofadr[0]
-    for tick in range(30):
-        truth.data.qfrc_applied[dof] = -TIGHTENING if tick < 20 else 0.0
+    for period in range(30):
+        truth.data.qfrc_applied[dof] = -TIGHTENING if period < 20 else 0.0
         threads._rub(hole)
-        cell.tick(BRAKED)
+        tick(cell.devices)
 
 
 @cache
@@ -58,7 +64,7 @@ def _finished() -> Truth:
     for hole in range(6):
         tighten(cell, hole)
     for _ in range(round(0.2 / JIFFY)):
-        cell.tick(BRAKED)
+        tick(cell.devices)
     return cell.truth
 
 

@@ -4,7 +4,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from finished import BRAKED, stacked, tighten
+from driving import tick
+from finished import stacked, tighten
 
 from handeye.cell.simulated import SimulatedCell
 
@@ -56,5 +57,5 @@ def test_bonding_leaves_the_contacts_of_a_copy_as_they_were() -> None:
 def test_a_finished_stack_falls_asleep() -> None:
     cell = screwed(True)
     for _ in range(60):
-        cell.tick(BRAKED)
+        tick(cell.devices)
     assert cell.truth.data.ntree_awake == 1

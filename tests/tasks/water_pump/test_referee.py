@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 import pytest
 from finished import finished, put
@@ -12,6 +13,7 @@ from handeye.judge.finding import Finding
 from handeye.pose import planar, pose, rotation_x, translated
 from handeye.tasks.water_pump.referee import assembled, judge
 from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.threads import ThreadsState, holes_of
 
 
 def X(truth: Truth, part: str) -> np.ndarray:
@@ -31,14 +33,19 @@ def moved(part: str, *by: float) -> Callable[[Truth], Truth]:
     return change
 
 
+def _first_thread(truth: Truth, **changed: object) -> Truth:
+    """The truth with another first thread."""
+    first, *others = holes_of(truth)
+    holes = (msgspec.structs.replace(first, **changed), *others)
+    return replace(truth, states={**truth.states, "threads": ThreadsState(holes=holes, driven=0)})
+
+
 def crossed(truth: Truth) -> Truth:
-    first, *others = truth.threads
-    return replace(truth, threads=(replace(first, crossed=True), *others))
+    return _first_thread(truth, crossed=True)
 
 
 def missing_screw(truth: Truth) -> Truth:
-    first, *others = truth.threads
-    return replace(truth, threads=(replace(first, screw=None), *others))
+    return _first_thread(truth, screw=None)
 
 
 def jammed(truth: Truth) -> Truth:

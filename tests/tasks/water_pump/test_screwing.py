@@ -11,6 +11,7 @@ from finished import stacked
 from handeye.cell.truth import Truth
 from handeye.pose import Array
 from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.threads import holes_of
 from handeye.units import INCH
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -45,7 +46,7 @@ def bring_bit(hand: Hand, truth: Truth, x: float, y: float, z: float) -> None:
 @cache
 def driven() -> Driven:
     cell = stacked()
-    hand, truth, size = Hand(cell), cell.truth, dimensions()
+    hand, truth, size = Hand(cell.devices), cell.truth, dimensions()
     length = size("screw.length") + size("screw.head_height")
     hand.over(*size.all("rack.place"), 7.0 * INCH, 90.0)
     hand.fingers(0.0, 80.0)
@@ -58,9 +59,9 @@ def driven() -> Driven:
     hand.press(DOWN, 0.03, 8.0)
     before = at(truth, "base")
     hand.tool = 20.0
-    while cell.sense().tool_torque < STOP and truth.data.time < 40.0:
+    while cell.devices.sense().tool_torque < STOP and truth.data.time < 40.0:
         hand.tick(place=hand.place + DOWN * np.clip((PRESS - hand.force[2]) * 0.0015, -0.01, 0.01) / 60)
-    torque, moment = cell.sense().tool_torque, float(hand.force[5])
+    torque, moment = cell.devices.sense().tool_torque, float(hand.force[5])
     hand.tool = 0.0
     hand.rest()
     hand.hold(10)
@@ -70,7 +71,7 @@ def driven() -> Driven:
 
 @pytest.mark.slow
 def test_the_arm_drives_a_screw_home() -> None:
-    thread = driven().truth.threads[HOLE]
+    thread = holes_of(driven().truth)[HOLE]
     assert driven().torque >= STOP
     assert (thread.screw, thread.crossed) == (0, False)
     assert thread.clamp > 50.0

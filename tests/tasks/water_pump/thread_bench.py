@@ -6,6 +6,8 @@ from math import cos, degrees, pi, sin, tan
 import mujoco
 import numpy as np
 
+from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.watchdog import Watchdog
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Thread, Threads
 from handeye.units import JIFFY
@@ -114,19 +116,26 @@ def drive_screw(
     world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6)
     model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
     data = mujoco.MjData(model)
-    threads = Threads(model, data, world)
+    arm = Watchdog(JIFFY)
+    driver = SimulatedScrewdriver(
+        model, data, ("drive", "spindle"), torque_noise=0.0, noise=world.generator("sensors"), watchdog=arm
+    )
+    threads = Threads(model, data, world, driver)
     weight = 0.51 * 9.81
     torque = 0.0
     for _ in range(round(seconds / JIFFY)):
         data.qfrc_applied[model.joint("press").dofadr[0]] = weight - press
-        threads.before(SPEED)
+        driver.drive(SPEED)
+        threads.before(JIFFY)
         mujoco.mj_step(model, data, 16)
         assert not any(w.number for w in data.warning)
-        torque = threads.torque
+        driver.after()
+        torque = driver.torque()
         if torque > STOP:
             break
     for _ in range(20):
-        threads.before(0.0)
+        driver.drive(0.0)
+        threads.before(JIFFY)
         mujoco.mj_step(model, data, 16)
     head = (
         data.geom_xpos[model.geom("head0").id]

@@ -1,0 +1,128 @@
+"""A simulated arm: torque motors, brakes, potentiometers, tachometers, and a watchdog."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.arm.model import ArmModel, constants
+from handeye.cell.device_errors import ArmErrors
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.state import figures, finite
+from handeye.cell.watchdog import Watchdog
+from handeye.ports.arm import ArmPort, ArmReading
+from handeye.pose import Array
+from handeye.record import Record
+
+_BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))  # creeps under .01 deg in 10 s
+
+
+class ArmState(Record, frozen=True, kw_only=True):
+    """What an arm has read and was told, and how its watchdog stands."""
+
+    q: tuple[float, ...]
+    qd: tuple[float, ...]
+    braked: bool
+    command: tuple[float, ...] | None
+    """Torques; None: brakes."""
+    tripped: bool
+    unanswered: float
+    """s since it was driven."""
+
+
+class SimulatedArm(Mechanism[ArmState], ArmPort):
+    """Motors, brakes and sensors of n joints, called j1, j2, ... behind a prefix in the MuJoCo model.
+
+    A brake is dry friction in the joint: it holds where the arm is and gives way to a torque greater than its own.
+    """
+
+    kind = ArmState
+    changes = ("dof_frictionloss",)
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        prefix: str,
+        *,
+        arm: ArmModel,
+        posture: Array,
+        errors: ArmErrors,
+        noise: np.random.Generator,
+    ) -> None:
+        """An arm that stands at a posture with its brakes set.
+
+        Args:
+            arm: how it was built; its servo period is what the watchdog waits for a new torque.
+            posture: shape (n,), rad or m.
+            noise: of the sensors.
+        """
+        self.name = prefix.rstrip("/")
+        names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
+        joints = [model.joint(name).id for name in names]
+        self.qpos = model.jnt_qposadr[joints]
+        """Where its joints stand in the simulator's positions."""
+        self.dofs = model.jnt_dofadr[joints]
+        self.watchdog = Watchdog(arm.servo.period)
+        self._motors = np.array([model.actuator(name).id for name in names])
+        self._limits = model.actuator_ctrlrange[self._motors, 1].copy()
+        self._friction = model.dof_frictionloss[self.dofs].copy()
+        self._brake, self._errors, self._noise = constants(arm).brake, errors, noise
+        self._model, self._data = model, data
+        model.dof_solref[self.dofs] = _BRAKE_STIFFNESS[0]
+        model.dof_solimp[self.dofs] = _BRAKE_STIFFNESS[1]
+        data.qpos[self.qpos] = posture
+        self._torque: Array | None = None
+        self._braked = True
+        self._put(None)
+        self._reading = ArmReading(q=posture, qd=np.zeros(len(posture)), braked=True)
+
+    def read(self) -> ArmReading:
+        return self._reading
+
+    def drive(self, torque: Array | None) -> None:
+        self._torque = None if torque is None else finite(torque, "the torque")
+        self.watchdog.answer(braked=torque is None)
+
+    def before(self, seconds: float) -> None:
+        if self._torque is not None:
+            self.watchdog.wait(seconds)
+        self._put(None if self.watchdog.tripped else self._torque)
+
+    def _put(self, torque: Array | None) -> None:
+        """Hold a torque, shape (n,), or the brakes from now on."""
+        self._braked = torque is None
+        self._model.dof_frictionloss[self.dofs] = self._brake if torque is None else self._friction
+        limits = self._limits
+        self._data.ctrl[self._motors] = 0.0 if torque is None else np.clip(torque, -limits, limits)
+
+    def after(self) -> None:
+        errors, data, count = self._errors, self._data, len(self.dofs)
+        noise = self._noise.standard_normal(2 * count)
+        self._reading = ArmReading(
+            q=errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count],
+            qd=np.asarray(data.qvel[self.dofs] + errors.tachometer_noise * noise[count:]),
+            braked=self._braked,
+        )
+
+    def state(self) -> ArmState:
+        read = self._reading
+        return ArmState(
+            q=figures(read.q),
+            qd=figures(read.qd),
+            braked=read.braked,
+            command=None if self._torque is None else figures(self._torque),
+            tripped=self.watchdog.tripped,
+            unanswered=self.watchdog.unanswered,
+        )
+
+    def check(self, state: ArmState) -> None:
+        lengths = {len(state.q), len(state.qd), len(self.dofs if state.command is None else state.command)}
+        if lengths != {len(self.dofs)}:
+            raise ValueError("its arm has another number of joints")
+        finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
+
+    def restore(self, state: ArmState) -> None:
+        self._reading = ArmReading(q=np.array(state.q), qd=np.array(state.qd), braked=state.braked)
+        self._torque = None if state.command is None else np.array(state.command)
+        self.watchdog.tripped, self.watchdog.unanswered = state.tripped, state.unanswered

@@ -1,0 +1,120 @@
+"""A simulated hand: one motor for both fingers under position control, a potentiometer, two switches."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.arm.hand import HandModel
+from handeye.cell.device_errors import HandErrors
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.state import finite
+from handeye.ports.hand import HandPort, HandReading
+from handeye.record import Record
+
+_GIVE: Final = 0.004  # m by which the fingers must be held up to press with all the force allowed. Chosen.
+_LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N s/m over 2000 N/m.
+
+
+class HandState(Record, frozen=True, kw_only=True):
+    """What a hand has read, and where its servo stands."""
+
+    gap: float
+    touch: tuple[bool, bool]
+    set_point: float
+    """Of the finger servo, m."""
+    command: tuple[float, float] | None
+    """Gap (m) and grip (N) that it was told."""
+
+
+class SimulatedHand(Mechanism[HandState], HandPort):
+    """Two fingers, their motor `grip` and sensors `switch_a` and `switch_b` behind a prefix in the MuJoCo model."""
+
+    kind = HandState
+    changes = ("actuator_gainprm", "actuator_biasprm", "actuator_forcerange")
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        prefix: str,
+        *,
+        hand: HandModel,
+        errors: HandErrors,
+        noise: np.random.Generator,
+    ) -> None:
+        """A hand at rest.
+
+        Args:
+            hand: how it was built.
+            noise: of the sensors.
+        """
+        self.name = f"{prefix}hand"
+        self._model, self._data = model, data
+        self._hand, self._errors, self._noise = hand, errors, noise
+        self._motor = model.actuator(f"{prefix}grip").id
+        fingers = [model.joint(f"{prefix}finger_{side}").id for side in "ab"]
+        self._fingers = model.jnt_qposadr[fingers]
+        self._switches = [int(model.sensor(f"{prefix}switch_{side}").adr[0]) for side in "ab"]
+        self._set_point = self.gap
+        """Where the finger servo is to be when the time is over, m."""
+        self._command: tuple[float, float] | None = None
+        self._reading = HandReading(gap=self.gap, touch=(False, False))
+        model.actuator_ctrllimited[self._motor] = 0
+
+    @property
+    def gap(self) -> float:
+        """The true opening between the finger tips, m."""
+        return float(self._data.qpos[self._fingers].sum())
+
+    def read(self) -> HandReading:
+        return self._reading
+
+    def drive(self, gap: float, grip: float) -> None:
+        finite([gap, grip], "the gap or the grip")
+        self._command = gap, grip
+
+    def before(self, seconds: float) -> None:
+        """Move the set-point towards the gap that was asked for.
+
+        It never runs far ahead of fingers that are held up, so that they can turn round at once.
+        """
+        if self._command is None:
+            return
+        gap, grip = self._command
+        goal = min(max(gap, 0.0), self._hand.gap_max)
+        here, step = self.gap, self._hand.gap_speed * seconds
+        start = min(max(self._set_point, here - _GIVE), here + _GIVE)
+        if (goal - here) * (start - here) < 0 and abs(start - here) > step:
+            start = here
+        moved = min(max(goal - start, -step), step)
+        self._set_point = start + moved
+        self._press(min(max(grip, 0.0), self._hand.grip), ahead=moved * (_LAG / seconds - 0.5))
+
+    def _press(self, grip: float, ahead: float) -> None:
+        """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.
+
+        `ahead` (m) makes up for the servo's lag and for the set-point's steps.
+        """
+        model, motor = self._model, self._motor
+        model.actuator_gainprm[motor, 0] = grip / _GIVE
+        model.actuator_biasprm[motor, 1:3] = (-grip / _GIVE, -grip / _GIVE * _LAG)
+        model.actuator_forcerange[motor] = (-grip, grip)
+        self._data.ctrl[motor] = self._set_point + ahead
+
+    def after(self) -> None:
+        errors, noise = self._errors, self._noise.standard_normal()
+        first, second = self._data.sensordata[self._switches] > errors.switch_force
+        gap = self.gap * (1 + errors.gap_scale) + errors.gap_offset + errors.gap_noise * noise
+        self._reading = HandReading(gap=float(gap), touch=(bool(first), bool(second)))
+
+    def state(self) -> HandState:
+        read = self._reading
+        return HandState(gap=read.gap, touch=read.touch, set_point=self._set_point, command=self._command)
+
+    def check(self, state: HandState) -> None:
+        finite([state.gap, state.set_point, *(state.command or ())], "the hand")
+
+    def restore(self, state: HandState) -> None:
+        self._reading = HandReading(gap=state.gap, touch=state.touch)
+        self._set_point, self._command = state.set_point, state.command

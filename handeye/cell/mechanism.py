@@ -1,0 +1,50 @@
+"""A part of a simulated cell that does something as time passes: every device, and what a task adds to physics."""
+
+from abc import ABC, abstractmethod
+from typing import ClassVar, Generic, TypeVar
+
+import msgspec
+import mujoco
+
+from handeye.record import Record
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+
+class NoState(Record, frozen=True):
+    """The state of a mechanism that remembers nothing."""
+
+
+class Mechanism(ABC, Generic[S]):
+    """Acts on the simulator before time passes, and may read it afterwards."""
+
+    name: str
+    """By which its state is found."""
+    kind: type[S]
+    """The type of its state."""
+    changes: ClassVar[tuple[str, ...]] = ()
+    """Fields of the MuJoCo model that it changes as it runs: they belong to the state of the cell."""
+
+    def before(self, seconds: float) -> None:
+        """Do what is due before time passes (s)."""
+
+    def after(self) -> None:
+        """Read the simulator when time has passed, and once when the cell is switched on."""
+
+    @abstractmethod
+    def state(self) -> S:
+        """Everything its future depends on, besides the simulator."""
+
+    def check(self, state: S) -> None:
+        """See that a state can be one of this mechanism.
+
+        Raises:
+            InvalidInput, ValueError, KeyError, TypeError: it cannot.
+        """
+
+    @abstractmethod
+    def restore(self, state: S) -> None:
+        """Put it into a state that has been checked."""
+
+    def release(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Give up, in this model or a copy of it, whatever it does for speed only."""

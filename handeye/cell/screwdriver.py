@@ -1,0 +1,74 @@
+"""A simulated screwdriver: a motor of given speed whose current tells its torque."""
+
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.state import finite
+from handeye.cell.watchdog import Watchdog
+from handeye.ports.screwdriver import ScrewdriverPort
+from handeye.record import Record
+
+
+class ScrewdriverState(Record, frozen=True, kw_only=True):
+    """What a screwdriver has read, and what it was told."""
+
+    torque: float
+    command: float
+    """rad/s"""
+
+
+class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
+    """Its torque is that of actuators of the model; what its speed does is a matter of the task's threads."""
+
+    name = "screwdriver"
+    kind = ScrewdriverState
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        motors: Sequence[str],
+        *,
+        torque_noise: float,
+        noise: np.random.Generator,
+        watchdog: Watchdog,
+    ) -> None:
+        """A screwdriver that is off.
+
+        Args:
+            motors: actuators whose torques about the spindle, counter-clockwise, add up to its own.
+            torque_noise: sigma, N m.
+            watchdog: of the arm that carries it: it cuts this motor, too.
+        """
+        self._data, self._watchdog = data, watchdog
+        self._motors = [model.actuator(name).id for name in motors]
+        self._torque_noise, self._noise = torque_noise, noise
+        self._command = self._torque = 0.0
+
+    @property
+    def speed(self) -> float:
+        """The speed its motor is to turn with now, rad/s, positive drives a screw in."""
+        return 0.0 if self._watchdog.tripped else self._command
+
+    def torque(self) -> float:
+        return self._torque
+
+    def drive(self, speed: float) -> None:
+        finite([speed], "the speed of the screwdriver")
+        self._command = speed
+
+    def after(self) -> None:
+        true = -float(sum(self._data.actuator_force[motor] for motor in self._motors))
+        self._torque = float(true + self._torque_noise * self._noise.standard_normal())
+
+    def state(self) -> ScrewdriverState:
+        return ScrewdriverState(torque=self._torque, command=self._command)
+
+    def check(self, state: ScrewdriverState) -> None:
+        finite([state.torque, state.command], "the screwdriver")
+
+    def restore(self, state: ScrewdriverState) -> None:
+        self._torque, self._command = state.torque, state.command

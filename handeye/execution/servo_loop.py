@@ -1,0 +1,289 @@
+"""The servo loop: puts torques out along set-points, a servo period at a time, while guards watch.
+
+Everything here goes through the ports: positions are the potentiometers', forces are what the joint torques
+leave unexplained. A motion does not let time pass. It is an iterator that has put out everything for a period when it
+yields, and reads the cell when it is asked to go on; whoever asks lets the clock advance in between. So any number of
+arms move under one clock.
+"""
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from handeye import errors
+from handeye.arm.dynamics import gravity, mass_matrix
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.model import ArmModel, constants
+from handeye.arm.samples import Samples
+from handeye.arm.servo import external_wrench, prepare, torque
+from handeye.execution.compliance import Course
+from handeye.execution.state import DriveState
+from handeye.ports.workcell import Sensed, Workcell
+from handeye.pose import Array, Pose, displaced, translated
+from handeye.touch.guards import Monitor, Reading, Trip
+from handeye.units import INCH
+
+PRESS_TICKS = 600
+"""Periods after which a pressing motion ends that neither gets on nor meets its guard: ten seconds."""
+
+
+class Halted(Exception):
+    """The panic button was hit: drives are off and brakes set since this servo period."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """How a motion ended."""
+
+    trip: Trip | None = None
+    """The guard that ended it."""
+    error: int | None = None
+    """An error of the motion itself (servo lag, watchdog)."""
+    detail: str = ""
+
+
+REACHED = Outcome()
+CUT = Outcome(error=errors.WATCHDOG)
+
+
+T = TypeVar("T")
+Motion = Generator[None, None, T]
+"""A motion under way: it yields once a servo period, and returns how it ended."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Dynamics:
+    """Inertia, gravity and Jacobian at a set-point, reused while the hand hardly moves."""
+
+    M: Array
+    bias: Array
+    J: Array
+
+
+@dataclass(slots=True, kw_only=True)
+class ServoLoop:
+    """The servo of one arm, and what its cell is told with every torque."""
+
+    cell: Workcell
+    arm: ArmModel
+    state: DriveState
+    """What it remembers: set-points, load and what is felt."""
+    watch: Callable[[Sensed, Array], None] = lambda _, __: None
+    """Called after every servo period with what is sensed and the torques put out, shape (n,)."""
+    halt: Callable[[], bool] = lambda: False
+    """The panic button, asked at every servo period."""
+
+    @property
+    def period(self) -> float:
+        """Servo period, s."""
+        return self.arm.servo.period
+
+    # -- motions, a servo period at a time -----------------------------------------------------------
+
+    def braking(self, seconds: float) -> Motion[None]:
+        """Set the brakes; the set-point becomes where the arm then is."""
+        for _ in range(round(seconds / self.period)):
+            yield from self._wait(None)
+        self.state.q = self.sensed.q.copy()
+
+    def floating(self, seconds: float) -> Motion[None]:
+        """Let go of the arm: gravity is borne, and whoever pushes the hand moves it.
+
+        The set-point becomes where the arm then is.
+        """
+        for _ in range(round(seconds / self.period)):
+            q, qd = self.sensed.q, self.sensed.qd
+            yield from self._wait(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
+        self.state.q = self.sensed.q.copy()
+
+    def following(
+        self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
+    ) -> Motion[Outcome]:
+        """Follow set-points; end early when `guard` trips.
+
+        Args:
+            direction: unit vectors of the motion for the guard, shape (3,) or (N, 3), in W.
+        """
+        if len(samples) == 0:
+            return REACHED
+        if guard is not None:
+            yield from self.zeroing()
+        motion = prepare(self.arm, self.state.q, samples)
+        J = jacobian(self.arm, motion.q) if guard is not None or self.state.load else _no_jacobian(motion.q)
+        for i in range(len(motion)):
+            here = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i])
+            yield from self._servo(here, motion.q[i], motion.qd[i], motion.qdd[i], estimate=guard is not None)
+            if self.state.cut:
+                return CUT
+            self.state.q = samples.q[i]
+            lag = np.abs(self.sensed.q - self.state.q) > constants(self.arm).lag
+            if lag.any():
+                self.state.q = self.sensed.q.copy()
+                joint = self.arm.joints[int(np.argmax(lag))].name
+                return Outcome(error=errors.SERVO_LAG, detail=f"{joint} stayed behind its set-point")
+            along = _row(direction, i)
+            trip = guard.check(self._reading(along)) if guard is not None else None
+            if trip is not None:
+                self._freeze(along)
+                return Outcome(trip=trip)
+        yield from self.holding(self.arm.servo.settle)
+        return REACHED if guard is not None else self._arrived()
+
+    def complying(self, course: Course, guard: Monitor | None) -> Motion[Outcome]:
+        """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips.
+
+        A position servo in which the measured force moves the set-point: it needs no joint to be slack.
+        """
+        yield from self.zeroing()
+        X_start = forward(self.arm, self.state.q)
+        gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
+        for tick in range(course.patience(PRESS_TICKS, self.period)):
+            if gone >= course.distance:
+                return REACHED if guard is not None else self._arrived()
+            gone += course.advance(self.state.wrench, tick) * self.period
+            given += course.yielding(self.state.wrench) * self.period
+            turn = course.turned(turn, self.state.wrench, self.period)
+            step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.state.q)
+            if step.q is None:
+                return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
+            yield from self._approach(self.dynamics(), step.q, estimate=True)
+            if self.state.cut:
+                return CUT
+            trip = guard.check(self._reading(course.direction)) if guard is not None else None
+            if trip is not None:
+                self._freeze(course.direction)
+                return Outcome(trip=trip)
+        if guard is not None:  # its error says that nothing was met
+            return REACHED
+        return Outcome(error=errors.SERVO_LAG, detail=f"the hand got on {gone / INCH:.2f} in and no farther")
+
+    def shifting(self, here: Dynamics, X_WT: Pose) -> Motion[Outcome]:
+        """One period towards a pose close by."""
+        step = solve(self.arm, X_WT, self.state.q)
+        if step.q is None:
+            return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
+        yield from self._approach(here, step.q, estimate=False)
+        return CUT if self.state.cut else REACHED
+
+    def holding(self, ticks: int) -> Motion[None]:
+        """Hold the set-point."""
+        here = self.dynamics()
+        for _ in range(ticks):
+            yield from self._approach(here, self.state.q, estimate=False)
+
+    def zeroing(self) -> Motion[None]:
+        """Hold still and take what is felt now as zero force."""
+        here = self.dynamics()
+        felt = []
+        self.state.tare = np.zeros(6)
+        for _ in range(self.arm.servo.settle):
+            yield from self._approach(here, self.state.q, estimate=True)
+            felt.append(self.state.wrench)
+        self.state.tare = np.mean(felt, axis=0)
+        self.state.wrench = np.zeros(6)
+
+    # -- one servo period ------------------------------------------------------------------------------
+
+    def _approach(self, here: Dynamics, q: Array, *, estimate: bool) -> Motion[None]:
+        """One servo period towards a set-point close by."""
+        rest = np.zeros(len(self.state.q))
+        yield from self._servo(here, self.state.q, (q - self.state.q) / self.period, rest, estimate=estimate)
+        self.state.q = q
+
+    def _servo(self, here: Dynamics, q: Array, qd: Array, qdd: Array, *, estimate: bool) -> Motion[None]:
+        """One servo period in which the arm should begin at `q` with rates `qd`."""
+        before = self.sensed
+        load = here.J[2] * self.state.load
+        tau = torque(self.arm, here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
+        effort = constants(self.arm).effort
+        tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
+        after = yield from self._wait(tau)
+        if estimate:
+            acceleration = (after.qd - before.qd) / self.period
+            unexplained = here.M @ acceleration + here.bias - tau
+            self.state.wrench = external_wrench(here.J, unexplained) - self.state.tare
+
+    def _wait(self, tau: Array | None) -> Motion[Sensed]:
+        """One servo period under a torque, or (None) the brakes; what is sensed at its end.
+
+        Raises:
+            Halted: behind it, if the panic button is down.
+        """
+        halted = self.halt()
+        if halted:
+            tau, self.state.tool = None, 0.0
+        self._put_out(tau)
+        yield
+        sensed = self.cell.sense()
+        self.state.cut = sensed.braked and tau is not None
+        self.watch(sensed, np.zeros(len(self.state.q)) if tau is None else tau)
+        if halted:
+            raise Halted
+        return sensed
+
+    def _put_out(self, tau: Array | None) -> None:
+        """Tell every device of the cell what to do for the next servo period."""
+        cell = self.cell
+        cell.arm.drive(tau)
+        if cell.hand is not None:
+            cell.hand.drive(self.state.gap, self.state.grip)
+        if cell.screwdriver is not None:
+            cell.screwdriver.drive(self.state.tool)
+        if cell.lamp is not None:
+            cell.lamp.switch(self.state.lamp)
+
+    # -- stopping -----------------------------------------------------------------------------------
+
+    def _freeze(self, direction: Array) -> None:
+        """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
+        X_set, X_is = forward(self.arm, self.state.q), forward(self.arm, self.sensed.q)
+        along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
+        held = solve(self.arm, translated(X_set, along * direction), self.state.q)
+        self.state.q = self.sensed.q.copy() if held.q is None else held.q
+
+    # -- knowing ------------------------------------------------------------------------------------
+
+    def _arrived(self) -> Outcome:
+        """Whether the hand is where it is held."""
+        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
+        if off < self.arm.servo.short:
+            return REACHED
+        return Outcome(error=errors.SERVO_LAG, detail=f"the hand is {off / INCH:.2f} in from its set-point")
+
+    @property
+    def sensed(self) -> Sensed:
+        """Readings of all devices in this servo period."""
+        return self.cell.sense()
+
+    def hand(self) -> Pose:
+        """`X_WT` by the arm's own sensors."""
+        return forward(self.arm, self.sensed.q)
+
+    def dynamics(self) -> Dynamics:
+        """Inertia, bias torques and Jacobian at rest at the present set-point."""
+        return Dynamics(
+            M=mass_matrix(self.arm, self.state.q),
+            bias=gravity(self.arm, self.state.q),
+            J=jacobian(self.arm, self.state.q),
+        )
+
+    def _reading(self, direction: Array) -> Reading:
+        """What guards look at."""
+        return Reading(
+            force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
+            tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,
+        )  # fmt: skip
+
+
+def _no_jacobian(q: Array) -> Array:
+    """Jacobians of no effect for set-points (N, n)."""
+    return np.zeros((len(q), 6, q.shape[1]))
+
+
+def _row(direction: Array | None, i: int) -> Array:
+    if direction is None:
+        return np.zeros(3)
+    return direction if direction.ndim == 1 else direction[i]

@@ -1,0 +1,45 @@
+"""The clock of a cell: the only way to let time pass, for all of its devices at once."""
+
+from abc import ABC, abstractmethod
+from typing import Final
+
+from handeye.errors import InvalidInput
+
+_ROUNDING: Final = 1e-6
+"""Share of a step by which a period may miss a whole number of steps: what floating-point numbers lose."""
+
+
+class Clock(ABC):
+    """Time, which passes only when it is asked to.
+
+    Whatever the devices were told last is held while time passes; what they read is taken anew at its end.
+    """
+
+    @property
+    @abstractmethod
+    def now(self) -> float:
+        """s since the cell was switched on."""
+
+    @abstractmethod
+    def advance(self, seconds: float) -> None:
+        """Let time pass.
+
+        Raises:
+            InvalidInput: not a whole number of the cell's physics steps.
+        """
+
+
+def whole_steps(seconds: float, step: float) -> int:
+    """How many physics steps (s) there are in a period (s).
+
+    Raises:
+        InvalidInput: not a whole number of them, or none.
+    """
+    steps = round(seconds / step)
+    if steps < 1 or abs(seconds / step - steps) > _ROUNDING:
+        low = max(1, int(seconds / step))
+        raise InvalidInput(
+            f"a period of {seconds:g} s is not a whole number of physics steps of {step:g} s; "
+            f"use {low * step:g} or {(low + 1) * step:g}"
+        )
+    return steps

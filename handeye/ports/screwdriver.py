@@ -1,0 +1,19 @@
+"""A powered screwdriver, which a hand may hold."""
+
+from abc import ABC, abstractmethod
+
+
+class ScrewdriverPort(ABC):
+    """The motor of a screwdriver."""
+
+    @abstractmethod
+    def torque(self) -> float:
+        """Torque of the motor by its current, N m, positive when it drives a screw in; the same until time passes."""
+
+    @abstractmethod
+    def drive(self, speed: float) -> None:
+        """Set the speed of the spindle, rad/s, positive drives a right-hand screw in; 0 is off.
+
+        Raises:
+            InvalidInput: not a finite number.
+        """

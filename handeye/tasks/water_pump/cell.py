@@ -1,0 +1,58 @@
+"""The work cell of the water pump: its scene, its devices, its threads and its clamping, put together."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.arm import SimulatedArm
+from handeye.cell.camera import SimulatedCamera
+from handeye.cell.hand import SimulatedHand
+from handeye.cell.lamp import SimulatedLamp
+from handeye.cell.renderers import make_renderer
+from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.simulated import SimulatedCell
+from handeye.tasks.water_pump.clamping import Clamping
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene import ARM, build
+from handeye.tasks.water_pump.threads import Threads
+from handeye.units import DEGREE, INCH
+
+PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
+    DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
+]  # fmt: skip
+"""Where the arm stands at first: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
+
+
+def build_cell(world: PumpWorld, *, camera: str = "auto", rest: bool = True) -> SimulatedCell:
+    """The cell of a world.
+
+    Args:
+        camera: how to make pictures: `auto`, `gl` or `ray`.
+        rest: let parts sleep at rest and move as one when clamped; without, the same, slower.
+
+    Raises:
+        InvalidInput: pictures cannot be made so here.
+    """
+    model = build(world)
+    data = mujoco.MjData(model)
+    noise = world.generator("sensors")
+    arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
+    hand = SimulatedHand(model, data, ARM, hand=STANFORD.hand, errors=world.hand, noise=noise)
+    driver = SimulatedScrewdriver(
+        model, data, ("drive", "spindle"), torque_noise=world.hand.torque_noise, noise=noise,
+        watchdog=arm.watchdog,
+    )  # fmt: skip
+    threads = Threads(model, data, world, driver)
+    return SimulatedCell(
+        model,
+        data,
+        arm=arm,
+        hand=hand,
+        screwdriver=driver,
+        lamp=SimulatedLamp(model, f"{ARM}lamp"),
+        camera=SimulatedCamera(data, world.camera, world.generator("camera"), make_renderer(camera, model)),
+        mechanisms=(threads, Clamping(model, data, threads, allowed=rest)),
+        noise=noise,
+    )
