@@ -11,14 +11,14 @@ from conftest import Command
 from handeye.cli.world_options import LARGEST, ErrorOptions, WorldOptions
 from handeye.tasks.water_pump.variation import SEVENTH, variation
 from handeye.trials import breaking
-from handeye.variation import Overrides, WorldSpec
+from handeye.variation import DRAWING, Overrides, WorldSpec
 
 CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
 SPEC = {
     "seed": 3,
     "level": "high",
     "overrides": {"without": ["base.x", "camera"], "set": {"part_mass": 0.05}},
-    "drawing": 1,
+    "drawing": DRAWING,
 }
 CHOOSING = [
     "assemble", "run", "world", "render", "do", "repl", "teach", "bench timing", "bench overhead", "trials base",
