@@ -2,13 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 from handeye.arm.model import ArmModel
 from handeye.events import AnyEvent
 from handeye.execution.drive import ArmDrive
-from handeye.execution.state import DriveState, ExecutionState, check_fits
+from handeye.execution.state import DriveState, ExecutionState, Fault, check_fits
 from handeye.execution.stopwatch import Stopwatch
-from handeye.planfile.plan import Plan
+from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.program.world_model import WorldModel
 from handeye.records import put_back
@@ -42,6 +43,12 @@ class ExecutionContext:
         period = self.arm.servo.period
         return round(round(self.drive.sensed.time / period) * period, 6)
 
+    @property
+    def planned(self) -> PlannedMotion:
+        """The planned motion of the step under way, which must have one."""
+        assert self.state.at is not None
+        return self.plan.motions[self.state.at]
+
     def restore(self, state: ExecutionState) -> None:
         """Go on from a copy of a state; the cell must be as it was then.
 
@@ -50,3 +57,9 @@ class ExecutionContext:
         """
         check_fits(state, self.plan, self.arm)
         put_back(self.state, state)
+
+
+Action = Callable[[ExecutionContext, Any], Fault | None]
+"""Carries an operation out, and comes back with the error that it raises."""
+Decision = Callable[[ExecutionContext, Any], bool]
+"""Whether a step leads to where its operation branches."""

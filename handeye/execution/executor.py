@@ -1,8 +1,7 @@
 """The executor: follows the graph of a plan, step by step, and lets the program test what went wrong."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final, Literal
+from typing import Final, Literal
 
 import numpy as np
 
@@ -11,44 +10,27 @@ from handeye.arm.kinematics import forward
 from handeye.events import (
     Choice,
     ErrorRaised,
-    ErrorTested,
-    HandTold,
     OperatorAnswered,
     OperatorCalled,
-    PositionDefined,
     RunFinished,
-    Saved,
-    SearchAdvanced,
     StageFinished,
     StageStarted,
     StepFinished,
     StepStarted,
 )
-from handeye.execution import motion_actions as acting
-from handeye.execution import vision_actions as looking
-from handeye.execution.context import ExecutionContext
-from handeye.execution.state import ExecutionState, Fault, SearchState, vector
-from handeye.program import operations as op
+from handeye.execution.context import Action, ExecutionContext
+from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
+from handeye.execution.motion_actions import MOTION_ACTIONS
+from handeye.execution.state import ExecutionState, Fault, vector
+from handeye.execution.vision_actions import VISION_ACTIONS
+from handeye.program.operation import Operation
 from handeye.program.program import Step
-from handeye.program.world_model import place
 
 IDLE_LIMIT: Final = 10_000
 """Steps without time passing after which a program is taken to run in a circle."""
 
-_ACTIONS: Final[dict[type, Callable[[ExecutionContext, Any], Fault | None]]] = {
-    op.Change: acting.change,
-    op.Turn: acting.turn,
-    op.Open: acting.open_hand,
-    op.Close: acting.close,
-    op.Center: acting.center,
-    op.Travel: acting.travel,
-    op.Lens: looking.lens,
-    op.Aim: looking.aim,
-    op.Look: looking.look,
-    op.General: looking.general,
-    op.Specific: looking.specific,
-    op.Inspect: looking.inspect,
-}
+ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | VISION_ACTIONS | FLOW_ACTIONS
+"""What carries out each operation that does not branch."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -69,10 +51,10 @@ class Executor:
         step = run.plan.program.steps[here]
         self._enter(step.stage)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
-        self.state.at = self._perform(here, step)
+        self.state.at = self._perform(step)
         run.emit(self._finished(here))
-        if isinstance(step.operation, op.Wait):
-            self._stop(step.operation.message, None)
+        if step.operation.calls is not None:
+            self._stop(step.operation.calls, None)
         elif self.state.pending is not None and not self._tests(self.state.at):
             self._call_operator(self.state.pending)
         else:
@@ -104,39 +86,17 @@ class Executor:
         run.emit(RunFinished(time=run.time, completed=completed))
         return completed
 
-    def _perform(self, number: int, step: Step) -> int | None:
+    def _perform(self, step: Step) -> int | None:
         """Do the operation; the number of the step that follows."""
-        run = self.run
         operation = step.operation
-        if isinstance(operation, op.Test):
-            return self._test(operation, step)
-        if isinstance(operation, op.Save):
-            self._save(operation)
-            return step.next
-        if isinstance(operation, op.Assign):
-            run.state.counters[operation.counter] = operation.value
-            return step.next
-        if isinstance(operation, op.Countdown):
-            left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
-            return operation.positive if left > 0 else step.next
+        if operation.branch is not None:
+            taken = DECISIONS[type(operation)](self.run, operation)
+            return operation.branch.target if taken else step.next
         if operation.raising and not operation.only_checks:
-            run.state.finger_line = None
-        if isinstance(operation, op.Move):
-            self._raise(acting.move(run, number, operation))
-        elif isinstance(operation, op.Advance):
-            self._raise(self._advance())
-        elif isinstance(operation, op.Search):
-            run.state.search = SearchState(step=operation.step, limit=operation.limit)
-        elif isinstance(operation, op.Load):
-            run.drive.state.load = operation.weight
-        elif isinstance(operation, op.Tool):
-            run.drive.state.tool = operation.speed
-        elif isinstance(operation, op.Here):
-            self._define(operation.position)
-        elif isinstance(operation, op.Where):
-            run.emit(HandTold(time=run.time, at=place(run.drive.hand())))
-        elif not isinstance(operation, op.Jump | op.Wait):
-            self._raise(_ACTIONS[type(operation)](run, operation))
+            self.state.finger_line = None
+        fault = ACTIONS[type(operation)](self.run, operation)
+        if operation.raising:
+            self._raise(fault)
         return step.next
 
     def _raise(self, fault: Fault | None) -> None:
@@ -146,51 +106,10 @@ class Executor:
         if fault is not None:
             self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, detail=fault.detail))
 
-    def _test(self, operation: op.Test, step: Step) -> int | None:
-        occurred = self.state.pending is not None and self.state.pending.number == operation.number
-        self.run.emit(ErrorTested(time=self.run.time, number=operation.number, occurred=occurred))
-        if occurred:
-            self.state.pending = None
-            return operation.raised
-        return step.next
-
     def _tests(self, number: int | None) -> bool:
         """Whether a step tests for an error."""
-        return number is not None and isinstance(self.run.plan.program.steps[number].operation, op.Test)
-
-    def _advance(self) -> Fault | None:
-        run = self.run
-        if run.state.search is None or run.state.search.count + 1 >= run.state.search.limit:
-            tried = (
-                "no search was set up"
-                if run.state.search is None
-                else f"{run.state.search.limit} places tried"
-            )
-            return Fault(number=errors.SEARCH_EXHAUSTED, detail=tried)
-        run.state.search.count += 1
-        x, y = run.state.search.offset()
-        run.emit(
-            SearchAdvanced(time=run.time, count=run.state.search.count, offset=(round(x, 6), round(y, 6)))
-        )
-        return None
-
-    def _save(self, operation: op.Save) -> None:
-        run = self.run
-        difference = run.drive.hand()[:3, 3] - run.state.goal
-        if operation.name in run.state.restored:  # what it has added already still belongs to it
-            difference = difference + run.state.restored[operation.name]
-        if (
-            run.state.finger_line is not None
-        ):  # CENTER measures along the finger line; the rest is servo error
-            difference = (difference @ run.state.finger_line) * run.state.finger_line
-        run.state.saved[operation.name] = difference
-        run.emit(Saved(time=run.time, name=operation.name, difference=vector(difference)))
-
-    def _define(self, name: str) -> None:
-        run = self.run
-        here = run.world.seen_from(run.world.positions[name].of, run.drive.hand())
-        run.state.world.moved[name] = here
-        run.emit(PositionDefined(time=run.time, name=name, at=here.at, of=here.of))
+        branch = None if number is None else self.run.plan.program.steps[number].operation.branch
+        return branch is not None and branch.error is not None
 
     def _finished(self, number: int) -> StepFinished:
         """The account of a step that is done."""

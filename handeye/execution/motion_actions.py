@@ -10,7 +10,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.trajectory import Trajectory, four_three_four
 from handeye.events import Adjusted, GuardTripped, Restored
 from handeye.execution.compliance import Course
-from handeye.execution.context import ExecutionContext
+from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import Fault, vector
 from handeye.planning.motions import (
@@ -23,6 +23,7 @@ from handeye.planning.motions import (
 )
 from handeye.pose import Array, Pose, translated
 from handeye.program.guards import GuardKind, Guards, unmet
+from handeye.program.operation import Operation
 from handeye.program.operations import Center, Change, Close, Move, Open, Travel, Turn
 from handeye.record import Vector3
 from handeye.touch.centring import Centring
@@ -39,10 +40,8 @@ GRASP_TICKS: Final = 20
 PLAN_TOLERANCE: Final = 1e-4
 """A goal or start nearer than this (m, rad) to its planned value is run as planned."""
 
-__all__ = ["center", "change", "close", "move", "open_hand", "travel", "turn"]
 
-
-def move(run: ExecutionContext, number: int, operation: Move) -> Fault | None:
+def move(run: ExecutionContext, operation: Move) -> Fault | None:
     """Move to a position by its measured place, shifted by what was saved and by the search."""
     X_WT = run.world.position(operation.goal)
     run.state.restored = {}
@@ -59,7 +58,7 @@ def move(run: ExecutionContext, number: int, operation: Move) -> Fault | None:
     if operation.searching and run.state.search is not None:
         X_WT = translated(X_WT, (*run.state.search.offset(), 0.0))
     via = [run.world.position(name) for name in operation.via]
-    trajectory = _trajectory(run, number, operation, via, X_WT)
+    trajectory = _trajectory(run, operation, via, X_WT)
     if isinstance(trajectory, Unreachable):
         return Fault(
             number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
@@ -70,10 +69,11 @@ def move(run: ExecutionContext, number: int, operation: Move) -> Fault | None:
 
 
 def _trajectory(
-    run: ExecutionContext, number: int, operation: Move, via: list[Pose], X_WT: Pose
+    run: ExecutionContext, operation: Move, via: list[Pose], X_WT: Pose
 ) -> Trajectory | Unreachable:
     """The planned trajectory if the world is where the plan thought, else one adjusted to it."""
-    knots = np.array(run.plan.motions[number].knots)
+    motion = run.planned
+    knots = np.array(motion.knots)
     as_planned = np.abs(knots[0] - run.drive.state.q).max() < PLAN_TOLERANCE
     names, planned = (*operation.via, operation.goal), (*knots[2:-2], knots[-1])
     for name, X, q in zip(names, (*via, X_WT), planned, strict=True):
@@ -82,7 +82,7 @@ def _trajectory(
             as_planned = False
             run.emit(Adjusted(time=run.time, goal=name, shift=vector(off[:3, 3])))
     if as_planned:
-        return four_three_four(knots, np.array(run.plan.motions[number].times))
+        return four_three_four(knots, np.array(motion.times))
     return move_trajectory(run.arm, run.drive.state.q, via, X_WT, operation, run.plan.speed)
 
 
@@ -217,3 +217,14 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
     return Fault(
         number=errors.WRONG_TRAVEL, detail=f"it went {run.state.travel / INCH:.2f} in; {allowed} are right"
     )
+
+
+MOTION_ACTIONS: Final[dict[type[Operation], Action]] = {
+    Move: move,
+    Change: change,
+    Turn: turn,
+    Open: open_hand,
+    Close: close,
+    Center: center,
+    Travel: travel,
+}

@@ -1,15 +1,17 @@
 """Looking: the slow camera, and what vision makes of its pictures."""
 
 import math
+from typing import Final
 
 import numpy as np
 
 from handeye import errors
 from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
-from handeye.execution.context import ExecutionContext
+from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
 from handeye.ports.camera import TvCamera
 from handeye.pose import Array, Pose, planar, yaw
+from handeye.program.operation import Operation
 from handeye.program.operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.gasket import inspect as inspect_gasket
@@ -128,3 +130,13 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     run.state.found[operation.after] = Found(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, sentence=seen.sentence))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, detail=seen.sentence)
+
+
+VISION_ACTIONS: Final[dict[type[Operation], Action]] = {
+    Lens: lens,
+    Aim: aim,
+    Look: look,
+    General: general,
+    Specific: specific,
+    Inspect: inspect,
+}

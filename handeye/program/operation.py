@@ -83,6 +83,11 @@ class Operation(
         return self.used(self.writing)
 
     @property
+    def calls(self) -> str | None:
+        """The words with which it calls the operator, if it does."""
+        return None
+
+    @property
     def branch(self) -> Branch | None:
         """The other way it may lead, if there is one."""
         return None

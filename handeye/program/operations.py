@@ -277,6 +277,11 @@ class Wait(Operation, frozen=True, kw_only=True):
 
     message: str
 
+    @property
+    def calls(self) -> str:
+        """The message: the operator is always called."""
+        return self.message
+
 
 class Load(Operation, frozen=True, kw_only=True):
     """Declare the weight (N) of what the hand carries, so that the servo compensates it."""

@@ -1,0 +1,104 @@
+"""Flow and memory of a program: tests, counts and searches, differences and positions kept, load and screwdriver."""
+
+from typing import Final
+
+from handeye import errors
+from handeye.events import ErrorTested, HandTold, PositionDefined, Saved, SearchAdvanced
+from handeye.execution.context import Action, Decision, ExecutionContext
+from handeye.execution.state import Fault, SearchState, vector
+from handeye.program import operations as op
+from handeye.program.operation import Operation
+from handeye.program.world_model import place
+
+
+def test_error(run: ExecutionContext, operation: op.Test) -> bool:
+    """Whether the last action raised an error, which is then cleared."""
+    pending = run.state.pending
+    occurred = pending is not None and pending.number == operation.number
+    run.emit(ErrorTested(time=run.time, number=operation.number, occurred=occurred))
+    if occurred:
+        run.state.pending = None
+    return occurred
+
+
+def assign(run: ExecutionContext, operation: op.Assign) -> None:
+    """Set a counter."""
+    run.state.counters[operation.counter] = operation.value
+
+
+def count_down(run: ExecutionContext, operation: op.Countdown) -> bool:
+    """Whether a counter is still positive when one has been subtracted from it."""
+    left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
+    return left > 0
+
+
+def search(run: ExecutionContext, operation: op.Search) -> None:
+    """Set up a search; the present place is the first."""
+    run.state.search = SearchState(step=operation.step, limit=operation.limit)
+
+
+def advance(run: ExecutionContext, _: op.Advance) -> Fault | None:
+    """Go on to the next place of the search, to which the next searching motion will go."""
+    found = run.state.search
+    if found is None or found.count + 1 >= found.limit:
+        tried = "no search was set up" if found is None else f"{found.limit} places tried"
+        return Fault(number=errors.SEARCH_EXHAUSTED, detail=tried)
+    found.count += 1
+    x, y = found.offset()
+    run.emit(SearchAdvanced(time=run.time, count=found.count, offset=(round(x, 6), round(y, 6))))
+    return None
+
+
+def save(run: ExecutionContext, operation: op.Save) -> None:
+    """Keep how far the hand is from the goal of the last motion to a position."""
+    difference = run.drive.hand()[:3, 3] - run.state.goal
+    if operation.name in run.state.restored:  # what it has added already still belongs to it
+        difference = difference + run.state.restored[operation.name]
+    line = run.state.finger_line
+    if line is not None:  # CENTER measures along the finger line; the rest is servo error
+        difference = (difference @ line) * line
+    run.state.saved[operation.name] = difference
+    run.emit(Saved(time=run.time, name=operation.name, difference=vector(difference)))
+
+
+def here(run: ExecutionContext, operation: op.Here) -> None:
+    """Define a position as where the hand is."""
+    name = operation.position
+    seen = run.world.seen_from(run.world.positions[name].of, run.drive.hand())
+    run.state.world.moved[name] = seen
+    run.emit(PositionDefined(time=run.time, name=name, at=seen.at, of=seen.of))
+
+
+def where(run: ExecutionContext, _: op.Where) -> None:
+    """Tell where the hand is."""
+    run.emit(HandTold(time=run.time, at=place(run.drive.hand())))
+
+
+def load(run: ExecutionContext, operation: op.Load) -> None:
+    """Have the servo bear a weight."""
+    run.drive.state.load = operation.weight
+
+
+def tool(run: ExecutionContext, operation: op.Tool) -> None:
+    """Run the screwdriver."""
+    run.drive.state.tool = operation.speed
+
+
+def nothing(_: ExecutionContext, __: Operation) -> None:
+    """Leave it to where the step leads, or to the operator it calls."""
+
+
+FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {
+    op.Assign: assign,
+    op.Search: search,
+    op.Advance: advance,
+    op.Save: save,
+    op.Here: here,
+    op.Where: where,
+    op.Load: load,
+    op.Tool: tool,
+    op.Jump: nothing,
+    op.Wait: nothing,
+}
+DECISIONS: Final[dict[type[Operation], Decision]] = {op.Test: test_error, op.Countdown: count_down}
+"""Operations that branch."""

@@ -1,0 +1,55 @@
+"""What operations tell of themselves is enough to walk, check and carry out any program."""
+
+from typing import get_args
+
+import pytest
+
+from handeye.execution.executor import ACTIONS
+from handeye.execution.flow_actions import DECISIONS
+from handeye.program.guards import AnyGuard, GuardKind
+from handeye.program.operation import Operation
+from handeye.program.operations import AnyOperation, Change, Countdown, Jump, Move, Restore, Test
+
+OPERATIONS: tuple[type[Operation], ...] = get_args(AnyOperation)
+
+
+def test_every_operation_has_one_action_and_the_branching_ones_a_decision() -> None:
+    assert {*ACTIONS} | {*DECISIONS} == {*OPERATIONS}
+    assert {*DECISIONS} == {operation for operation in OPERATIONS if operation.branches}
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+def test_what_an_operation_tells_of_its_fields_is_about_fields_it_has(operation: type[Operation]) -> None:
+    fields = set(operation.__struct_fields__)
+    named = {
+        name for table in (operation.reading, operation.writing) for names in table.values() for name in names
+    }
+    assert named | {*operation.bounds} | {*operation.choices} <= fields
+
+
+def test_every_guard_is_called_on_disk_as_its_kind() -> None:
+    guards = get_args(AnyGuard)
+    assert [guard.kind for guard in guards] == list(GuardKind)
+    assert [guard.__struct_config__.tag for guard in guards] == list(GuardKind)
+
+
+def test_a_move_reads_its_positions_and_what_shifts_it() -> None:
+    move = Move(goal="T", via=("A",), restore=(Restore(name="D", level=True),), searching=True)
+    assert [tuple(use) for use in move.reads] == [
+        ("position", "T", False),
+        ("position", "A", False),
+        ("difference", "D", True),
+        ("search", "", False),
+    ]
+
+
+def test_a_branch_tells_when_it_is_gone_and_can_be_led_elsewhere() -> None:
+    assert Test(number=23, raised=4).branch == (4, 23, None)
+    assert Countdown(counter="N", positive=4).leading_to(9).branch == (9, None, "N")
+    assert Jump().branch is None
+
+
+def test_a_change_is_meant_to_meet_what_it_presses_on() -> None:
+    free = Change(displacement=(0, 0, 1), free=(1, 0, 0))
+    assert (free.complies, free.meets) == (True, False)
+    assert Change(displacement=(0, 0, 1), press=(0, 0, -1)).meets
