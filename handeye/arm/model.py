@@ -91,6 +91,14 @@ class ArmModel:
     held: Mapping[str, float] = field(default_factory=dict)
     """Joints that are no part of the inverse kinematics, by name, and where each is held, rad or m."""
 
+    def __post_init__(self) -> None:
+        """Raises ValueError if the figures do not fit together."""
+        names = [joint.name for joint in self.joints]
+        if len({*names}) < len(names) or not {*self.held} <= {*names}:
+            raise ValueError(f"{self.name}: joints have names of their own, and only joints are held")
+        if {len(self.servo.frequency), len(self.servo.lag)} != {len(names)}:
+            raise ValueError(f"{self.name}: the servo has figures for other than {len(names)} joints")
+
     @property
     def lower(self) -> Array:
         """Lower joint limits, shape (n,)."""
@@ -100,6 +108,14 @@ class ArmModel:
     def upper(self) -> Array:
         """Upper joint limits, shape (n,)."""
         return constants(self).upper
+
+    @property
+    def middle(self) -> Array:
+        """The middle of the joints' ranges, held joints where they are held; shape (n,)."""
+        q = (self.lower + self.upper) / 2
+        for i, joint in enumerate(self.joints):
+            q[i] = self.held.get(joint.name, q[i])
+        return q
 
 
 def digest(arm: ArmModel) -> str:

@@ -26,6 +26,8 @@ MOST: Final = 24
 """Lines of deeds that a terminal is told of a long way; all of them are in the trace."""
 STATEMENT: Final = 30
 """Columns for a statement."""
+_ROW: Final = 3
+"""Joints told on a line."""
 
 _ORDER: Final = sorted(Reply.__struct_fields__, key=lambda name: name in CommandResult.__struct_fields__)
 """Of the fields of an answer: the command and where the run stands first."""
@@ -105,7 +107,7 @@ def _vector(values: Sequence[float], places: int) -> str:
 
 def _joints(joints: tuple[Joint, ...]) -> list[str]:
     told = [f"{joint.name} {joint.value:.2f} {joint.unit}" for joint in joints]
-    return [", ".join(told[:3]), ", ".join(told[3:])]
+    return [", ".join(told[i : i + _ROW]) for i in range(0, len(told), _ROW)]
 
 
 def _hand(hand: Hand) -> list[str]:

@@ -145,7 +145,7 @@ def _position(document: Document, name: str) -> list[str]:
 
 def joints(arm: ArmModel, X_WT: Pose) -> str:
     """Joint positions that put the hand there, from the middle of their ranges; or why there are none."""
-    result = solve(arm, X_WT, (arm.lower + arm.upper) / 2)
+    result = solve(arm, X_WT, arm.middle)
     if result.q is None:
         return f"out of the arm's reach: {result.message(arm)}"
     shown = [

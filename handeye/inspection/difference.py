@@ -5,7 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from handeye.arm.robots.stanford import STANFORD
+from handeye.arm.model import ArmModel, constants
+from handeye.arm.robots import robot
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
 from handeye.inspection.place_changes import PlaceChange, place_changes
 from handeye.inspection.wording import conditions, one_line
@@ -25,7 +26,12 @@ class MotionChange(Record, frozen=True, kw_only=True):
     """Planned duration, s; None if there was no motion."""
     after: float | None
     joint: int | None = None
-    """The joint that ends farthest from where it did, measured by the time it needs; from 1. None: all end alike."""
+    """The joint that ends farthest from where it did, measured by the time it needs; from 1. None: all end alike, or
+    the arms are different ones."""
+    name: str = ""
+    """Of that joint."""
+    kind: Literal["revolute", "prismatic"] | None = None
+    """Of that joint."""
     moved: float = 0.0
     """How far that joint ends from where it did, rad or m."""
 
@@ -112,10 +118,18 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
     stages = before.program.stages[one.stage], after.program.stages[other.stage]
     if stages[0] != stages[1] and {*stages} <= {*before.program.stages} & {*after.program.stages}:
         changes.append(("stage", *stages))
-    motion = _motion(before.motions.get(old), after.motions.get(new))
+    arm = _arm(before, after)
+    motion = _motion(before.motions.get(old), after.motions.get(new), arm)
     if not changes and motion is None:
         return None
     return _change("changed" if changes else "replanned", after, new, pair, tuple(changes), motion)
+
+
+def _arm(before: Plan, after: Plan) -> ArmModel | None:
+    """The arm of both plans, if it is one that is known here."""
+    arm = robot(after.arm) if before.arm == after.arm else None
+    same = arm is not None and {*before.joint_counts, *after.joint_counts} <= {len(arm.joints)}
+    return arm if same else None
 
 
 def _change(
@@ -154,10 +168,14 @@ def _place(target: int | None) -> str:
     return "the end" if target is None else f"step {target}"
 
 
-def _motion(one: PlannedMotion | None, other: PlannedMotion | None) -> MotionChange | None:
+def _motion(
+    one: PlannedMotion | None, other: PlannedMotion | None, arm: ArmModel | None
+) -> MotionChange | None:
     before, after = (None if m is None else round(sum(m.times), 6) for m in (one, other))
     if one is None or other is None:
         return None if one is other else MotionChange(before=before, after=after)
+    if arm is None:
+        return None if one == other else MotionChange(before=before, after=after)
     if len(one.knots) == len(other.knots) and np.allclose(one.knots, other.knots, rtol=0, atol=_ALIKE):
         return (
             None
@@ -167,5 +185,13 @@ def _motion(one: PlannedMotion | None, other: PlannedMotion | None) -> MotionCha
     moved = np.array(other.knots[-1]) - np.array(one.knots[-1])
     if (np.abs(moved) < _ALIKE).all():
         return MotionChange(before=before, after=after)
-    joint = int(np.argmax(np.abs(moved) / [j.speed for j in STANFORD.joints]))
-    return MotionChange(before=before, after=after, joint=joint + 1, moved=float(moved[joint]))
+    index = int(np.argmax(np.abs(moved) / constants(arm).speed))
+    joint = arm.joints[index]
+    return MotionChange(
+        before=before,
+        after=after,
+        joint=index + 1,
+        name=joint.name,
+        kind=joint.kind,
+        moved=float(moved[index]),
+    )

@@ -2,7 +2,6 @@
 
 from typing import Final
 
-from handeye.arm.robots.stanford import STANFORD
 from handeye.inspection.difference import Difference, MotionChange, StepChange
 from handeye.inspection.place_changes import PlaceChange
 from handeye.inspection.wording import degrees, figure, inches
@@ -57,6 +56,5 @@ def _motion(change: MotionChange) -> str:
     time = before if before == after else f"{before} -> {after}"
     if change.joint is None:
         return time
-    joint = STANFORD.joints[change.joint - 1]
-    by = inches(change.moved) if joint.kind == "prismatic" else degrees(change.moved)
-    return f"{time}, joint {change.joint} ({joint.name}) ends {by if change.moved < 0 else '+' + by} from where it did"
+    by = inches(change.moved) if change.kind == "prismatic" else degrees(change.moved)
+    return f"{time}, joint {change.joint} ({change.name}) ends {by if change.moved < 0 else '+' + by} from where it did"

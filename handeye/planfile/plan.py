@@ -38,3 +38,8 @@ class Plan(Record, frozen=True, kw_only=True):
     program: Program
     motions: dict[int, PlannedMotion]
     """Planned motion of each step that moves the arm, by step number."""
+
+    @property
+    def joint_counts(self) -> tuple[int, ...]:
+        """How many joints the arm has by the positions of its motions: one number, if the plan is sound."""
+        return tuple(sorted({len(knot) for motion in self.motions.values() for knot in motion.knots}))

@@ -53,6 +53,8 @@ def faults(plan: Plan) -> Iterator[str]:
     for number, step in enumerate(program.steps):
         for fault in _step(plan, number, step):
             yield f"step {number} (line {step.place}) {fault}"
+    if len(plan.joint_counts) > 1:
+        yield f"its motions are of arms with {' and '.join(map(str, plan.joint_counts))} joints"
     for number in plan.motions:
         if not 0 <= number < len(program.steps):
             yield f"it has a motion for step {number}, and no such step"

@@ -120,7 +120,7 @@ class _Walk:
         moves = [s.operation for s in self.program.steps if isinstance(s.operation, Move)]
         goals = [move.goal for move in moves if move.goal in known]
         first = HOME if HOME in known else (goals[0] if goals else None)
-        self.q = (self.arm.lower + self.arm.upper) / 2
+        self.q = self.arm.middle
         if first is None:
             self.known = False
             return

@@ -80,7 +80,7 @@ class RunFolder(Observer):
         """A recorder that goes on behind these events."""
         assert self._runner is not None
         plan = encode(self._runner.setup.plan).encode()
-        frames = Frames(self._runner.cell.truth)
+        frames = Frames(self._runner.cell.truth, self._runner.arm)
         return Recorder.resumed(self.path / TRACE, frames, self._picture, plan, len(events), events)
 
     def _picture(self, name: str) -> Picture:

@@ -13,7 +13,7 @@ class Observer:
         """Something happened."""
 
     def tick(self, sensed: Sensed, effort: Array) -> None:
-        """A servo period has passed, in which these torques, shape (6,), were put out."""
+        """A servo period has passed, in which these torques, shape (n,), were put out."""
 
     def undone(self, events: int) -> None:
         """The run went back: only its first `events` events have happened."""

@@ -1,12 +1,12 @@
 """The complete state of a run between two steps, and what a run begins with."""
 
 from collections.abc import Iterable
-from typing import Annotated, Final
+from typing import Annotated
 
 import msgspec
 
 from handeye.arm.model import ArmModel, digest
-from handeye.arm.robots.stanford import STANFORD
+from handeye.arm.robots import robot
 from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
@@ -15,8 +15,6 @@ from handeye.planfile.plan import Plan
 from handeye.record import Record
 from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration
-
-ARMS: Final = {STANFORD.name: STANFORD}
 
 
 class Setup(Record, frozen=True, kw_only=True):
@@ -95,9 +93,13 @@ def arm_of(plan: Plan) -> ArmModel:
     Raises:
         InvalidInput: there is none such here.
     """
-    arm = ARMS.get(plan.arm)
+    arm = robot(plan.arm)
     if arm is None or digest(arm) != plan.arm_digest:
         raise InvalidInput(
             f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
+        )
+    if plan.joint_counts not in ((), (len(arm.joints),)):
+        raise InvalidInput(
+            f"the plan has positions of {plan.joint_counts[0]} joints; the {arm.name} arm has {len(arm.joints)}"
         )
     return arm

@@ -45,7 +45,7 @@ def planned(
     """Plan a text.
 
     Args:
-        start: where the arm stands, shape (6,), rad and m.
+        start: where the arm stands, shape (n,), rad and m.
         saved: differences that have been saved before.
         alone: the text is only a part of what is done, and need not make sense by itself.
     """

@@ -62,8 +62,9 @@ class TeachSession:
         if word in ("quit", "exit"):
             return self._quit()
         self.warned = False
-        if re.fullmatch(r"j[1-6]", word):
-            return _joint(self.teacher, [word[1:], *rest])
+        joint = re.fullmatch(r"j([1-9]\d?)", word)
+        if joint is not None and int(joint[1]) <= len(self.teacher.workplace.runner.arm.joints):
+            return _joint(self.teacher, [joint[1], *rest])
         lesson = TEACH_COMMANDS.get(word)
         if lesson is None:
             known = suggestion(word, [*TEACH_COMMANDS, "quit"])

@@ -83,7 +83,7 @@ class Workplace:
 
     @property
     def q(self) -> Array:
-        """Where the arm is held, shape (6,), rad and m."""
+        """Where the arm is held, shape (n,), rad and m."""
         return self.runner.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> Planned:

@@ -4,7 +4,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.model import ArmModel
-from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.truth import Truth
 from handeye.trace.messages import Poses
 from handeye.trace.scene import LATENT, looks, scene
@@ -15,7 +14,7 @@ Mask = NDArray[np.bool_]
 class Frames:
     """The frames of a cell's bodies. They are those the simulator last computed, a physics step before the tick."""
 
-    def __init__(self, truth: Truth, arm: ArmModel = STANFORD) -> None:
+    def __init__(self, truth: Truth, arm: ArmModel) -> None:
         self._truth = truth
         bodies = range(1, truth.model.nbody)  # body 0 is the world
         self.names = tuple(str(truth.model.body(number).name) for number in bodies)

@@ -36,7 +36,7 @@ def stamp(time: int) -> Timestamp:
 
 
 class JointMessage:
-    """Position and rate of each joint as the sensors read them, the torque put out (N m, joint 3 N), and the gap.
+    """Position and rate of each joint as the sensors read them, the torque (N m) or force (N) put out, and the gap.
 
     One message is filled in again and again: there are sixty a second.
     """

@@ -19,7 +19,7 @@ class State:
     time: float
     """Of the servo period that is shown, s."""
     joints: Array
-    """Positions by the sensors, shape (6,), rad and (joint 3) m."""
+    """Positions by the sensors, shape (n,), rad and m."""
     gap: float
     """m"""
     poses: dict[str, Pose7]

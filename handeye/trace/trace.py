@@ -32,11 +32,11 @@ class Tick:
     time: float
     """s"""
     q: Array
-    """Joint positions by the sensors, shape (6,), rad and (joint 3) m."""
+    """Joint positions by the sensors, shape (n,), rad and m."""
     qd: Array
-    """Joint rates by the sensors, shape (6,)."""
+    """Joint rates by the sensors, shape (n,)."""
     effort: Array
-    """Torques put out, shape (6,), N m and (joint 3) N."""
+    """Torques put out, shape (n,), N m and (prismatic joints) N."""
     gap: float
     """m"""
     moved: dict[str, Pose7]

@@ -74,6 +74,13 @@ def test_inertia_of_every_link_is_physically_possible(arm: ArmModel) -> None:
         assert 2 * max(joint.inertia) <= sum(joint.inertia), joint.name
 
 
+def test_a_robot_whose_figures_do_not_fit_together_is_refused() -> None:
+    twice = (*STANFORD.joints[:5], STANFORD.joints[0])
+    for wrong in ({"joints": twice}, {"joints": STANFORD.joints[:5]}, {"held": {"rail": 0.5}}):
+        with pytest.raises(ValueError, match=r"^Stanford: "):
+            replace(STANFORD, **wrong)
+
+
 def test_digest_changes_with_any_figure() -> None:
     assert digest(STANFORD) == digest(replace(STANFORD, X_WB=STANFORD.X_WB.copy()))
     assert digest(STANFORD) != digest(replace(STANFORD, hand=replace(STANFORD.hand, mass=0.25)))

@@ -23,7 +23,7 @@ def cell() -> SimulatedCell:
 
 @pytest.fixture(scope="module")
 def frames(cell: SimulatedCell) -> Frames:
-    return Frames(cell.truth)
+    return Frames(cell.truth, STANFORD)
 
 
 def test_every_body_but_the_world_has_a_frame_where_it_is(cell: SimulatedCell, frames: Frames) -> None:
@@ -82,7 +82,7 @@ def test_the_meshes_of_the_scene_are_those_of_the_simulator(cell: SimulatedCell,
 
 def test_the_scene_is_told_as_it_was_drawn_whatever_has_happened_since() -> None:
     cell = build_cell(PumpWorld.nominal(), camera="ray")
-    before = Frames(cell.truth).scene(0)
+    before = Frames(cell.truth, STANFORD).scene(0)
     cell.truth.model.geom_group[:] = 2  # as if every hidden shape had become a screw in its thread
     cell.truth.model.mat_rgba[:] = 0.5  # as if the lamp had been switched
-    assert Frames(cell.truth).scene(0) == before
+    assert Frames(cell.truth, STANFORD).scene(0) == before

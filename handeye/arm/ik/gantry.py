@@ -4,7 +4,8 @@ The slides do not turn the hand, so the wrist follows from its orientation alone
 the position: the wrist's axes need not meet in a point. More slides than three are rails, held at a place.
 
 Two branches: the wrist flipped or not. Where the axes of its first and last joint come into line only the sum of the
-two matters, and the first stays where it was; the hand can still go anywhere, and turn about that line.
+two matters, and the first stays where it was if the last can do the rest; the hand can still go anywhere, and turn
+about that line.
 """
 
 import math
@@ -94,10 +95,20 @@ def solve(arm: ArmModel, X_WT: Pose, near: Array) -> IKResult:
     start[b.held] = b.held_at
     here = near.tolist()
     found = [
-        [nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, here, strict=True)]
+        _shared(arm, [nearest_turn(j, x, x0) for j, x, x0 in zip(arm.joints, q, here, strict=True)])
         for q in branches(arm, X_WT, start)[0].tolist()
     ]
     return choose(arm, found, here)
+
+
+def _shared(arm: ArmModel, q: list[float]) -> list[float]:
+    """With both rolls in line, the first takes over what is beyond the range of the last."""
+    last = arm.joints[-1]
+    beyond = q[-1] - min(max(q[-1], last.lower), last.upper)
+    if beyond == 0.0 or abs(math.sin(q[-2])) >= _COLLINEAR:
+        return q
+    same_way = -math.cos(q[-2]) * math.sin(arm.joints[-3].alpha) * math.sin(arm.joints[-2].alpha)
+    return [*q[:-3], q[-3] + same_way * beyond, q[-2], q[-1] - beyond]
 
 
 def singular(arm: ArmModel, q_start: Array, q: Array, V: Array) -> tuple[int, InLine] | None:

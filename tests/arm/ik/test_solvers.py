@@ -69,15 +69,12 @@ def test_a_joint_that_is_held_goes_to_where_it_is_held(arm: ArmModel) -> None:
 
 
 def test_a_pose_beyond_a_slide_is_refused_with_the_joint_and_its_limit(arm: ArmModel) -> None:
-    middle = (arm.lower + arm.upper) / 2
-    for i, joint in enumerate(arm.joints):
-        middle[i] = arm.held.get(joint.name, middle[i])
     for i, joint in enumerate(arm.joints):
         if joint.kind == "revolute" or joint.name in arm.held:
             continue
-        q = middle.copy()
+        q = arm.middle
         q[i] = joint.upper + 0.1
-        result = solve(arm, forward(arm, q), middle)
+        result = solve(arm, forward(arm, q), arm.middle)
         assert result.q is None
         assert isinstance(result.reason, OutOfReach)
         assert (result.reason.joint, result.reason.excess) == (i, pytest.approx(0.1))
