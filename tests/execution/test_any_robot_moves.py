@@ -1,0 +1,127 @@
+"""The servo loop runs every robot in physics: it follows, feels, bears a load and stops, whatever the structure."""
+
+import mujoco
+import numpy as np
+import pytest
+from robots import ROBOTS
+
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward
+from handeye.arm.line import straight
+from handeye.arm.samples import Samples
+from handeye.arm.trajectory import move
+from handeye.cell.arm import SimulatedArm
+from handeye.cell.device_errors import ArmErrors
+from handeye.cell.simulated import SimulatedCell
+from handeye.execution.drive import ArmDrive
+from handeye.execution.servo_loop import REACHED
+from handeye.execution.state import DriveState
+from handeye.ports.workcell import Sensed
+from handeye.pose import Array, hand, translated
+from handeye.program.guards import Force, GuardKind
+from handeye.touch.guards import monitor
+from handeye.units import INCH
+
+pytestmark = pytest.mark.slow
+
+TOP = 0.1
+"""Height of a plate on the table, m."""
+START = hand(0.635, 0.95, 0.2, np.pi / 2, np.pi / 2, 0.0)
+
+
+def perfect(joints: int) -> ArmErrors:
+    none = np.zeros(joints)
+    return ArmErrors(
+        offset=none, scale=none, wave=none, period=none + 1.0, phase=none, centre=none, pot_noise=none,
+        tachometer_noise=none, link_mass=none + 1.0, friction=none,
+    )  # fmt: skip
+
+
+class Bench:
+    """A robot over a plate, its hand at `START`."""
+
+    def __init__(self, name: str) -> None:
+        robot = ROBOTS[name]
+        self.arm = robot.arm
+        spec, scene = mujoco.MjSpec.from_string(robot.mjcf), mujoco.MjSpec()
+        scene.option.timestep = self.arm.servo.period / 16
+        scene.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+        scene.worldbody.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.5, 0.5, TOP / 2], pos=[0.635, 0.95, TOP / 2],
+            contype=1, conaffinity=2,
+        )  # fmt: skip
+        quat = np.zeros(4)
+        mujoco.mju_mat2Quat(quat, robot.X_WM[:3, :3].ravel())
+        scene.attach(spec, frame=scene.worldbody.add_frame(pos=robot.X_WM[:3, 3], quat=quat), prefix="it/")
+        model = scene.compile()
+        self.data, noise = mujoco.MjData(model), np.random.default_rng(0)
+        q = solve(self.arm, START, self.arm.middle).q
+        assert q is not None
+        arm = SimulatedArm(
+            model, self.data, "it/", arm=self.arm, posture=q, errors=perfect(len(q)), noise=noise
+        )
+        cell = SimulatedCell(model, self.data, arm=arm, noise=noise)
+        self.link = model.joint(f"it/j{len(q)}").bodyid[0]
+        state = DriveState.holding(cell.devices.sense())
+        self.ticks: list[float] = []
+        self.drive = ArmDrive(cell=cell.devices, arm=self.arm, state=state, watch=self._watch)
+
+    def _watch(self, sensed: Sensed, torque: Array) -> None:
+        self.ticks.append(sensed.time)
+
+    @property
+    def tool(self) -> Array:
+        """Where the tool centre point really is, m."""
+        return np.array(self.data.site("it/tool").xpos)
+
+
+@pytest.fixture(params=ROBOTS)
+def bench(request: pytest.FixtureRequest) -> Bench:
+    return Bench(request.param)
+
+
+def line(bench: Bench, *way: float, speed: float = INCH) -> Samples:
+    found = straight(bench.arm, bench.drive.state.q, np.array(way), speed)
+    assert isinstance(found, Samples)
+    return found
+
+
+def test_it_follows_a_free_motion_and_a_straight_one(bench: Bench) -> None:
+    goal = translated(START, (0.1, 0.0, 0.05))
+    free = move(bench.arm, bench.drive.state.q, goal, speed=0.4)
+    assert bench.drive.follow(free.sample(bench.arm.servo.period)) == REACHED
+    np.testing.assert_allclose(bench.tool, goal[:3, 3], atol=1e-3)
+    assert bench.drive.follow(line(bench, -0.05, 0.0, -0.02)) == REACHED
+    np.testing.assert_allclose(bench.tool, goal[:3, 3] + [-0.05, 0.0, -0.02], atol=1e-3)
+
+
+def test_row_35_a_second_of_motion_takes_sixty_torque_updates(bench: Bench) -> None:
+    assert bench.drive.follow(line(bench, 0.0, 0.0, -0.9 * INCH)) == REACHED
+    assert sum(time < 1.0 + bench.arm.servo.period / 2 for time in bench.ticks) == 60
+
+
+def test_a_guarded_motion_ends_on_the_plate_with_the_force_it_names(bench: Bench) -> None:
+    down = line(bench, 0.0, 0.0, -0.15)
+    outcome = bench.drive.follow(down, monitor((Force(force=(0.0, 0.0, -12.0)),)), np.array([0.0, 0.0, -1.0]))
+    assert outcome.trip is not None
+    assert outcome.trip.guard is GuardKind.FORCE
+    assert 12.0 < outcome.trip.value < 30.0
+    assert bench.tool[2] == pytest.approx(TOP, abs=2e-3)
+
+
+@pytest.mark.parametrize("declared", [0.0, 8.9])
+def test_row_32_a_load_sinks_unless_it_is_declared(bench: Bench, declared: float) -> None:
+    bench.drive.hold(10)
+    before = bench.tool[2]
+    bench.drive.state.load = declared
+    bench.data.xfrc_applied[bench.link, 2] = -8.9
+    bench.drive.hold(60)
+    sunk = before - bench.tool[2]
+    assert sunk == pytest.approx(0, abs=2e-4) if declared else sunk > 5e-4
+
+
+def test_it_stands_where_it_is_when_its_brakes_are_set(bench: Bench) -> None:
+    before = bench.tool
+    bench.drive.brake(1.0)
+    np.testing.assert_allclose(bench.tool, before, atol=1e-3)
+    assert forward(bench.arm, bench.drive.state.q)[2, 3] == pytest.approx(before[2], abs=1e-3)
