@@ -1,5 +1,6 @@
 """Source text and spans of it, for diagnostics and for showing the line that is being executed."""
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
@@ -71,9 +72,7 @@ class Source:
 
     @cached_property
     def _starts(self) -> list[int]:
-        starts = [0]
-        starts.extend(i + 1 for i, c in enumerate(self.text) if c == "\n")
-        return starts
+        return [0, *(found.end() for found in re.finditer("\n", self.text))]
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of a character offset."""
@@ -85,6 +84,16 @@ class Source:
         start = self._starts[number - 1]
         end = self._starts[number] - 1 if number < len(self._starts) else len(self.text)
         return self.text[start:end].rstrip("\r")
+
+    def column(self, offset: int) -> int:
+        """How many characters of its line stand before a character offset."""
+        return offset - self.text.rfind("\n", 0, offset) - 1
+
+    def span(self, key: str, line: int, columns: tuple[int, int]) -> Span:
+        """Characters of a line of one of the texts, as a span of the whole."""
+        text = next(text for text in self.texts if text.key == key)
+        start = self.begins[key] + text._starts[line - 1]
+        return Span(start=start + columns[0], end=start + columns[1])
 
     def line_span(self, number: int) -> Span:
         """The statement on a line: from its first to its last visible character."""

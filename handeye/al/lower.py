@@ -14,7 +14,7 @@ from handeye.al.macros import Call, Placed
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.program.operations import AnyOperation, Move
-from handeye.program.program import Step
+from handeye.program.program import Step, Words
 from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
@@ -60,10 +60,19 @@ def _step(source: Source, draft: "_Draft") -> Step:
     assert draft.operation is not None
     statement = draft.statement
     text, start = source.find(statement.start)
+    column, length = text.column(start), statement.end - statement.start
     return Step(
-        operation=draft.operation, stage=draft.stage, file=text.key, line=statement.line,
-        text=text.text[start : start + statement.end - statement.start], next=draft.next,
+        operation=draft.operation, stage=draft.stage, labels=draft.labels, macro=draft.macro, file=text.key,
+        line=statement.line, span=(column, column + length), text=text.text[start : start + length],
+        modifiers=tuple([_words(source, modifier) for modifier in draft.modifiers]), next=draft.next,
     )  # fmt: skip
+
+
+def _words(source: Source, statement: Statement) -> Words:
+    text, start = source.find(statement.start)
+    column = text.column(start)
+    span = (column, column + statement.end - statement.start)
+    return Words(file=text.key, line=statement.line, span=span)
 
 
 class _Draft(msgspec.Struct, gc=False):
@@ -78,6 +87,10 @@ class _Draft(msgspec.Struct, gc=False):
     """The first of its modifiers."""
     next: int | None
     """The draft that follows."""
+    macro: str
+    modifiers: Sequence[Statement] = ()
+    """Those that fit it."""
+    labels: tuple[str, ...] = ()
     shifts: tuple[Statement, ...] = ()
 
     @property
@@ -171,7 +184,8 @@ class _Lowering:
             self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
         if role is SKIP or role is JUMP:
             self.branches.append(len(self.drafts))
-        self.draft(item, operation(statement, self.modifiers(statement) if self.pending else ()))
+        modifiers = self.modifiers(statement) if self.pending else ()
+        self.draft(item, operation(statement, modifiers), modifiers)
         self.pending.clear()
         self.shiftable = statement.word is not None and statement.word.text == "MOVE"
 
@@ -185,12 +199,14 @@ class _Lowering:
                 found.append(modifier.statement)
         return found
 
-    def draft(self, item: Placed, made: AnyOperation | None) -> None:
+    def draft(self, item: Placed, made: AnyOperation | None, modifiers: Sequence[Statement] = ()) -> None:
         if not self.stages:
             self.stages[FIRST_STAGE] = item.statement.span
         modifier = self.pending[0] if self.pending else None
         behind = len(self.drafts) + 1
-        self.drafts.append(_Draft(item.statement, item.call, self.stage, made, modifier, behind))
+        self.drafts.append(
+            _Draft(item.statement, item.call, self.stage, made, modifier, behind, item.macro, modifiers)
+        )
 
     def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
         """Whether it modifies such a motion, and is the first of its kind."""
@@ -225,6 +241,9 @@ class _Lowering:
             self.no_motion(None)
         if self.drafts:
             self.drafts[-1].next = None
+        for (_, name), (index, _) in self.labels.items():
+            if index < len(self.drafts):
+                self.drafts[index].labels += (name,)
         for index in self.branches:
             self.link(index)
         if self.loops:

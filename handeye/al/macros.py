@@ -24,6 +24,8 @@ class Placed(msgspec.Struct, frozen=True, gc=False):
 
     statement: Statement
     call: Call
+    macro: str
+    """The macro it stands in; empty: none."""
 
 
 def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Placed]:
@@ -49,7 +51,7 @@ class _Expansion:
             if self.visited > LONGEST:
                 self.stop(statement, f"the program has more than {LONGEST} statements")
             elif statement.word is None or statement.word.text not in self.script.macros or statement.broken:
-                self.placed.append(Placed(statement, call))
+                self.placed.append(Placed(statement, call, inside[-1] if inside else ""))
             else:
                 self.call(statement, statement.word, call, inside)
 
@@ -61,7 +63,7 @@ class _Expansion:
             self.stop(statement, f"macros are nested more than {DEEPEST} deep")
             return
         if statement.labels:
-            self.placed.append(Placed(replace(statement, word=None), call))
+            self.placed.append(Placed(replace(statement, word=None), call, inside[-1] if inside else ""))
         body = self.script.macros[word.text].body
         self.place(body, (*call, self.visited), (*inside, word.text))
 

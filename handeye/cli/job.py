@@ -15,7 +15,6 @@ from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import MOST
-from handeye.debugger.listing import labels
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
@@ -168,7 +167,7 @@ class _Work:
             pictures=None if self.folder is None else self.folder.path / PICTURES,
         )
         program = runner.setup.plan.program
-        words = [*(command.name for command in COMMANDS), *TOPICS, *labels(program), *program.positions]
+        words = [*(command.name for command in COMMANDS), *TOPICS, *program.labels, *program.positions]
         lines = typed_lines("handeye> ", self._waiting, lambda: words)
         most = MOST if screen.is_terminal else None
         try:

@@ -5,7 +5,6 @@ from collections.abc import Iterable
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.debugger.listing import labels
 from handeye.debugger.source_places import Place, named_place
 from handeye.diagnostics import nearest, quoted
 from handeye.errors import ERRORS, InvalidInput
@@ -41,7 +40,7 @@ def breakpoint(text: str, plan: Plan) -> AnyStop:
     if stop is None and text.upper() in INSTRUCTIONS:
         raise InvalidInput(f"no step of the program begins with {text.upper()}")
     if stop is None:
-        known = [*labels(plan.program), *_words(plan), *plan.program.stages]
+        known = [*plan.program.labels, *_words(plan), *plan.program.stages]
         raise InvalidInput(
             f"the program has no label, instruction or stage {quoted(text)}{meant(text, known)}"
         )
@@ -76,9 +75,9 @@ def step_number(text: str, plan: Plan) -> int:
         if int(text) >= len(steps):
             raise InvalidInput(f"there is no step {int(text)}; the program has steps 0 to {len(steps) - 1}")
         return int(text)
-    found = labels(plan.program).get(text)
+    found = plan.program.labels.get(text)
     if found is None:
-        known = labels(plan.program)
+        known = plan.program.labels
         raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
@@ -119,14 +118,14 @@ def _at_line(place: Place, plan: Plan) -> AnyStop:
 
 
 def _at_label(text: str, plan: Plan) -> AnyStop | None:
-    known = labels(plan.program)
+    known = plan.program.labels
     label = text if text in known else text.upper()
     return AtLabel(steps=tuple(known[label]), label=label) if label in known else None
 
 
 def _words(plan: Plan) -> list[str]:
     """The instruction of each step."""
-    return [step.text.split()[0].upper() if step.text.strip() else "" for step in plan.program.steps]
+    return [step.word.upper() for step in plan.program.steps]
 
 
 def _at_word(text: str, plan: Plan) -> AnyStop | None:

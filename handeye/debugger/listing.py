@@ -1,20 +1,10 @@
 """The program to look at: its stages and steps, its labels, and the source around a line."""
 
-from typing import Final
-
-from handeye.al.definition import Role
-from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.macros import expand
-from handeye.al.parser import parse_whole
-from handeye.al.syntax import Statement
-from handeye.debugger.source_places import Place, text_of
+from handeye.debugger.source_places import text_of
 from handeye.planfile.plan import Plan
 from handeye.program.program import Program
 from handeye.record import Record
 from handeye.source import Source, line_name
-
-_NO_STEP: Final = (Role.MODIFIER, Role.SHIFT, Role.DECLARATION)
-"""What a statement can be that makes no step of its own."""
 
 
 class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -56,9 +46,9 @@ def listing(plan: Plan) -> tuple[ListedStage, ...]:
     for number, step in enumerate(program.steps):
         shown = ListedStep(step=number, file=step.file, line=step.line, text=one_line(step.text))
         listed[step.stage].append(shown)
-    macros = _macro_lines(program)
+    own = {number for number, step in enumerate(program.steps) if not step.macro}
     return tuple(
-        _stage(number, name, steps, macros)
+        _stage(number, name, steps, own)
         for number, (name, steps) in enumerate(zip(program.stages, listed, strict=True), 1)
     )
 
@@ -81,18 +71,6 @@ def listing_text(plan: Plan) -> list[str]:
             for step, place in zip(stage.steps, places, strict=True)
         ]
     return out
-
-
-def labels(program: Program) -> dict[str, list[int]]:
-    """The steps that each label stands before; a label in a macro has one for each call."""
-    found: dict[str, list[int]] = {}
-    number = 0
-    for placed in expand(parse_whole(program.whole)[0], lambda _: None):
-        for label in placed.statement.labels:
-            if number < len(program.steps):
-                found.setdefault(label.text, []).append(number)
-        number += _makes_step(placed.statement)
-    return found
 
 
 def excerpt(
@@ -126,23 +104,11 @@ def one_line(text: str) -> str:
     return _printable(" ".join(text.split()))
 
 
-def _makes_step(statement: Statement) -> bool:
-    if statement.word is None:
-        return False
-    definition = INSTRUCTIONS.get(statement.word.text)
-    return definition is not None and definition.role not in _NO_STEP
-
-
-def _macro_lines(program: Program) -> set[Place]:
-    whole = program.whole
-    macros = parse_whole(whole)[0].macros.values()
-    return {(whole.find(s.span.start)[0].key, s.line) for macro in macros for s in macro.body}
-
-
-def _stage(number: int, name: str, steps: list[ListedStep], macros: set[Place]) -> ListedStage:
-    own = [step for step in steps if (step.file, step.line) not in macros] or steps
-    file = own[0].file if own else ""
-    lines = [step.line for step in own if step.file == file]
+def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> ListedStage:
+    """A stage; `own` are the steps of the program that come from no macro."""
+    here = [step for step in steps if step.step in own] or steps
+    file = here[0].file if here else ""
+    lines = [step.line for step in here if step.file == file]
     extent = (min(lines), max(lines)) if lines else None
     return ListedStage(number=number, name=name, file=file, lines=extent, steps=tuple(steps))
 

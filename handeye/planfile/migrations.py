@@ -5,47 +5,13 @@ builtin data of a plan of its version and returns that of the next; it knows no 
 """
 
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Final
 
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import VERSION
+from handeye.planfile.version_1 import Data, to_version_2
 
-Data = dict[str, Any]
-
-
-_SAME_ARM: Final = {"6863f8cd01ff": "40fac2bbfe2d"}
-"""Digests of an arm's figures as they were taken in version 1, and of the same figures as they are taken since."""
-
-
-def from_version_1(plan: Data) -> Data:
-    """Guards as a list, where version 1 had a stop with a field for each kind; another digest of the same arm."""
-    plan["arm_digest"] = _SAME_ARM.get(plan["arm_digest"], plan["arm_digest"])
-    for step in plan["program"]["steps"]:
-        operation = step["operation"]
-        if operation["op"] == "search":
-            operation.setdefault("limit", 49)
-        stop = operation.pop("stop", None)
-        if stop is not None:
-            operation["guards"] = _guards(stop)
-    return plan
-
-
-def _guards(stop: Data) -> list[Data]:
-    """The guards of a stop of version 1: exactly one, but that a moment could stand beside a force."""
-    fields = {
-        "force": "force",
-        "against": "force",
-        "moment": "moment",
-        "torque": "torque",
-        "touch": "fingers",
-    }
-    met = {kind: stop[kind] for kind in fields if stop.get(kind) is not None}
-    if len(met) != 1 and met.keys() not in ({"force", "moment"}, {"against", "moment"}):
-        raise ValueError("a stop has one condition")
-    return [{"guard": kind, fields[kind]: value} for kind, value in met.items()]
-
-
-MIGRATIONS: Final[dict[int, Callable[[Data], Data]]] = {1: from_version_1}
+MIGRATIONS: Final[dict[int, Callable[[Data], Data]]] = {1: to_version_2}
 """From each older version to the one after it."""
 
 

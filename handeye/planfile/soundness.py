@@ -5,7 +5,7 @@ A plan may have been cut, edited or made by another program; whatever passes her
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from handeye.boxes import Box
@@ -13,7 +13,7 @@ from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.guards import AnyGuard
 from handeye.program.operation import Use
 from handeye.program.operations import AnyOperation
-from handeye.program.program import Program, Step
+from handeye.program.program import Program, Step, Words
 
 _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 """Names that become file names."""
@@ -50,8 +50,10 @@ def faults(plan: Plan) -> Iterator[str]:
             if at not in program.positions
         )
         yield from _boxes(key, held.boxes)
+    texts = {"": program.source, **program.required}
+    lines = {file: text.split("\n") for file, text in texts.items()}
     for number, step in enumerate(program.steps):
-        for fault in _step(plan, number, step):
+        for fault in (*_step(plan, number, step), *_places(step, lines)):
             yield f"step {number} (line {step.place}) {fault}"
     if len(plan.joint_counts) > 1:
         yield f"its motions are of arms with {' and '.join(map(str, plan.joint_counts))} joints"
@@ -87,6 +89,17 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
         yield f"belongs to stage {step.stage}; the plan has {len(program.stages)} stages"
     for use in dict.fromkeys((*operation.reads, *operation.writes)):
         yield from _use(program, use)
+
+
+def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """Places of a step and its modifiers that the source does not have."""
+    parts: tuple[Step | Words, ...] = (step, *step.modifiers)
+    for words in parts:
+        there = lines.get(words.file, ())
+        start, end = words.span
+        length = len(there[words.line - 1]) if 1 <= words.line <= len(there) else 0
+        if not 0 <= start <= end <= length:
+            yield f"stands in characters {start} to {end} of line {words.line}, which has {length}"
 
 
 def _use(program: Program, use: Use) -> Iterator[str]:

@@ -14,6 +14,20 @@ from handeye.program.operations import AnyOperation
 from handeye.record import Record
 from handeye.source import Source, line_name
 
+Columns = tuple[int, int]
+"""Characters of a line, from 0: the first, and the one behind the last. They are those of the line, so that a change in
+one line of a script leaves what the others have become as it was."""
+
+
+class Words(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """Where some words of the source stand."""
+
+    file: str = ""
+    """The required file they stand in; empty: the source itself."""
+    line: int
+    """Line of that text, from 1."""
+    span: Columns
+
 
 class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     """One step of the graph. Steps are numbered by their place in the list."""
@@ -21,12 +35,20 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     operation: AnyOperation
     stage: int
     """Index of the stage it belongs to."""
+    labels: tuple[str, ...] = ()
+    """Labels that jumps to it name."""
+    macro: str = ""
+    """The macro whose call it comes from; empty: none."""
     file: str = ""
     """The required file it stands in; empty: the source itself."""
     line: int
     """Line of that text, from 1."""
+    span: Columns = (0, 0)
+    """Where on that line its statement stands."""
     text: str
-    """The source statement, for people."""
+    """That statement, for people."""
+    modifiers: tuple[Words, ...] = ()
+    """The statements that say more of its operation."""
     next: int | None
     """Step that follows; None ends the program."""
 
@@ -40,6 +62,11 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     def place(self) -> str:
         """Its line, as people are told: `12`, or `pins.al:12`."""
         return line_name(self.line, self.file)
+
+    @property
+    def word(self) -> str:
+        """The word that its statement begins with."""
+        return next(iter(self.text.split()), "")
 
 
 class Position(Record, frozen=True, kw_only=True):
@@ -113,6 +140,15 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
         """The text with those it requires."""
         required = tuple(Source(name=key, key=key, text=text) for key, text in self.required.items())
         return Source(name=self.name, text=self.source, required=required)
+
+    @property
+    def labels(self) -> dict[str, list[int]]:
+        """The steps of each label; a label in a macro has one for each call."""
+        found: dict[str, list[int]] = {}
+        for number, step in enumerate(self.steps):
+            for label in step.labels:
+                found.setdefault(label, []).append(number)
+        return found
 
     def written(self, kind: Kind) -> set[str]:
         """The names of what its steps write of a kind."""

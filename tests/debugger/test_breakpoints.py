@@ -5,7 +5,6 @@ from short_runs import begin, plan_of
 from stepper_bench import AIR, reset
 
 from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
-from handeye.debugger.listing import labels
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
 from handeye.report.pauses import pause_sentence
@@ -107,11 +106,11 @@ def test_a_run_goes_until_a_step(runner: Runner) -> None:
 
 
 def test_a_label_in_a_macro_stands_for_a_step_of_each_call(macro: Plan) -> None:
-    assert labels(macro.program) == {"LM": [0, 2], "LX": [2], "LY": [4]}
+    assert macro.program.labels == {"LM": [0, 2], "LX": [2], "LY": [4]}
 
 
 def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
-    assert macro.program.steps[labels(macro.program)["LY"][0]].text.startswith("CHANGE")
+    assert macro.program.steps[macro.program.labels["LY"][0]].text.startswith("CHANGE")
 
 
 @pytest.mark.parametrize(

@@ -57,6 +57,23 @@ def test_a_field_is_written_only_where_it_says_something() -> None:
     assert [set(guard) for guard in change["guards"]] == [{"guard", "moment"}]
 
 
+def test_a_step_knows_where_its_statement_and_its_modifiers_stand(plan: Plan) -> None:
+    whole, lines = plan.program.whole, SCRIPT.split("\n")
+    change = plan.program.steps[1]
+    (stop,) = change.modifiers
+    for words, said in ((change, "CHANGE  [0 0 -1] .6"), (stop, "STOP    [0 0 -50]")):
+        start, end = words.span
+        assert lines[words.line - 1][start:end] == said
+        span = whole.span(words.file, words.line, words.span)
+        assert SCRIPT[span.start : span.end] == said
+
+
+def test_another_figure_in_one_line_changes_no_other_step(plan: Plan) -> None:
+    longer = planned(SCRIPT.replace("-50", "-50.000"))
+    changed = [a != b for a, b in zip(plan.program.steps, longer.program.steps, strict=True)]
+    assert changed == [False, True, False, False]
+
+
 def test_planning_the_same_script_twice_gives_the_same_bytes() -> None:
     assert encode(planned(SCRIPT)) == encode(planned(SCRIPT))
 
@@ -132,6 +149,12 @@ GUARD = f"{CHANGE}.guards.0"
     [
         ("program.steps", [], "it has no steps"),
         ("speed", 0, "its speed is 0; a share of the arm's limits is above 0 and at most 1"),
+        (
+            "program.steps.1.span",
+            [8, 80],
+            "step 1 (line 4) stands in characters 8 to 80 of line 4, which has 27",
+        ),
+        ("program.steps.1.modifiers.0.line", 9, "step 1 (line 4) stands in characters 8 to 25 of line 9"),
         ("program.steps.0.operation.via", ["X"], "step 0 (line 2) uses position X"),
         (
             "program.steps.0.operation.via",

@@ -15,6 +15,7 @@ from handeye.planfile import migrations
 from handeye.planfile.plan import VERSION
 from handeye.planfile.schema import plan_schema
 from handeye.planfile.store import decode, encode, read_plan
+from handeye.planfile.version_1 import to_version_2
 from handeye.program.guards import Against, Force, Guards, Moment, Torque, Touch
 from handeye.resources import plans
 
@@ -60,6 +61,34 @@ def test_a_plan_that_is_kept_can_be_read(path: Path) -> None:
 def test_the_pump_planned_in_version_1_does_what_it_does_in_version_2() -> None:
     found = difference(read_plan(VERSIONS / "1.fixtures.plan.json"), read_plan(VERSIONS / "2.plan.json"))
     assert found.same, found
+
+
+def test_labels_and_places_that_version_1_did_not_say_are_read_off_its_source() -> None:
+    old, new = (read_plan(VERSIONS / name).program.steps for name in ("1.fixtures.plan.json", "2.plan.json"))
+    assert [(s.labels, s.macro, s.span) for s in old] == [(s.labels, s.macro, s.span) for s in new]
+
+
+def as_version_1(source: str, lines: dict[int, str]) -> dict[str, list[tuple[str, ...]]]:
+    """Labels and macros of steps of version 1, by the lines they come from."""
+    steps = [{"operation": {"op": "jump"}, "line": line, "text": text} for line, text in lines.items()]
+    plan = {"arm_digest": "", "program": {"source": source, "steps": steps}}
+    return {
+        s["text"]: [*s.get("labels", ()), s.get("macro", "")] for s in to_version_2(plan)["program"]["steps"]
+    }
+
+
+def test_a_label_of_version_1_goes_to_the_step_on_its_line_or_below() -> None:
+    source = (
+        "A: PARK\nB:\n; why\nC: D: STOP 5\nCHANGE Z 1\nE: TWICE\nOPEN 1\nDEFINE TWICE\nF: OPEN 2\n\nOPEN 3"
+    )
+    lines = {1: "PARK", 5: "CHANGE Z 1", 7: "OPEN 1", 9: "OPEN 2", 11: "OPEN 3"}
+    assert as_version_1(source, lines) == {
+        "PARK": ["A", ""],
+        "CHANGE Z 1": ["B", "C", "D", ""],
+        "OPEN 1": [""],  # a call of a macro is no step: what its label is of is not known
+        "OPEN 2": ["F", "TWICE"],
+        "OPEN 3": [""],
+    }
 
 
 @pytest.mark.parametrize("path", KEPT, ids=[path.name for path in KEPT])

@@ -8,7 +8,7 @@ from short_runs import begin, plan_of
 
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
-from handeye.debugger.listing import excerpt, excerpt_lines, labels, listing_text
+from handeye.debugger.listing import excerpt, excerpt_lines, listing_text
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
@@ -48,7 +48,7 @@ def test_stages_are_listed_with_the_files_of_their_lines(plan: Plan) -> None:
 
 
 def test_labels_of_required_files_stand_before_their_steps(plan: Plan) -> None:
-    assert labels(plan.program) == {"LH": [2], "LE": [3]}
+    assert plan.program.labels == {"LH": [2], "LE": [3]}
 
 
 def test_an_excerpt_of_a_required_file_names_it(plan: Plan) -> None:
