@@ -27,6 +27,10 @@ RUBBING: Final = ("pad", "table", "part", "thread")
 SEVENTH: Final = 7_000_000
 """The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
 
+_MOST: Final = {
+    "in": 100.0, "deg": 360.0, "%": 1000.0, "oz": 1000.0, "N": 1000.0, "N m": 100.0, "rad/s": 10.0, "m/s": 10.0,
+}  # fmt: skip
+"""How far a quantity can be set: to nothing that could be meant."""
 _READING: Final = (
     "Potentiometers against joints, so that the hand is wrong by .060 in (median), .112 in (95 %); layout study, "
     "section 4."
@@ -64,13 +68,14 @@ def _group(
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
-        low = 0.0 if isinstance(distribution, Noise | Fixed) else least
+        most = _MOST[its]
+        low = 0.0 if isinstance(distribution, Noise | Fixed) else max(least, -most)
         yield Quantity(
             name=f"{group}.{name}",
             unit=its,
             distribution=distribution,
             nominal=float(middle),
-            limits=(low, np.inf),
+            limits=(low, most),
             source=source,
         )
 
@@ -207,7 +212,7 @@ def _holes(count: int) -> Iterator[Quantity]:
 
 def _parts(count: int) -> Iterator[Quantity]:
     yield Quantity(
-        name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, np.inf),
+        name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, _MOST["%"]),
         source="Masses of base and top over those of the drawing. Placeholder.",
     )  # fmt: skip
     yield from _group(
