@@ -30,6 +30,8 @@ class RunStarted(Event, frozen=True, kw_only=True):
     arm: str
     arm_digest: str
     world: WorldSpec
+    task: str = "water_pump"
+    """Its name; recordings of before there were any others have none."""
     camera: Renderer
     """How pictures are made."""
     versions: dict[str, str]

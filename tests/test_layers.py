@@ -70,6 +70,13 @@ def own(module: str) -> set[str]:
     return result - {"__init__"}
 
 
+def called(module: str) -> set[str]:
+    """Names of the methods that a module calls."""
+    tree = ast.parse((PACKAGE / (module.replace(".", "/") + ".py")).read_text())
+    calls = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    return {function.attr for function in calls if isinstance(function, ast.Attribute)}
+
+
 @pytest.mark.parametrize("module", MODULES)
 def test_imports_go_downwards_only(module: str) -> None:
     assert {other: layer(other) for other in own(module) if layer(other) > layer(module)} == {}
@@ -98,3 +105,22 @@ def test_the_referee_speaks_only_to_reports() -> None:
     assert {
         m for m in listeners if m.split(".")[0] not in {"judge", "tasks", "report", "trials", "cli"}
     } == set()
+
+
+def test_the_referee_is_asked_by_the_report_alone() -> None:
+    assert {m for m in MODULES if "judge" in called(m)} == {"report.judging"}
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in {"cell", "judge"}])
+def test_cell_and_referee_know_no_task(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] == "tasks"} == set()
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] == "cell"])
+def test_the_cell_knows_nothing_of_seeing_but_how_a_camera_is_built(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] == "vision"} <= {"vision.camera"}
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] != "tasks"])
+def test_nobody_knows_a_task_but_by_its_name(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] == "tasks"} <= {"tasks.__init__", "tasks.task"}

@@ -15,7 +15,7 @@ from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
 from handeye.record import Record
-from handeye.vision.camera import DRAWING, CameraModel, View
+from handeye.vision.camera import CameraModel, View
 
 TURRET: Final = 20.0
 REFOCUS: Final = 12.0
@@ -50,7 +50,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         errors: CameraErrors,
         rng: np.random.Generator,
         renderer: SceneRenderer,
-        drawing: CameraModel = DRAWING,
+        drawing: CameraModel,
     ) -> None:
         """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
 
@@ -135,7 +135,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         return float(distance[0]) if geom[0] >= 0 else 1e3
 
 
-def true_camera(errors: CameraErrors, drawing: CameraModel = DRAWING) -> CameraModel:
+def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
     """The camera that really stands there."""
     x, y, z = np.add(drawing.mount, errors.place)
     pan, tilt, roll = errors.turn

@@ -5,19 +5,18 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
-from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.threads import SEEN
+from handeye.cell.looks import LATENT, SEEN
 
 
-def posed(world: PumpWorld, poses: Mapping[str, Sequence[float]]) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """A scene to be looked at; it holds no state, since shapes are put where they were and joints are not.
+def posed(model: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> mujoco.MjData:
+    """Put the bodies of a scene where they were; the scene is changed for good.
+
+    It can only be looked at: shapes are put where they were, and joints are not.
 
     Args:
         poses: by the names of bodies, place in W (m) and unit quaternion w, x, y, z. Bodies without one stay as drawn,
-            and those of a thread that no screw is in stay hidden. Names that the scene does not have are left out.
+            and those that only an event shows stay hidden. Names that the scene does not have are left out.
     """
-    model = build(world)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     known = {model.body(number).name: number for number in range(1, model.nbody)}
@@ -25,11 +24,17 @@ def posed(world: PumpWorld, poses: Mapping[str, Sequence[float]]) -> tuple[mujoc
         body, pose = known[name], np.asarray(poses[name], dtype=float)
         data.xpos[body] = pose[:3]
         mujoco.mju_quat2Mat(data.xmat[body], pose[3:])
-        if name.startswith("carrier"):
-            model.geom_group[model.geom_bodyid == body] = SEEN
+        _show(model, body)
     for geom, body in enumerate(model.geom_bodyid):
         R, turn = data.xmat[body].reshape(3, 3), np.empty(9)
         mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
         data.geom_xpos[geom] = data.xpos[body] + R @ model.geom_pos[geom]
         data.geom_xmat[geom] = (R @ turn.reshape(3, 3)).ravel()
-    return model, data
+    return data
+
+
+def _show(model: mujoco.MjModel, body: int) -> None:
+    """Show a body of which some shapes wait for an event: it has happened."""
+    mine = model.geom_bodyid == body
+    if (model.geom_group[mine] == LATENT).any():
+        model.geom_group[mine] = SEEN

@@ -7,10 +7,9 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, default_script, notes, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
-from handeye.resources import plans
 
 
 def register(app: App) -> None:
@@ -28,7 +27,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     from handeye.trials.assembly import run_plan
 
     started = time.process_time()
-    plan = compiled(plans() / "water_pump.al")
+    plan = compiled(default_script())
     planning = time.process_time() - started
     with Progress(plan, notes) as progress:
         finished = run_plan(
@@ -52,7 +51,7 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
     from handeye.runs.snapshot import Setup
     from handeye.trials.overhead import measure
 
-    plan = compiled(plans() / "water_pump.al")
+    plan = compiled(default_script())
     setup = Setup(plan=plan, world=world.spec, camera=camera)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan, notes):
         cost = measure(setup, Path(folder) / "run")

@@ -14,7 +14,9 @@ from handeye.errors import InvalidInput
 from handeye.files import beside
 from handeye.planfile.plan import Plan
 from handeye.program.taught import Taught, load_taught
+from handeye.resources import plans
 from handeye.source import Source
+from handeye.tasks import task
 
 Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
 PlanFile = Annotated[Path, Parameter(help="A plan, as `handeye plan` makes one (.plan.json).")]
@@ -75,13 +77,12 @@ def compiled(file: Path) -> Plan:
     Raises:
         InvalidInput: the script has errors; they have been shown.
     """
-    from handeye.arm.robots.stanford import STANFORD
     from handeye.planning.planner import make_plan
 
     source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
-        made, problems = make_plan(program, STANFORD)
+        made, problems = make_plan(program, task().arm)
         diagnostics = [*diagnostics, *problems]
         if made is not None:
             show(diagnostics, source, json=False)
@@ -90,6 +91,13 @@ def compiled(file: Path) -> Plan:
     errors = sum(d.severity == "error" for d in diagnostics)
     count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
     raise InvalidInput(f"{file} has {count}; there is no plan")
+
+
+def default_script() -> Path:
+    """The script of the task that is meant where none is named."""
+    script = task().script
+    assert script is not None
+    return plans() / script
 
 
 def taught(file: Path) -> Taught:

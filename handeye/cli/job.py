@@ -21,6 +21,7 @@ from handeye.errors import InvalidInput
 from handeye.events import RunStarted
 from handeye.execution.servo_loop import Halted
 from handeye.files import write_whole
+from handeye.report.judging import findings
 from handeye.report.page import page
 from handeye.report.pictures import keep_pictures
 from handeye.report.progress import Progress
@@ -34,7 +35,6 @@ from handeye.runs.operator import Operator, attend, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
 from handeye.runs.stops import AnyStop
-from handeye.tasks.water_pump.referee import judge
 from handeye.trace.sentences import renderer_name
 from handeye.versions import versions
 
@@ -223,11 +223,9 @@ class _Work:
             runner.finish()
         elif job.halfway and self.folder is None:
             self._keep(runner.checkpoint())
-        findings = None
-        if job.referee and pause.kind != "break":
-            findings = judge(runner.cell.truth) if pause.kind == "end" else {}
+        found = findings(runner, pause) if job.referee and pause.kind != "break" else None
         wall = time.perf_counter() - self.begun
-        result = summary(runner, pause, findings=findings, wall=wall, planning=job.planning)
+        result = summary(runner, pause, findings=found, wall=wall, planning=job.planning)
         if self.folder is not None:
             self.folder.close()
             keep_pictures(self.folder.path / PICTURES, runner)

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, note
+from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, default_script, note
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
-from handeye.resources import plans
 
 if TYPE_CHECKING:
     from handeye.runs.snapshot import Checkpoint
@@ -67,7 +66,7 @@ def assemble(
 
     spec = world.spec
     started = time.process_time()
-    plan = compiled(plans() / "water_pump.al")
+    plan = compiled(default_script())
     planning = time.process_time() - started
     setup = Setup(plan=plan, world=spec, camera=camera, judged=True)
     return work(

@@ -26,6 +26,7 @@ from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
 from handeye.planfile.store import read_plan, write_plan
+from handeye.tasks import task
 
 Version = tuple[int, int, int] | None
 
@@ -114,13 +115,12 @@ def _version(path: Path) -> Version:
 
 
 def _check(file: Path, *, json: bool, strict: bool) -> int:
-    from handeye.arm.robots.stanford import STANFORD
     from handeye.planning.planner import make_plan
 
     source = read_script(file)
     program, diagnostics = compile_text(source, taught(file))
     if program is not None:
-        diagnostics = [*diagnostics, *make_plan(program, STANFORD)[1]]
+        diagnostics = [*diagnostics, *make_plan(program, task().arm)[1]]
     if strict:
         diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)

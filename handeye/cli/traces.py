@@ -71,7 +71,7 @@ def photograph(
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
     from handeye.cell.photograph import PNG, photograph_png
     from handeye.cell.posed import posed
-    from handeye.tasks.water_pump.pump_world import PumpWorld
+    from handeye.tasks import task
     from handeye.trace.replay import Replay
 
     check_place(output, PNG)
@@ -86,7 +86,8 @@ def photograph(
     if not begin - SHOWN <= at <= end + SHOWN:
         raise InvalidInput(f"{file} tells of {begin:.2f} to {end:.2f} s; {at:g} s is not among them")
     state = replay.seek(at)
-    model, data = posed(PumpWorld.draw(trace.head.world), state.poses)
+    model = task(trace.head.task).scene(trace.head.world)
+    data = posed(model, state.poses)
     write_over(output, photograph_png(model, data, camera, width, height), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {state.time:.2f} s{doing}")

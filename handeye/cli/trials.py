@@ -6,12 +6,12 @@ from typing import Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, WholeNumber, compiled, say, screen
+from handeye.cli.common import Camera, WholeNumber, compiled, default_script, say, screen
 from handeye.cli.world_options import ANY_ERRORS, ANY_WORLD, ErrorOptions, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import Kind, check_place, write_over
-from handeye.resources import plans
-from handeye.units import DEGREE, INCH
+from handeye.tasks import task
+from handeye.variation import WorldSpec
 
 RESULTS: Final = Kind("list of results", rb'\{"assembled":')
 
@@ -48,7 +48,7 @@ def assembly_trials(
         check_place(out, RESULTS)
     results = []
     worlds = [errors.spec(seed) for seed in chosen]
-    for result in assemble_many(compiled(plans() / "water_pump.al"), worlds, camera=camera, jobs=jobs):
+    for result in assemble_many(compiled(default_script()), worlds, camera=camera, jobs=jobs):
         results.append(result)
         word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
         detail = "" if result.exit_code == 0 else f"{result.stopped_at or ''}: {result.message}"
@@ -82,16 +82,7 @@ def base_vision_trials(
 
     Exit code 0: no wrong pose was accepted; 3: one was.
     """
-    from handeye.trials.vision import WITHIN, base_trials
-
-    counts = base_trials(_some(count), world.spec, renderer=camera, camera=eye)
-    x, y, turn = counts.rms
-    screen.print(f"found {counts.found} of {counts.tried}, {counts.wrong} of them wrong")
-    screen.print(f"{counts.within} within {WITHIN[0] / INCH:.2f} x {WITHIN[1] / INCH:.2f} in")
-    screen.print(f"rms error {x / INCH:.3f} in, {y / INCH:.3f} in, {turn / DEGREE:.2f} deg")
-    for failure in counts.failures:
-        screen.print(failure, markup=False)
-    return 3 if counts.wrong else 0
+    return _vision_trial("base", count, world.spec, camera, eye)
 
 
 def gasket_vision_trials(
@@ -102,12 +93,14 @@ def gasket_vision_trials(
     camera: Camera = "auto",
 ) -> int:
     """Check the gasket in many worlds: on properly, shifted, absent."""
-    from handeye.trials.vision import gasket_trials
+    return _vision_trial("gasket", count, world.spec, camera, "calibrated")
 
-    counts = gasket_trials(_some(count), world.spec, renderer=camera)
-    for case, accepted in counts.accepted.items():
-        screen.print(f"{case:12} accepted {accepted} of {counts.tried}")
-    return 0
+
+def _vision_trial(name: str, count: int, first: WorldSpec, camera: str, eye: str) -> int:
+    tried = task().trials[name](_some(count), first, camera, eye)
+    for line in tried.lines:
+        screen.print(line, markup=False)
+    return 3 if tried.wrong else 0
 
 
 def _some(count: int, what: str = "world") -> int:

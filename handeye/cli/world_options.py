@@ -7,7 +7,7 @@ from cyclopts import Group, Parameter
 
 from handeye.cli.common import WholeNumber
 from handeye.errors import InvalidInput
-from handeye.tasks.water_pump.variation import variation
+from handeye.tasks import task
 from handeye.variation import WorldSpec
 from handeye.world_options import overrides
 
@@ -52,7 +52,7 @@ class ErrorOptions:
         if seed > LARGEST:
             raise InvalidInput(f"the largest seed is {LARGEST}; {seed} is larger")
         off = [name.strip() for names in self.without or () for name in names.split(",") if name.strip()]
-        wanted = overrides(variation(seed), off, self.settings or ())
+        wanted = overrides(task().variation(seed), off, self.settings or ())
         return WorldSpec(seed=seed, level=self.level, overrides=wanted)
 
     def words(self) -> list[str]:

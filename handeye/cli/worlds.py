@@ -9,7 +9,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Json, WholeNumber, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.files import check_place, write_over
-from handeye.tasks.water_pump.variation import variation
+from handeye.tasks import task
 
 
 def register(app: App) -> None:
@@ -23,7 +23,7 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
     from handeye.report.world_page import world_json, world_page
 
     spec = world.spec
-    table = variation(spec.seed)
+    table = task().variation(spec.seed)
     drawn = table.draw(spec)
     if json:
         sys.stdout.buffer.write(world_json(table, drawn))
@@ -43,11 +43,9 @@ def render(
 ) -> int:
     """Render a picture of the work cell."""
     from handeye.cell.photograph import PNG, photograph_png
-    from handeye.tasks.water_pump.cell import build_cell
-    from handeye.tasks.water_pump.pump_world import PumpWorld
 
     check_place(output, PNG)
-    cell = build_cell(PumpWorld.draw(world.spec), camera="ray")
+    cell = task().cell(world.spec, "ray")
     write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
     screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
     return 0

@@ -23,8 +23,8 @@ class ExecutionContext:
     plan: Plan
     arm: ArmModel
     cell: Workcell
-    camera: CameraModel
-    """The calibrated camera."""
+    camera: CameraModel | None
+    """The calibrated camera; None in a cell without one."""
     emit: Callable[[AnyEvent], None]
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision; the working phase itself never reads a clock of the host."""

@@ -14,6 +14,7 @@ from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.operation import Operation
 from handeye.program.operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
+from handeye.vision.camera import CameraModel
 from handeye.vision.gasket import inspect as inspect_gasket
 
 
@@ -21,6 +22,12 @@ def _tv(run: ExecutionContext) -> TvCamera:
     """The camera of the cell; a plan that looks is not begun in a cell without one."""
     assert run.cell.camera is not None
     return run.cell.camera
+
+
+def _known(run: ExecutionContext) -> CameraModel:
+    """The camera as it was calibrated."""
+    assert run.camera is not None
+    return run.camera
 
 
 def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
@@ -33,9 +40,9 @@ def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
 def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
     """Point the camera at a part's face or at a hand position, and focus there."""
     p_W = _target(run, operation.target)
-    pan, tilt = run.camera.aim(p_W, run.state.lens)
+    pan, tilt = _known(run).aim(p_W, run.state.lens)
     _wait(run, "aim", _tv(run).aim(pan, tilt))
-    distance = math.dist(run.camera.mount, p_W)
+    distance = math.dist(_known(run).mount, p_W)
     _wait(run, "focus", _tv(run).focus(distance))
     return None
 
@@ -61,7 +68,7 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
     _wait(run, "digitise", seconds)
     pan, tilt = _tv(run).pots()
     run.state.shots[operation.picture] = Shot(
-        picture=picture, view=run.camera.view(run.state.lens, pan, tilt)
+        picture=picture, view=_known(run).view(run.state.lens, pan, tilt)
     )
     run.emit(PictureTaken(time=run.time, picture=operation.picture, lens=run.state.lens))
     return None

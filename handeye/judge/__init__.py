@@ -1,1 +1,1 @@
-"""The referee: measures the finished pump from the simulator's truth, and tells only the report."""
+"""The referee: what it measures on the truth, and what it finds. What is right, and why, each task says."""

@@ -1,6 +1,10 @@
-"""What the referee says about one point."""
+"""What the referee finds about one point, as facts."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
+
+Relation = Literal["at most", "at least"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -8,22 +12,36 @@ class Finding:
     """A measured value against its limit."""
 
     ok: bool
+    subject: str
+    """The quantity that was measured."""
     value: float
+    """In `unit`, as `limit`."""
+    relation: Relation
+    """How the value must stand to its limit; it may reach it."""
     limit: float
-    """The value may reach it but not pass it; from above or below is said in the sentence."""
     unit: str
-    sentence: str
 
 
-def at_most(value: float, limit: float, unit: str, sentence: str) -> Finding:
-    """A finding that is right up to `limit`; the sentence says what was measured."""
-    return _finding(value <= limit, value, limit, unit, f"{sentence} (at most {limit:g} {unit})")
+Findings = Mapping[str, Finding]
+"""By the names of the points."""
 
 
-def at_least(value: float, limit: float, unit: str, sentence: str) -> Finding:
+def at_most(value: float, limit: float, unit: str, subject: str) -> Finding:
+    """A finding that is right up to `limit`."""
+    return _finding(value <= limit, value, "at most", limit, unit, subject)
+
+
+def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
     """A finding that is right from `limit` on."""
-    return _finding(value >= limit, value, limit, unit, f"{sentence} (at least {limit:g} {unit})")
+    return _finding(value >= limit, value, "at least", limit, unit, subject)
 
 
-def _finding(ok: bool, value: float, limit: float, unit: str, sentence: str) -> Finding:
-    return Finding(ok=bool(ok), value=round(float(value), 4), limit=limit, unit=unit, sentence=sentence)
+def all_right(findings: Findings) -> bool:
+    """Every point is right."""
+    return all(finding.ok for finding in findings.values())
+
+
+def _finding(ok: bool, value: float, relation: Relation, limit: float, unit: str, subject: str) -> Finding:
+    return Finding(
+        ok=bool(ok), subject=subject, value=round(float(value), 4), relation=relation, limit=limit, unit=unit
+    )

@@ -4,7 +4,9 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.report.result import PERIOD, PUMP, Result
+from handeye.report.result import Result
+from handeye.tasks import task
+from handeye.tasks.task import Period
 
 _MARK = {
     "done": ("✓", "green"),
@@ -41,10 +43,10 @@ def stages(result: Result) -> Table:
 
 
 def timing(result: Result) -> Table:
-    """The timing table; that of the pump beside the one of 1973."""
-    t, pump = result.timing, result.program == PUMP
+    """The timing table; beside that of its day, if the program is one that was timed then."""
+    t, then = result.timing, period(result)
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for name in ("", "here", "1973" if pump else ""):
+    for name in ("", "here", "" if then is None else str(then.year)):
         table.add_column(name, justify="left" if not name else "right")
     rows = (
         ("planning phase (processor)", t.planning_wall_s, "planning"),
@@ -53,13 +55,19 @@ def timing(result: Result) -> Table:
         ("  lens change, aim and focus", t.lens_s, "lens"),
         ("  vision (processor)", t.vision_wall_s, "vision"),
     )
-    for name, seconds, period in rows:
-        if seconds or period != "planning":
-            table.add_row(name, clock(seconds), clock(PERIOD[period]) if pump else "")
+    for name, seconds, part in rows:
+        if seconds or part != "planning":  # the plan may have been there already
+            table.add_row(name, clock(seconds), "" if then is None else clock(then.times[part]))
     if t.real_time_factor >= 0.05:
         simulated = ("simulated in", f"{t.wall_s:.1f} s", f"{t.real_time_factor:.1f}x real time")
         table.add_row(*(Text(text, "dim") for text in simulated))
     return table
+
+
+def period(result: Result) -> Period | None:
+    """The times of 1973, or of whenever it was, if they are those of this program."""
+    then = task(result.task).period
+    return then if then is not None and then.program == result.program else None
 
 
 def camera(result: Result) -> Text:
@@ -82,7 +90,7 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """What the referee measured on the finished pump."""
+    """What the referee measured on the finished work."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")
@@ -91,9 +99,8 @@ def referee(result: Result) -> Table:
     table.add_column("unit")
     for check in result.referee.values():
         mark = Text("✓", "green") if check.ok else Text("✗", "red")
-        what, _, bound = check.sentence.partition(" (")
-        sign = ">=" if bound.startswith("at least") else "<="
-        table.add_row(mark, what, f"{check.value:.3g}", f"{sign} {check.limit:.3g}", check.unit)
+        sign = ">=" if check.relation == "at least" else "<="
+        table.add_row(mark, check.subject, f"{check.value:.3g}", f"{sign} {check.limit:.3g}", check.unit)
     return table
 
 
@@ -107,7 +114,8 @@ def verdict(result: Result) -> Text:
         return Text(f"Stopped{where}{number}: {result.message}", "bold red")
     if result.assembled is None:
         return Text("The program came to its end.", "bold")
+    words = task(result.task).words
     if result.assembled:
-        return Text("The pump is assembled.", "bold green")
+        return Text(words.done, "bold green")
     wrong = [check.sentence for check in result.referee.values() if not check.ok]
-    return Text(f"The program said done, but the pump is not right: {'; '.join(wrong)}", "bold red")
+    return Text(f"The program said done, but {words.product} is not right: {'; '.join(wrong)}", "bold red")

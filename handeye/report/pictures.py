@@ -1,7 +1,6 @@
 """The pictures that a run leaves: those the program took, with what it found in them, and the end."""
 
 from pathlib import Path
-from typing import Final
 
 import cv2
 
@@ -12,9 +11,6 @@ from handeye.execution.state import Found
 from handeye.files import write_whole
 from handeye.runs.runner import Runner
 from handeye.vision.drawing import annotate
-
-PHOTOGRAPHS: Final = ("studio", "pump")
-"""Cameras of the scene whose view of the end is kept."""
 
 
 def annotated_png(run: ExecutionContext, name: str) -> bytes:
@@ -45,6 +41,6 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         write_whole(folder / f"{name.lower()}.png", annotated_png(runner.run, name))
     truth = runner.cell.truth
     if runner.cell.renderer.method == "opengl":
-        for camera in PHOTOGRAPHS:
+        for camera in runner.task.photographs:
             png = photograph_png(truth.model, truth.data, camera, 1280, 960)
             write_whole(folder / f"end_{camera}.png", png)

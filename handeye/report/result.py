@@ -1,16 +1,10 @@
 """The result of a run: one record, printed as a page or as one JSON object."""
 
-from typing import Final
-
 import msgspec
 
+from handeye.judge.finding import Relation
 from handeye.record import Record
 from handeye.variation import WorldSpec
-
-PERIOD: Final = {"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0}
-"""The timing table of 1973, s: Bolles and Paul, STAN-CS-73-396. Total is that of the working phase."""
-PUMP: Final = "water_pump"
-"""The program that the table is of."""
 
 
 class Stage(Record, frozen=True, kw_only=True):
@@ -42,10 +36,13 @@ class Check(Record, frozen=True, kw_only=True):
     """One finding of the referee."""
 
     ok: bool
+    subject: str
     value: float
+    relation: Relation
     limit: float
     unit: str
     sentence: str
+    """All of it for people, but the value."""
 
 
 class CameraReport(Record, frozen=True, kw_only=True):
@@ -75,6 +72,7 @@ class Result(Record, frozen=True, kw_only=True):
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
+    task: str
     program: str
     seed: int
     world: WorldSpec

@@ -11,19 +11,18 @@ from handeye.events import (
     StageFinished,
     StageStarted,
 )
-from handeye.judge.finding import Finding
+from handeye.judge.finding import Finding, Findings, all_right
 from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
-from handeye.tasks.water_pump.referee import assembled
 from handeye.trace.sentences import renderer_name
 from handeye.units import INCH
 from handeye.versions import versions
 
 
 def summary(
-    runner: Runner, pause: Pause, *, findings: dict[str, Finding] | None, wall: float, planning: float
+    runner: Runner, pause: Pause, *, findings: Findings | None, wall: float, planning: float
 ) -> Result:
     """What a run has come to.
 
@@ -34,12 +33,9 @@ def summary(
     """
     completed = pause.kind == "end"
     names = runner.stages
-    checks = {
-        name: Check(ok=f.ok, value=f.value, limit=f.limit, unit=f.unit, sentence=f.sentence)
-        for name, f in (findings or {}).items()
-    }
+    checks = {name: _check(finding) for name, finding in (findings or {}).items()}
     return Result(
-        assembled=None if findings is None else completed and assembled(findings),
+        assembled=None if findings is None else completed and all_right(findings),
         completed=completed,
         paused=pause.kind == "break",
         stopped_at=names[runner.stage] if not completed and runner.stage is not None else None,
@@ -49,11 +45,25 @@ def summary(
         stages=stage_times(names, runner.events),
         timing=_timing(runner, wall, planning),
         referee=checks,
+        task=runner.task.name,
         program=runner.setup.plan.program.name,
         seed=runner.setup.world.seed,
         world=runner.setup.world,
         camera=_camera(runner),
         versions=versions(),
+    )
+
+
+def _check(found: Finding) -> Check:
+    """A finding with the sentence that tells of it."""
+    return Check(
+        ok=found.ok,
+        subject=found.subject,
+        value=found.value,
+        relation=found.relation,
+        limit=found.limit,
+        unit=found.unit,
+        sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
     )
 
 

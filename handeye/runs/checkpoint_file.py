@@ -20,7 +20,8 @@ from handeye.planfile.store import decode as decode_plan
 from handeye.planfile.store import encode as encode_plan
 from handeye.planfile.store import plan_digest
 from handeye.record import Record
-from handeye.runs.snapshot import Checkpoint, Setup, Snapshot, arm_of
+from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
+from handeye.tasks import DEFAULT, task
 from handeye.variation import WorldSpec
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
@@ -55,6 +56,7 @@ class Head(Record, frozen=True, kw_only=True):
     """s on the cell's clock."""
     touched: bool
     """Somebody had interfered with the run: it is not what the plan alone makes of it."""
+    task: str = DEFAULT
     judged: bool = False
     """The referee is to look at what came out."""
 
@@ -82,6 +84,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         between_stages=checkpoint.between_stages,
         time=None if snapshot is None else round(snapshot.cell.time, 6),
         touched=checkpoint.touched,
+        task=setup.task,
         judged=setup.judged,
     )
 
@@ -113,7 +116,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
         raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
     plan = decode_plan(body.plan, f"the plan in {name}")
     try:
-        arm_of(plan)
+        task(head.task).check_arm(plan)
     except InvalidInput as error:
         raise InvalidInput(f"{name} cannot be used: {error}") from None
     if body.snapshot is not None and (
@@ -122,7 +125,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     ):
         raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
-        setup=Setup(plan=plan, world=head.world, camera=head.camera, judged=head.judged),
+        setup=Setup(plan=plan, world=head.world, camera=head.camera, task=head.task, judged=head.judged),
         calibration=body.calibration,
         snapshot=body.snapshot,
         events=body.events,

@@ -24,8 +24,9 @@ from handeye.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.execution.camera_calibration import LAST_LENS, CalibrationFailed, calibrate_camera
+from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
 from handeye.execution.context import ExecutionContext
+from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
 from handeye.execution.servo_loop import Halted
 from handeye.execution.stopwatch import Stopwatch
@@ -36,12 +37,11 @@ from handeye.program.program import Position, Step
 from handeye.record import Vector3
 from handeye.records import copied
 from handeye.runs.observer import Observer
-from handeye.runs.snapshot import Checkpoint, Snapshot, arm_of, interfered
-from handeye.tasks.water_pump.cell import build_cell
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
+from handeye.tasks import task
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
-from handeye.vision.camera import DRAWING
+from handeye.vision.camera import CameraModel
 
 Taught = tuple[float, float, float, float, float, float]
 
@@ -71,14 +71,17 @@ class Runner:
             observers: makes those who look on, once the cell is built and before anything happens in it.
 
         Raises:
-            InvalidInput: the plan is for another arm, the camera cannot work as asked, or the checkpoint does
-                not fit this scene.
+            InvalidInput: there is no such task, the plan is for another arm or needs devices that the cell does not
+                have, the camera cannot work as asked, or the checkpoint does not fit this scene.
             Halted: the panic button was hit during calibration.
         """
         self.setup = start.setup
         plan = start.setup.plan
-        self.arm = arm_of(plan)
-        self.cell = build_cell(PumpWorld.draw(start.setup.world), camera=start.setup.camera)
+        self.task = task(start.setup.task)
+        self.task.check_arm(plan)
+        self.arm = self.task.arm
+        self.cell = self.task.cell(start.setup.world, start.setup.camera)
+        check_devices(plan.program, self.cell.devices)
         self._unable: str | None = None
         self.calibration = start.calibration
         if start.snapshot is None:
@@ -87,19 +90,18 @@ class Runner:
             self._unable = "the camera could not be calibrated when the run was begun"
         self.trouble: str | None = self._unable
         """Why the run cannot go on, if it is not a matter for the operator."""
-        model = self.calibration.model if self.calibration else DRAWING
         self.vision = Stopwatch(time.process_time)
         """Processor time that vision has taken in all."""
         self.run = ExecutionContext(
             plan=plan,
             arm=self.arm,
             cell=self.cell.devices,
-            camera=model,
+            camera=self._camera_model(),
             emit=self._emit,
             vision=self.vision,
         )
-        if self.calibration is not None:
-            self.run.state.lens = LAST_LENS
+        if self.calibration is not None and self.task.eye is not None:
+            self.run.state.lens = self.task.eye.looks[-1].lens
         self.run.drive.halt, self.run.drive.watch = halt, self._watch
         self.executor = Executor(run=self.run)
         self.events: list[AnyEvent] = []
@@ -322,6 +324,7 @@ class Runner:
                 arm=plan.arm,
                 arm_digest=plan.arm_digest,
                 world=self.setup.world,
+                task=self.setup.task,
                 camera=self.cell.renderer,
                 versions=versions(),
             )
@@ -335,13 +338,20 @@ class Runner:
 
     def _calibrated(self, halt: Callable[[], bool]) -> Calibration | None:
         """The calibration of the camera, if the plan looks at all and it can be had."""
-        if not self._looks:
+        eye = self.task.eye
+        if eye is None or not self._looks:
             return None
         try:
-            return calibrate_camera(self.cell.devices, self.arm, DRAWING, halt)
+            return calibrate_camera(self.cell.devices, self.arm, eye.drawing, eye.looks, halt)
         except (CalibrationFailed, SimulationError) as error:
             self._unable = str(error)
             return None
+
+    def _camera_model(self) -> CameraModel | None:
+        """The camera as well as it is known; None if the task has none."""
+        if self.calibration is not None:
+            return self.calibration.model
+        return None if self.task.eye is None else self.task.eye.drawing
 
     def _settle(self) -> None:
         """Put the cell into its own state, and keep that."""

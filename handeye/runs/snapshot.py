@@ -5,14 +5,12 @@ from typing import Annotated
 
 import msgspec
 
-from handeye.arm.model import ArmModel, digest
-from handeye.arm.robots import robot
 from handeye.cell.state import CellState
-from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.record import Record
+from handeye.tasks import DEFAULT
 from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration
 
@@ -24,6 +22,8 @@ class Setup(Record, frozen=True, kw_only=True):
     world: WorldSpec
     camera: str
     """How to make pictures: `auto`, `gl` or `ray`."""
+    task: str = DEFAULT
+    """Name of the task."""
     judged: bool = False
     """The referee is to look at what came out. It decides nothing of the run."""
 
@@ -85,21 +85,3 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 def interfered(events: Iterable[AnyEvent]) -> bool:
     """Whether somebody has taken a hand in what happened."""
     return any(isinstance(event, ExperimentMade | OperatorAnswered) for event in events)
-
-
-def arm_of(plan: Plan) -> ArmModel:
-    """The arm that a plan was made for.
-
-    Raises:
-        InvalidInput: there is none such here.
-    """
-    arm = robot(plan.arm)
-    if arm is None or digest(arm) != plan.arm_digest:
-        raise InvalidInput(
-            f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
-        )
-    if plan.joint_counts not in ((), (len(arm.joints),)):
-        raise InvalidInput(
-            f"the plan has positions of {plan.joint_counts[0]} joints; the {arm.name} arm has {len(arm.joints)}"
-        )
-    return arm

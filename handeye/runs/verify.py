@@ -22,7 +22,7 @@ from handeye.trace.reading import Trace, read_trace
 def setup_of(begun: RunStarted, plan: Plan) -> Setup:
     """What a recorded run began with; its pictures are made in the way they were."""
     camera = "gl" if begun.camera.method == "opengl" else "ray"
-    return Setup(plan=plan, world=begun.world, camera=camera)
+    return Setup(plan=plan, world=begun.world, camera=camera, task=begun.task)
 
 
 def settled(events: Sequence[AnyEvent]) -> int:

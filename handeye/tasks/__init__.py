@@ -1,1 +1,42 @@
-"""Tasks: each a folder with a scene, its errors, its referee and what else knows it."""
+"""Tasks by name. Each is a folder with its scene, its errors, its referee and what else knows it."""
+
+from importlib import import_module
+from typing import Final
+
+from handeye.diagnostics import quoted, suggestion
+from handeye.errors import InvalidInput
+from handeye.tasks.task import Task
+
+DEFAULT: Final = "water_pump"
+"""The task that is meant where none is named."""
+_BUILT_IN: Final = {"water_pump": ("handeye.tasks.water_pump.task", "WATER_PUMP")}
+"""Where the tasks that come with handeye are found; they are imported when they are asked for."""
+_REGISTERED: Final[dict[str, Task]] = {}
+
+
+def register(task: Task) -> None:
+    """Make a task known by its name.
+
+    Raises:
+        InvalidInput: another task has that name.
+    """
+    if task.name in _BUILT_IN or _REGISTERED.get(task.name, task) is not task:
+        raise InvalidInput(f"there is a task called {quoted(task.name)} already")
+    _REGISTERED[task.name] = task
+
+
+def task(name: str = DEFAULT) -> Task:
+    """The task of a name.
+
+    Raises:
+        InvalidInput: there is none such.
+    """
+    if name in _REGISTERED:
+        return _REGISTERED[name]
+    if name not in _BUILT_IN:
+        known = {*_BUILT_IN, *_REGISTERED}
+        near = suggestion(name, known) or f"there are {', '.join(map(quoted, sorted(known)))}"
+        raise InvalidInput(f"no task is called {quoted(name)}; {near}")
+    module, value = _BUILT_IN[name]
+    found: Task = getattr(import_module(module), value)
+    return found

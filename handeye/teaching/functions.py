@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.al import compile_text
-from handeye.arm.robots.stanford import STANFORD
+from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
@@ -40,11 +40,18 @@ class Planned:
 
 
 def planned(
-    source: Source, taught: Taught, start: Array, *, saved: Collection[str] = (), alone: bool = False
+    source: Source,
+    taught: Taught,
+    arm: ArmModel,
+    start: Array,
+    *,
+    saved: Collection[str] = (),
+    alone: bool = False,
 ) -> Planned:
     """Plan a text.
 
     Args:
+        arm: the arm that is to carry it out.
         start: where the arm stands, shape (n,), rad and m.
         saved: differences that have been saved before.
         alone: the text is only a part of what is done, and need not make sense by itself.
@@ -52,7 +59,7 @@ def planned(
     program, found = compile_text(source, taught)
     plan = None
     if program is not None:
-        plan, problems = make_plan(program, STANFORD, start=start)
+        plan, problems = make_plan(program, arm, start=start)
         found = [*found, *problems]
     told = [d for d in found if not (alone and d.code in _ALONE) and not _known(d, source, saved)]
     return Planned(source=source, plan=plan, diagnostics=tuple(told))

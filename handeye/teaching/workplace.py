@@ -18,7 +18,9 @@ from handeye.runs.advance import Pause, advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
 from handeye.source import Source
-from handeye.tasks.water_pump.cell import PARK
+from handeye.tasks import DEFAULT
+from handeye.tasks import task as known_task
+from handeye.tasks.task import Task
 from handeye.teaching.functions import TYPED, Planned, planned
 from handeye.variation import WorldSpec
 
@@ -37,7 +39,14 @@ class Workplace:
     """The cell, what is taught, and what the working phase remembers."""
 
     def __init__(
-        self, *, world: WorldSpec, camera: str, taught: Taught, look: bool = False, halt: Callable[[], bool]
+        self,
+        *,
+        world: WorldSpec,
+        camera: str,
+        taught: Taught,
+        task: str = DEFAULT,
+        look: bool = False,
+        halt: Callable[[], bool],
     ) -> None:
         """Build the cell of a world.
 
@@ -50,8 +59,9 @@ class Workplace:
             Halted: the panic button was hit while the camera was set up.
         """
         self.taught, self.halt = taught, halt
-        start = _plan(_PICTURE if look else _NOTHING, taught)
-        self.runner = Runner(Checkpoint(setup=Setup(plan=start, world=world, camera=camera)), halt=halt)
+        start = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
+        setup = Setup(plan=start, world=world, camera=camera, task=task)
+        self.runner = Runner(Checkpoint(setup=setup), halt=halt)
         if self.runner.trouble is not None:
             raise InvalidInput(self.runner.trouble)
         self.before: list[Checkpoint] = []
@@ -88,7 +98,9 @@ class Workplace:
 
     def plan(self, source: Source, *, alone: bool = False) -> Planned:
         """What the planning phase makes of a text here and now; `alone` as for `planned`."""
-        return planned(source, self.known, self.q, saved=self.runner.run.state.saved, alone=alone)
+        return planned(
+            source, self.known, self.runner.arm, self.q, saved=self.runner.run.state.saved, alone=alone
+        )
 
     def checkpoint(self) -> Checkpoint:
         """The present state, nothing that happened forgotten."""
@@ -122,7 +134,7 @@ class Workplace:
         assert here.snapshot is not None
         state = _onward(here.snapshot.state, plan)
         snapshot = msgspec.structs.replace(here.snapshot, position=0, happened=1, state=state)
-        setup = Setup(plan=plan, world=here.setup.world, camera=here.setup.camera)
+        setup = msgspec.structs.replace(here.setup, plan=plan)
         start = Checkpoint(
             setup=setup, calibration=here.calibration, snapshot=snapshot, events=(self._started(plan),)
         )  # fmt: skip
@@ -169,8 +181,8 @@ class Workplace:
         self.runner = Runner(self.before.pop(), halt=self.halt)
 
 
-def _plan(text: str, taught: Taught) -> Plan:
-    plan = planned(Source(name=TYPED, text=text), taught, PARK).plan
+def _plan(text: str, taught: Taught, task: Task) -> Plan:
+    plan = planned(Source(name=TYPED, text=text), taught, task.arm, task.park).plan
     assert plan is not None
     return plan
 

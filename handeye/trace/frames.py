@@ -4,9 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.model import ArmModel
+from handeye.cell.looks import LATENT
 from handeye.cell.truth import Truth
 from handeye.trace.messages import Poses
-from handeye.trace.scene import LATENT, looks, scene
+from handeye.trace.scene import looks, scene
 
 Mask = NDArray[np.bool_]
 

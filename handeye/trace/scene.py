@@ -1,7 +1,5 @@
 """What the bodies of the cell look like, for views that show shapes and not only axes."""
 
-from typing import Final
-
 import numpy as np
 from foxglove_schemas_protobuf.Color_pb2 import Color
 from foxglove_schemas_protobuf.Point3_pb2 import Point3
@@ -11,15 +9,11 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 
+from handeye.cell.looks import BOX, CYLINDER, LATENT, MESH, SEEN
 from handeye.cell.truth import Truth
 from handeye.pose import Array
-from handeye.tasks.water_pump.scene.shapes import BOX, CYLINDER, MESH
-from handeye.tasks.water_pump.threads import SEEN
 from handeye.trace.channels import WORLD
 from handeye.trace.messages import stamp
-
-LATENT: Final = 4
-"""Group of shapes that are shown later: screws that are not in their threads yet."""
 
 
 def looks(truth: Truth, body: int) -> list[int]:

@@ -5,13 +5,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from handeye.planfile.plan import Plan
+from handeye.report.judging import findings
 from handeye.report.result import Result
 from handeye.report.summary import summary
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
-from handeye.tasks.water_pump.referee import judge
 from handeye.variation import WorldSpec
 
 
@@ -41,8 +41,8 @@ def run_plan(
     start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
     runner = Runner(start, observers=observers)
     pause = advance(runner)
-    completed = runner.finish()
-    findings = judge(runner.cell.truth) if completed and referee else {} if referee else None
+    runner.finish()
+    found = findings(runner, pause) if referee else None
     wall = time.perf_counter() - begun
-    result = summary(runner, pause, findings=findings, wall=wall, planning=planning_wall_s)
+    result = summary(runner, pause, findings=found, wall=wall, planning=planning_wall_s)
     return Finished(result=result, runner=runner)

@@ -12,9 +12,8 @@ from typing import Final
 import numpy as np
 
 from handeye.errors import InvalidInput
-from handeye.ports.camera import COLUMNS, LENSES, RASTER, ROWS
+from handeye.ports.camera import COLUMNS, RASTER, ROWS
 from handeye.pose import Array, Pose, pose
-from handeye.units import INCH
 
 CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
 
@@ -137,13 +136,3 @@ class View:
         around = self.back_project(uv, float(np.ravel(point_W)[2]))
         across, down = np.linalg.norm(around[1:] - around[0], axis=1)
         return 1 / float(across), 1 / float(down)
-
-
-DRAWING: Final = CameraModel(
-    mount=(34 * INCH, 68 * INCH, 54 * INCH),
-    lenses=tuple(Lens(focal_length=focal, forward=2 * INCH, up=1 * INCH) for focal in LENSES),
-)
-"""The camera as drawn: on a tripod 14 in beyond the far edge of the table, opposite the arm.
-
-Chosen so that no part of the arm hides the base; the offset of the lenses is a placeholder.
-"""

@@ -30,8 +30,8 @@ from handeye.program.program import Program
 from handeye.program.taught import Taught, load_taught
 from handeye.program.world_model import WorldModel
 from handeye.source import Source
+from handeye.tasks.water_pump.eye import DRAWING
 from handeye.trace.account import account
-from handeye.vision.camera import DRAWING
 
 ROOT = Path(__file__).parents[2]
 MANUAL = ROOT / "docs" / "language"

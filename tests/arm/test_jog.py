@@ -9,7 +9,7 @@ from handeye.arm.jog import jog
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
 from handeye.pose import hand
-from handeye.tasks.water_pump.cell import PARK
+from handeye.tasks.water_pump.park import PARK
 from handeye.units import INCH
 
 PERIOD = 1 / 60

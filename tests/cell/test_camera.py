@@ -12,9 +12,10 @@ from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
+from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.vision.beam import Scan
-from handeye.vision.camera import DRAWING, View
+from handeye.vision.camera import View
 from handeye.vision.characteriser import characterise
 
 BLOCK = (0.65, 0.95, 0.0)
@@ -47,7 +48,7 @@ class Plain(SceneRenderer):
 
 def camera(world: PumpWorld | None = None, renderer: SceneRenderer | None = None) -> SimulatedCamera:
     world = world or PumpWorld.nominal()
-    return SimulatedCamera(scene(), world.camera, world.generator("camera"), renderer or Plain())
+    return SimulatedCamera(scene(), world.camera, world.generator("camera"), renderer or Plain(), DRAWING)
 
 
 def test_a_picture_has_256_lines_of_333_integers_from_0_to_15():
@@ -94,7 +95,7 @@ def test_the_pots_tell_the_aim_but_for_the_error_of_the_world():
 
 
 def test_a_perfect_world_has_the_camera_of_the_drawing():
-    assert true_camera(PumpWorld.nominal().camera) == DRAWING
+    assert true_camera(PumpWorld.nominal().camera, DRAWING) == DRAWING
 
 
 def test_the_bright_parts_are_brought_to_the_same_level_in_any_light():
@@ -155,7 +156,7 @@ def test_a_renderer_gives_the_same_light_every_time(kind: str):
 @pytest.mark.parametrize("kind", ["auto", "ray"])
 def test_what_is_projected_is_where_it_is_rendered(kind: str):
     data = scene()
-    view = true_camera(PumpWorld.sample(4).camera).view(0.050, *DRAWING.aim(BLOCK, 0.050))
+    view = true_camera(PumpWorld.sample(4).camera, DRAWING).view(0.050, *DRAWING.aim(BLOCK, 0.050))
     light = make_renderer(kind, data.model).render(data, view)
     expected = view.project(np.array([*BLOCK[:2], 0.011]))[0]
     blob = characterise(Scan(light * 15), (float(expected[0]), float(expected[1])), 2, 60)

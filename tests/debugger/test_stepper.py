@@ -35,8 +35,8 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AtLabel, ByHand
+from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import INCH
-from handeye.vision.camera import DRAWING
 
 pytestmark = pytest.mark.slow
 

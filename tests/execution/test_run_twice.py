@@ -22,7 +22,7 @@ from handeye.execution.executor import Executor
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.source import Source
-from handeye.vision.camera import DRAWING
+from handeye.tasks.water_pump.eye import DRAWING
 
 pytestmark = pytest.mark.slow
 

@@ -20,7 +20,7 @@ from handeye.ports.clock import Clock
 from handeye.ports.workcell import Workcell
 from handeye.pose import Array
 from handeye.resources import scenes
-from handeye.tasks.water_pump.cell import PARK
+from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import INCH, JIFFY
 

@@ -16,8 +16,8 @@ from handeye.inspection.difference_text import difference_text
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught
-from handeye.runs.snapshot import arm_of
 from handeye.source import Source
+from handeye.tasks import task
 from handeye.units import INCH
 
 Y = 0.95 / INCH
@@ -132,4 +132,4 @@ def test_a_plan_with_positions_of_fewer_joints_than_its_arm_is_not_run(joints: i
     with pytest.raises(
         InvalidInput, match=rf"^the plan has positions of {joints} joints; the Stanford arm has 6$"
     ):
-        arm_of(msgspec.structs.replace(plan, motions={0: cut}))
+        task().check_arm(msgspec.structs.replace(plan, motions={0: cut}))

@@ -5,9 +5,14 @@ import io
 import pytest
 from rich.console import Console
 
-from handeye.report.page import clock, timing, verdict
+from handeye.report.page import clock, referee, timing, verdict
 from handeye.report.result import CameraReport, Check, Result, Timing
 from handeye.variation import WorldSpec
+
+GAP = Check(
+    ok=False, subject="gap under a head", value=5.0, relation="at most", limit=0.2, unit="mm",
+    sentence="gap under a head (at most 0.2 mm)",
+)  # fmt: skip
 
 
 def result(
@@ -24,7 +29,7 @@ def result(
         assembled=assembled, completed=completed, paused=False, interventions=(),
         stopped_at=None if completed else "check the gasket",
         error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program,
-        seed=0, world=WorldSpec(seed=0), versions={},
+        task="water_pump", seed=0, world=WorldSpec(seed=0), versions={},
         timing=Timing(
             planning_wall_s=planning, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1,
             real_time_factor=factor,
@@ -62,8 +67,20 @@ def test_a_stop_names_the_step_the_error_and_what_went_wrong() -> None:
     assert said == "Stopped in stage “check the gasket” (error 32): no gasket"
 
 
+def test_the_referee_is_shown_by_what_was_measured_and_how_it_must_stand_to_its_limit() -> None:
+    few = Check(
+        ok=True, subject="screws in their threads", value=6, relation="at least", limit=6, unit="screws",
+        sentence="a sentence that nobody takes apart (at most)",
+    )  # fmt: skip
+    shown = referee(result(completed=True, assembled=False, checks={"gap": GAP, "screws": few}))
+    cells = [[str(cell) for cell in column.cells] for column in shown.columns]
+    assert cells[1:] == [
+        ["gap under a head", "screws in their threads"], ["5", "6"], ["<= 0.2", ">= 6"], ["mm", "screws"]
+    ]  # fmt: skip
+
+
 def test_a_silent_failure_says_what_the_referee_found() -> None:
-    wrong = Check(ok=False, value=5.0, limit=0.2, unit="mm", sentence="gap under a head (at most 0.2 mm)")
+    wrong = GAP
     said = verdict(result(completed=True, assembled=False, checks={"gap": wrong})).plain
     assert said == "The program said done, but the pump is not right: gap under a head (at most 0.2 mm)"
 

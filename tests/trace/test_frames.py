@@ -9,7 +9,8 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
-from handeye.tasks.water_pump.cell import PARK, build_cell
+from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.trace.frames import Frames
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from handeye.errors import InvalidInput
+from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Sighting, calibrate
-from handeye.vision.camera import DRAWING, CameraModel
+from handeye.vision.camera import CameraModel
 
 TRUE = replace(
     DRAWING,

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from handeye.errors import InvalidInput
+from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import CENTRE, DRAWING, CameraModel, Lens
+from handeye.vision.camera import CENTRE, CameraModel, Lens
 
 TILTED = CameraModel(
     mount=(0.9, 1.7, 1.4),

@@ -1,9 +1,6 @@
 """The work cell of the water pump: its scene, its devices, its threads and its clamping, put together."""
 
-from typing import Final
-
 import mujoco
-import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
@@ -14,15 +11,11 @@ from handeye.cell.renderers import make_renderer
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.water_pump.clamping import Clamping
+from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import ARM, build
 from handeye.tasks.water_pump.threads import Threads
-from handeye.units import DEGREE, INCH
-
-PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
-    DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE
-]  # fmt: skip
-"""Where the arm stands at first: hand at (20, 28, 8) in, pointing down. Layout study, section 2."""
 
 
 def build_cell(world: PumpWorld, *, camera: str = "auto", rest: bool = True) -> SimulatedCell:
@@ -52,7 +45,9 @@ def build_cell(world: PumpWorld, *, camera: str = "auto", rest: bool = True) -> 
         hand=hand,
         screwdriver=driver,
         lamp=SimulatedLamp(model, f"{ARM}lamp"),
-        camera=SimulatedCamera(data, world.camera, world.generator("camera"), make_renderer(camera, model)),
+        camera=SimulatedCamera(
+            data, world.camera, world.generator("camera"), make_renderer(camera, model), DRAWING
+        ),
         mechanisms=(threads, Clamping(model, data, threads, allowed=rest)),
         noise=noise,
     )

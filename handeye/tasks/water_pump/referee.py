@@ -6,10 +6,11 @@ from typing import Final
 import numpy as np
 
 from handeye.cell.truth import Truth
-from handeye.judge.finding import Finding, at_least, at_most
+from handeye.judge.finding import Finding, Findings, at_least, at_most
+from handeye.judge.measured import Measured, displacement, tilt
 from handeye.pose import Pose, translated, yaw
 from handeye.tasks.water_pump import limits
-from handeye.tasks.water_pump.measure import Measured, displacement, tilt
+from handeye.tasks.water_pump.measure import head_force, rotor_torque
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes
 from handeye.tasks.water_pump.threads import holes_of
@@ -21,7 +22,7 @@ _GASKET: Final = (limits.GASKET_HEIGHT, limits.GASKET_TILT, limits.GASKET_PLACE)
 _TOP: Final = (limits.TOP_HEIGHT, limits.TOP_TILT, limits.TOP_PLACE)
 
 
-def judge(truth: Truth) -> dict[str, Finding]:
+def judge(truth: Truth) -> Findings:
     """Measure the pump and its cell.
 
     Works on copies: the state of the cell is not touched.
@@ -36,11 +37,6 @@ def judge(truth: Truth) -> dict[str, Finding]:
         "rotor": _rotor(measured),
         "overlap": _overlap(measured),
     }
-
-
-def assembled(findings: dict[str, Finding]) -> bool:
-    """Whether every point is right."""
-    return all(finding.ok for finding in findings.values())
 
 
 def _base(measured: Measured) -> dict[str, Finding]:
@@ -86,7 +82,7 @@ def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
         head = measured.model.geom(f"head{k}").id
         X_WT = measured.pose("top")
         gaps.append(float(X_WT[:3, 2] @ (measured.data.geom_xpos[head] - X_WT[:3, 3]) - height))
-    forces = [measured.head_force(k) for k in filled]
+    forces = [head_force(measured, k) for k in filled]
     crossed = sum(thread.crossed for thread in holes_of(truth))
     nothing = float(size("screw.length") * _MM)  # a missing screw counts as one that stands full length high
     worst = max((abs(gap) * _MM for gap in gaps), default=nothing)
@@ -125,7 +121,7 @@ def _cell(measured: Measured, truth: Truth) -> dict[str, Finding]:
 
 
 def _rotor(measured: Measured) -> Finding:
-    torque = measured.rotor_torque()
+    torque = rotor_torque(measured)
     value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn at all
     return at_most(value, limits.ROTOR_TORQUE, "N m", "torque that turns the rotor")
 

@@ -16,6 +16,7 @@ import msgspec
 import mujoco
 import numpy as np
 
+from handeye.cell.looks import SEEN
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import finite
@@ -44,7 +45,6 @@ ON_HEAD: Final = (
 )  # m, axial and lateral way off a head at which the bit still turns it. Placeholder.
 _NUDGE: Final = 1e-12  # rad/s: a velocity that is not zero wakes a sleeping driver
 Number = Annotated[int, msgspec.Meta(ge=0)]
-SEEN: Final = 2  # geom group that pictures show; the carriers' looks are compiled into a hidden one
 
 
 class Thread(Record, frozen=True, kw_only=True):

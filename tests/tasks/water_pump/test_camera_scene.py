@@ -5,10 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from handeye.cell.staging import Stage
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.trials.vision import base_trials, gasket_trials, locate, look, pump_base
+from handeye.tasks.water_pump.vision_trials import (
+    StillPump,
+    base_trials,
+    gasket_trials,
+    locate,
+    look,
+    pump_base,
+)
 from handeye.units import INCH
+from handeye.variation import WorldSpec
 from handeye.vision.base import Failure, SpecificLocation, locate_specific
 from handeye.vision.drawing import annotate
 
@@ -18,8 +25,8 @@ PART = pump_base()
 
 
 def found(seed: int, renderer: str) -> SpecificLocation | Failure:
-    stage = Stage(PumpWorld.sample(seed), renderer=renderer)
-    return locate(stage.camera, stage.true_camera, PART)[0]
+    still = StillPump(PumpWorld.sample(seed), renderer=renderer)
+    return locate(still.camera, still.true_camera, PART)[0]
 
 
 def test_both_renderers_put_the_holes_at_the_same_place_to_a_point():
@@ -29,37 +36,42 @@ def test_both_renderers_put_the_holes_at_the_same_place_to_a_point():
 
 
 def test_the_base_is_found_to_a_fiftieth_of_an_inch_in_a_world_without_errors():
-    stage = Stage(PumpWorld.nominal(), renderer="ray")
-    location, _ = locate(stage.camera, stage.true_camera, PART)
-    base = stage.world.base
+    still = StillPump(PumpWorld.nominal(), renderer="ray")
+    location, _ = locate(still.camera, still.true_camera, PART)
+    base = still.world.base
     assert location.pose[:2] == pytest.approx((base.x, base.y), abs=0.02 * INCH)
 
 
 def test_every_base_of_a_few_random_worlds_is_found_and_none_is_mistaken():
-    counts = base_trials(4, 40, camera="calibrated")
+    counts = base_trials(4, WorldSpec(seed=40), camera="calibrated")
     assert (counts.found, counts.wrong) == (4, 0)
     assert counts.within >= 3
 
 
 def test_a_gasket_is_accepted_only_where_it_belongs():
-    assert gasket_trials(1, 42).accepted == {"right": 1, "shifted .15": 0, "shifted .3": 0, "absent": 0}
+    assert gasket_trials(1, WorldSpec(seed=42)).accepted == {
+        "right": 1,
+        "shifted .15": 0,
+        "shifted .3": 0,
+        "absent": 0,
+    }
 
 
 def test_a_forgotten_refocus_fails_with_a_clear_message():
-    stage = Stage(PumpWorld.sample(3), renderer="ray")
-    _, pictures = locate(stage.camera, stage.true_camera, PART)
+    still = StillPump(PumpWorld.sample(3), renderer="ray")
+    _, pictures = locate(still.camera, still.true_camera, PART)
     general = pictures[0][2]
     view = pictures[1][1]
-    stage.camera.focus(math.inf)
-    picture, _ = stage.camera.digitise()
+    still.camera.focus(math.inf)
+    picture, _ = still.camera.digitise()
     failure = locate_specific(picture, view, PART, general)
     assert isinstance(failure, Failure)
     assert "is the picture in focus" in failure.reason
 
 
 def test_the_overlay_marks_the_line_of_centres():
-    stage = Stage(PumpWorld.sample(3), renderer="ray")
-    location, pictures = locate(stage.camera, stage.true_camera, PART)
+    still = StillPump(PumpWorld.sample(3), renderer="ray")
+    location, pictures = locate(still.camera, still.true_camera, PART)
     image = annotate(pictures[1][0], specific=location)
     middle = np.mean([(hole.u, hole.v) for hole in location.holes], axis=0)
     column, row = (np.rint((middle + 0.5) * 3)).astype(int)
@@ -68,6 +80,6 @@ def test_the_overlay_marks_the_line_of_centres():
 
 
 def test_looking_twice_at_one_place_gives_the_same_view():
-    stage = Stage(PumpWorld.sample(3), renderer="ray")
-    first = look(stage.camera, stage.true_camera, 0.025, PART.at[:3])
-    assert look(stage.camera, stage.true_camera, 0.025, PART.at[:3]) == first
+    still = StillPump(PumpWorld.sample(3), renderer="ray")
+    first = look(still.camera, still.true_camera, 0.025, PART.at[:3])
+    assert look(still.camera, still.true_camera, 0.025, PART.at[:3]) == first

@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.cell.looks import LATENT
 from handeye.pose import Array
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
@@ -136,7 +137,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     head.density = 0.0
     head.rgba[3] = 0.0  # its looks are other geoms
     for geom in screw_look(shaper, carrier):
-        geom.group = 4  # hidden until a screw is engaged
+        geom.group = LATENT  # until a screw is engaged
     equality = shaper.spec.add_equality(
         name=f"thread{number}", type=mujoco.mjtEq.mjEQ_JOINT,
         name1=f"thread_slide{number}", name2=f"thread_turn{number}", solref=[0.004, 1.0],

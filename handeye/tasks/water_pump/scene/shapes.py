@@ -8,11 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.cell.looks import BOX, CYLINDER, MESH
 from handeye.pose import Array
-
-BOX = mujoco.mjtGeom.mjGEOM_BOX
-CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
-MESH = mujoco.mjtGeom.mjGEOM_MESH
 
 Vector = Sequence[float]
 

@@ -8,11 +8,15 @@ from typing import Final
 import numpy as np
 from msgspec.structs import replace
 
-from handeye.cell.staging import Stage
+from handeye.cell.still_cell import StillCell
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
 from handeye.program.program import Hole, Part
+from handeye.tasks.task import Count
+from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene import ARM, build
 from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
@@ -26,7 +30,7 @@ from handeye.vision.base import (
     locate_specific,
 )
 from handeye.vision.calibration import Calibration, Sighting, calibrate
-from handeye.vision.camera import DRAWING, CameraModel, View
+from handeye.vision.camera import CameraModel, View
 from handeye.vision.gasket import inspect
 from handeye.vision.holes import hole_places
 
@@ -60,6 +64,18 @@ class GasketCounts:
 
     tried: int
     accepted: dict[str, int]
+
+
+class StillPump(StillCell):
+    """The cell of a world before it has moved, its arm parked."""
+
+    def __init__(self, world: PumpWorld, *, renderer: str = "auto") -> None:
+        self.world = world
+        posture = {f"{ARM}j{number}": float(q) for number, q in enumerate(PARK, 1)}
+        super().__init__(
+            build(world), posture=posture, drawing=DRAWING, errors=world.camera,
+            noise=world.generator("camera"), renderer=renderer,
+        )  # fmt: skip
 
 
 def pump_base(at: tuple[float, float, float, float] | None = None) -> Part:
@@ -108,6 +124,26 @@ def locate(
     return locate_specific(picture, view, part, general), pictures
 
 
+def base_trial(n: int, first: WorldSpec, *, renderer: str, camera: str) -> Count:
+    """What to tell of `base_trials`."""
+    counts = base_trials(n, first, renderer=renderer, camera=camera)
+    x, y, turn = counts.rms
+    lines = (
+        f"found {counts.found} of {counts.tried}, {counts.wrong} of them wrong",
+        f"{counts.within} within {WITHIN[0] / INCH:.2f} x {WITHIN[1] / INCH:.2f} in",
+        f"rms error {x / INCH:.3f} in, {y / INCH:.3f} in, {turn / DEGREE:.2f} deg",
+        *counts.failures,
+    )
+    return Count(lines=lines, wrong=counts.wrong)
+
+
+def gasket_trial(n: int, first: WorldSpec, *, renderer: str) -> Count:
+    """What to tell of `gasket_trials`."""
+    accepted = gasket_trials(n, first, renderer=renderer).accepted
+    lines = tuple(f"{case:12} accepted {count} of {n}" for case, count in accepted.items())
+    return Count(lines=lines, wrong=0)
+
+
 def base_trials(n: int, first: WorldSpec, *, renderer: str = "auto", camera: str = "true") -> BaseCounts:
     """Locate the base in `n` worlds from `first` on.
 
@@ -117,13 +153,13 @@ def base_trials(n: int, first: WorldSpec, *, renderer: str = "auto", camera: str
     part = pump_base()
     errors, failures, wrong = [], [], 0
     for world in _worlds(first, n):
-        stage = Stage(world, renderer=renderer)
-        location, _ = locate(stage.camera, _known(camera, stage, part), part)
+        still = StillPump(world, renderer=renderer)
+        location, _ = locate(still.camera, _known(camera, still, part), part)
         if isinstance(location, Failure):
             failures.append(f"{world.drawn.spec.seed}: {location.reason}")
             continue
         error = _error(location.pose, (world.base.x, world.base.y, world.base.yaw))
-        wrong += _is_wrong(location, stage, part)
+        wrong += _is_wrong(location, still, part)
         errors.append(error)
     table = np.abs(np.array(errors).reshape(-1, 3))
     return BaseCounts(
@@ -142,10 +178,10 @@ def _worlds(first: WorldSpec, n: int) -> Iterator[PumpWorld]:
         yield PumpWorld.draw(replace(first, seed=seed))
 
 
-def _known(camera: str, stage: Stage, part: Part) -> CameraModel:
+def _known(camera: str, still: StillPump, part: Part) -> CameraModel:
     if camera == "true":
-        return stage.true_camera
-    return DRAWING if camera == "drawn" else simulated_calibration(stage, part).model
+        return still.true_camera
+    return DRAWING if camera == "drawn" else simulated_calibration(still, part).model
 
 
 def gasket_trials(n: int, first: WorldSpec, *, renderer: str = "auto") -> GasketCounts:
@@ -153,45 +189,45 @@ def gasket_trials(n: int, first: WorldSpec, *, renderer: str = "auto") -> Gasket
     part = pump_base(_standard())
     accepted = dict.fromkeys(GASKETS, 0)
     for world in _worlds(first, n):
-        stage = Stage(world, renderer=renderer)
+        still = StillPump(world, renderer=renderer)
         rng = world.generator("trial.gasket")
         base = _jittered(part.at, rng, 0.03)
-        put_base(stage, base, pins=True)
+        put_base(still, base, pins=True)
         x, y, z, _ = part.at
-        view = look(stage.camera, simulated_calibration(stage, part).model, CLOSE_UP, (x, y, z + part.face))
-        before, _ = stage.camera.digitise()
+        view = look(still.camera, simulated_calibration(still, part).model, CLOSE_UP, (x, y, z + part.face))
+        before, _ = still.camera.digitise()
         for name in GASKETS:
-            after = _with_gasket(stage, base, name, rng)
+            after = _with_gasket(still, base, name, rng)
             accepted[name] += inspect(before, after, view, part, part.at[:2] + part.at[3:]).ok
     return GasketCounts(tried=n, accepted=accepted)
 
 
-def put_base(stage: Stage, place: tuple[float, float, float, float], *, pins: bool) -> None:
+def put_base(still: StillPump, place: tuple[float, float, float, float], *, pins: bool) -> None:
     """Put the base at x, y, z (m), yaw (rad), with the aligning pins in it or where they are."""
     X_WP = planar(*place)
-    stage.put("base", X_WP)
+    still.put("base", X_WP)
     d = dimensions()
     seat = base_top() + pin_seat(d("base.screw_holes.chamfer"), d("base.screw_holes.radius"))
     for number, hole in enumerate(d.all("base.screw_holes.pinned") if pins else ()):
         x, y = screw_holes()[int(hole)]
-        stage.put(f"pin{number}", X_WP @ planar(x, y, seat, 0.0))
+        still.put(f"pin{number}", X_WP @ planar(x, y, seat, 0.0))
 
 
 def _with_gasket(
-    stage: Stage, base: tuple[float, float, float, float], case: str, rng: np.random.Generator
+    still: StillPump, base: tuple[float, float, float, float], case: str, rng: np.random.Generator
 ) -> Picture:
     """The picture after, with the target voltage of the one before; the gasket is put back on its stand."""
     on_base = planar(0.0, 0.0, base_top(), 0.0)
     X_WP = planar(*base) @ on_base
-    stand = stage.pose("gasket")
+    stand = still.pose("gasket")
     if case == "right":
-        stage.put("gasket", planar(*_jittered((*X_WP[:3, 3], base[3]), rng, 0.02)))
+        still.put("gasket", planar(*_jittered((*X_WP[:3, 3], base[3]), rng, 0.02)))
     elif case != "absent":
         direction = rng.uniform(0, 2 * math.pi)
         off = float(case.split()[1]) * INCH
-        stage.put("gasket", translated(X_WP, (off * math.cos(direction), off * math.sin(direction), 0.0)))
-    after, _ = stage.camera.digitise(hold_target=True)
-    stage.put("gasket", stand)
+        still.put("gasket", translated(X_WP, (off * math.cos(direction), off * math.sin(direction), 0.0)))
+    after, _ = still.camera.digitise(hold_target=True)
+    still.put("gasket", stand)
     return after
 
 
@@ -209,17 +245,17 @@ def _jittered(
     return x + float(dx), y + float(dy), z, turn + float(rng.uniform(-0.3, 0.3)) * DEGREE
 
 
-def simulated_calibration(stage: Stage, part: Part) -> Calibration:
+def simulated_calibration(still: StillPump, part: Part) -> Calibration:
     """Calibrate as by a lamp that the arm carries to random places over the belt, without rendering any."""
-    rng = stage.world.generator("trial.calibration")
+    rng = still.world.generator("trial.calibration")
     x, y, z, _ = part.at
     sightings = []
     for lens in LENSES:
         for _ in range(SPOTS):
             lamp = np.array([x, y, z]) + rng.uniform((-0.12, -0.12, 0.01), (0.12, 0.12, 0.24))
             pan, tilt = DRAWING.aim(lamp, lens)
-            wobble = rng.normal(0, stage.world.camera.pot_noise, 2)
-            uv = stage.true_camera.view(lens, pan + wobble[0], tilt + wobble[1]).project(lamp)[0]
+            wobble = rng.normal(0, still.world.camera.pot_noise, 2)
+            uv = still.true_camera.view(lens, pan + wobble[0], tilt + wobble[1]).project(lamp)[0]
             u, v = uv + rng.normal(0, SPOT_ERROR, 2)
             told = lamp + rng.uniform(-ARM_ERROR, ARM_ERROR, 3)
             point = (float(told[0]), float(told[1]), float(told[2]))
@@ -231,9 +267,9 @@ def _rms(values: Array) -> float:
     return math.sqrt(float(np.mean(values**2))) if len(values) else 0.0
 
 
-def _is_wrong(location: SpecificLocation, stage: Stage, part: Part) -> bool:
-    base = stage.world.base
-    true = stage.camera.true_view().project(hole_places(part, (base.x, base.y, base.yaw)))
+def _is_wrong(location: SpecificLocation, still: StillPump, part: Part) -> bool:
+    base = still.world.base
+    true = still.camera.true_view().project(hole_places(part, (base.x, base.y, base.yaw)))
     found = [(hole.u, hole.v) for hole in location.holes]
     return bool(np.hypot(*(true - found).T).max() > WRONG)
 

@@ -1,0 +1,14 @@
+"""Shapes of the MuJoCo model that pictures and traces show, and what they are called there."""
+
+from typing import Final
+
+import mujoco
+
+BOX: Final = mujoco.mjtGeom.mjGEOM_BOX
+CYLINDER: Final = mujoco.mjtGeom.mjGEOM_CYLINDER
+MESH: Final = mujoco.mjtGeom.mjGEOM_MESH
+
+SEEN: Final = 2
+"""Group of the shapes by which a body is seen."""
+LATENT: Final = 4
+"""Group of shapes that an event will show: of screws, for one, that are not in their threads yet."""

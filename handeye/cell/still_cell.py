@@ -1,0 +1,53 @@
+"""A still scene with parts put where one wants them, and the camera: for pictures without a run."""
+
+import mujoco
+import numpy as np
+
+from handeye.cell.camera import SimulatedCamera, true_camera
+from handeye.cell.device_errors import CameraErrors
+from handeye.cell.renderers import make_renderer
+from handeye.pose import Array, Pose, pose
+from handeye.vision.camera import CameraModel
+
+
+class StillCell:
+    """A scene before it has moved."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        *,
+        posture: dict[str, float],
+        drawing: CameraModel,
+        errors: CameraErrors,
+        noise: np.random.Generator,
+        renderer: str = "auto",
+    ) -> None:
+        """Take a scene as it was drawn.
+
+        Args:
+            posture: where joints stand, by their names, rad or m.
+            drawing: of the camera, which is wrong by its `errors`.
+
+        Raises:
+            InvalidInput: there is no such renderer, or it does not work here.
+        """
+        self._data = mujoco.MjData(model)
+        for joint, q in posture.items():
+            self._data.joint(joint).qpos = q
+        mujoco.mj_forward(model, self._data)
+        self._model = model
+        self.camera = SimulatedCamera(self._data, errors, noise, make_renderer(renderer, model), drawing)
+        self.true_camera = true_camera(errors, drawing)
+
+    def put(self, part: str, X_WP: Pose) -> None:
+        """Put a free body at a pose, whatever is there."""
+        quat: Array = np.zeros(4)
+        mujoco.mju_mat2Quat(quat, X_WP[:3, :3].ravel())
+        self._data.joint(part).qpos = [*X_WP[:3, 3], *quat]
+        mujoco.mj_forward(self._model, self._data)
+
+    def pose(self, part: str) -> Pose:
+        """`X_WP` of a body."""
+        body = self._data.body(part)
+        return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())

@@ -1,0 +1,10 @@
+"""The referee is called to a run that is over."""
+
+from handeye.judge.finding import Findings
+from handeye.runs.advance import Pause
+from handeye.runs.runner import Runner
+
+
+def findings(runner: Runner, pause: Pause) -> Findings:
+    """What the referee of the task finds; nothing of a program that did not come to its end."""
+    return runner.task.judge(runner.cell.truth) if pause.kind == "end" else {}

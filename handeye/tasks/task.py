@@ -1,0 +1,127 @@
+"""A task: what one kind of work needs besides a plan. Each lives in a folder of its own."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from handeye.arm.model import ArmModel, digest
+from handeye.errors import InvalidInput
+from handeye.execution.calibration_look import CalibrationLook
+from handeye.judge.finding import Findings
+from handeye.planfile.plan import Plan
+from handeye.pose import Array
+from handeye.variation import Variation, WorldSpec
+from handeye.vision.camera import CameraModel
+
+if TYPE_CHECKING:  # a plan is made and checked without a simulator
+    import mujoco
+
+    from handeye.cell.simulated import SimulatedCell
+    from handeye.cell.truth import Truth
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Eye:
+    """The television camera of a cell as the program knows it before it is calibrated."""
+
+    drawing: CameraModel
+    looks: tuple[CalibrationLook, ...]
+    """How the arm shows its lamp to it, in order."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Period:
+    """How long the same work took in its day, s."""
+
+    year: int
+    program: str
+    """The program that these are the times of."""
+    times: Mapping[str, float]
+    """By the names `planning`, `manipulation`, `lens`, `vision` and, of the working phase, `total`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Count:
+    """What came of trying one thing in many worlds."""
+
+    lines: tuple[str, ...]
+    """For people."""
+    wrong: int
+    """How often something wrong was taken for right."""
+
+
+Trial = Callable[[int, WorldSpec, str, str], Count]
+"""Tries one thing in some number of worlds, beginning with one; pictures made so (`auto`, `gl`, `ray`), by a camera of
+which the program knows so much (`true`, `drawn`, `calibrated`)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Words:
+    """How people are told of what a task makes."""
+
+    product: str
+    """With its article: `the pump`."""
+    done: str
+    """A sentence: it is finished, and right."""
+
+
+class Task(ABC):
+    """One kind of work: its cell, its worlds, and the referee of what it makes."""
+
+    name: str
+    arm: ArmModel
+    park: Array
+    """Where the arm stands when the cell is switched on, shape (n,)."""
+    words: Words
+    script: str | None = None
+    """The program that is taken where none is named, a file among the plans."""
+    eye: Eye | None = None
+    photographs: tuple[str, ...] = ()
+    """Cameras of the scene whose view of the end is kept for people."""
+    period: Period | None = None
+    trials: Mapping[str, Trial] = MappingProxyType({})
+    """What can be tried in many worlds without carrying out a program."""
+
+    @abstractmethod
+    def variation(self, seed: int) -> Variation:
+        """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
+
+    @abstractmethod
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        """The scene of a world as it is drawn, before anything has happened in it.
+
+        Raises:
+            InvalidInput: there is no such world.
+        """
+
+    @abstractmethod
+    def cell(self, spec: WorldSpec, camera: str) -> SimulatedCell:
+        """The cell of a world, switched on; pictures are made by `auto`, `gl` or `ray`.
+
+        Raises:
+            InvalidInput: there is no such world, or pictures cannot be made so here.
+        """
+
+    @abstractmethod
+    def judge(self, truth: Truth) -> Findings:
+        """What the referee finds of the finished work, point by point. The cell is not touched."""
+
+    def check_arm(self, plan: Plan) -> None:
+        """See that a plan was made for the arm of this task.
+
+        Raises:
+            InvalidInput: it was made for another one.
+        """
+        if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
+            raise InvalidInput(
+                f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
+            )
+        joints = len(self.arm.joints)
+        if plan.joint_counts not in ((), (joints,)):
+            raise InvalidInput(
+                f"the plan has positions of {plan.joint_counts[0]} joints; the {self.arm.name} arm has {joints}"
+            )

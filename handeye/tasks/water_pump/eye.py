@@ -1,0 +1,55 @@
+"""The television camera of the pump's cell as drawn, and how the arm shows its lamp to it."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.execution.calibration_look import CalibrationLook
+from handeye.ports.camera import CLOSE_UP, LENSES, WIDE
+from handeye.record import Vector3
+from handeye.units import DEGREE, INCH
+from handeye.vision.camera import CameraModel, Lens
+
+DRAWING: Final = CameraModel(
+    mount=(34 * INCH, 68 * INCH, 54 * INCH),
+    lenses=tuple(Lens(focal_length=focal, forward=2 * INCH, up=1 * INCH) for focal in LENSES),
+)
+"""The camera as drawn: on a tripod 14 in beyond the far edge of the table, opposite the arm.
+
+Chosen so that no part of the arm hides the base; the offset of the lenses is a placeholder.
+"""
+_HAND_ANGLE: Final = 135 * DEGREE
+
+
+def _looks(
+    lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
+) -> Iterator[CalibrationLook]:
+    """A look at each of six places on a grid about (x, y), with the lamp shown left and right, high and low; inches.
+
+    The camera is aimed anew for each look, because the reading of its pan and tilt has an error of its own
+    each time; the heights are mixed, because places of one height would not tell height from depth.
+    """
+    for k in range(6):
+        cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)
+        low, high = heights[k % len(heights)], heights[(k + 2) % len(heights)]
+        places = ((cx - dx / 2, cy - dy / 4, low), (cx + dx / 2, cy + dy / 4, high))
+        at, sharp = (cx, cy, (low + high) / 2), (x, y, sum(heights) / len(heights))
+        yield CalibrationLook(
+            lens=lens, at=_metres(at), sharp=_metres(sharp), places=tuple(map(_metres, places)),
+            hand_angle=_HAND_ANGLE,
+        )  # fmt: skip
+
+
+def _metres(inches: Vector3) -> Vector3:
+    x, y, z = inches
+    return x * INCH, y * INCH, z * INCH
+
+
+LOOKS: Final = (
+    *_looks(WIDE, 42.5, 29.0, 5.0, 6.0, (7.5, 10.0, 12.5)),
+    *_looks(CLOSE_UP, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
+    *_looks(CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
+)
+"""Both lenses over the belt, and the close-up lens from there to the standard position too.
+
+The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
+"""

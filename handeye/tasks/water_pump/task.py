@@ -1,0 +1,76 @@
+"""The water pump as a task: the one place that says where everything of it is found."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from handeye.arm.robots.stanford import STANFORD
+from handeye.judge.finding import Findings
+from handeye.tasks.task import Count, Eye, Period, Task, Words
+from handeye.tasks.water_pump.eye import DRAWING, LOOKS
+from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.variation import variation
+from handeye.variation import Variation, WorldSpec
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.simulated import SimulatedCell
+    from handeye.cell.truth import Truth
+
+PERIOD: Final = Period(
+    year=1973,
+    program="water_pump",
+    times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0},
+)
+"""Bolles and Paul, STAN-CS-73-396."""
+
+
+class WaterPump(Task):
+    """Put gasket and top on the base of an automobile water pump, and screw them down."""
+
+    name = "water_pump"
+    arm = STANFORD
+    park = PARK
+    words = Words(product="the pump", done="The pump is assembled.")
+    script = "water_pump.al"
+    eye = Eye(drawing=DRAWING, looks=LOOKS)
+    photographs = ("studio", "pump")
+    period = PERIOD
+
+    def __init__(self) -> None:
+        self.trials = {"base": _base_trial, "gasket": _gasket_trial}
+
+    def variation(self, seed: int) -> Variation:
+        return variation(seed)
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        from handeye.tasks.water_pump.scene import build
+
+        return build(PumpWorld.draw(spec))
+
+    def cell(self, spec: WorldSpec, camera: str) -> SimulatedCell:
+        from handeye.tasks.water_pump.cell import build_cell
+
+        return build_cell(PumpWorld.draw(spec), camera=camera)
+
+    def judge(self, truth: Truth) -> Findings:
+        from handeye.tasks.water_pump.referee import judge
+
+        return judge(truth)
+
+
+def _base_trial(count: int, first: WorldSpec, renderer: str, known: str) -> Count:
+    from handeye.tasks.water_pump.vision_trials import base_trial
+
+    return base_trial(count, first, renderer=renderer, camera=known)
+
+
+def _gasket_trial(count: int, first: WorldSpec, renderer: str, known: str) -> Count:
+    from handeye.tasks.water_pump.vision_trials import gasket_trial
+
+    return gasket_trial(count, first, renderer=renderer)
+
+
+WATER_PUMP: Final = WaterPump()
