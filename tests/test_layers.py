@@ -88,6 +88,11 @@ def test_skills_and_language_do_not_know_each_other(module: str) -> None:
     assert {o for o in own(module) if o.split(".")[0] in SKILLS - {mine}} == set()
 
 
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in {"planning", "execution"}])
+def test_planner_and_executor_know_no_language(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] == "al"} == set()
+
+
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"cell", "judge", "tasks"}])
 def test_only_the_cell_and_the_referee_know_mujoco(module: str) -> None:
     assert {name for name in imports(module) if name.split(".")[0] == "mujoco"} == set()

@@ -5,8 +5,15 @@ from handeye.al.extensions import extensions
 from handeye.al.formatter import format_text
 from handeye.al.includes import read_script, sewn, sewn_of
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.planning_messages import planning_diagnostics
+from handeye.program.language import Language
+
+AL = Language(
+    name="Stanford arm language", read=read_script, compile=compile_text, phrase=planning_diagnostics
+)
 
 __all__ = [
+    "AL",
     "INSTRUCTIONS",
     "compile_text",
     "extensions",

@@ -5,10 +5,10 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.ik import IKResult
-from handeye.arm.ik.reasons import Held
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples, check_samples
 from handeye.pose import Array
+from handeye.program.reasons import Held
 
 _FASTEST: Final = 1.875
 """Greatest rate of the motion 10 s3 - 15 s4 + 6 s5, as a multiple of its mean."""

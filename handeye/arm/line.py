@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from handeye.arm.ik import IKResult, branches, solve
-from handeye.arm.ik.reasons import TooFast
 from handeye.arm.ik.solvers import rates, singular
 from handeye.arm.kinematics import drift, forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples, length
 from handeye.pose import Array, Pose, displaced, rotation_z, translated
+from handeye.program.reasons import TooFast
 
 RAMP = 0.1
 """Time to reach and to leave the cruising speed, s. Chosen: six periods of the servo of 1973."""

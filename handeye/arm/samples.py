@@ -6,10 +6,10 @@ import numpy as np
 
 from handeye.arm.ik import IKResult
 from handeye.arm.ik.choice import SLACK, beyond
-from handeye.arm.ik.reasons import BelowTable
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.pose import Array, Pose
+from handeye.program.reasons import BelowTable
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -13,12 +13,12 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.ik.reasons import BelowTable
 from handeye.arm.kinematics import forward
 from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
 from handeye.pose import Array, Pose, translated
+from handeye.program.reasons import BelowTable
 from handeye.units import INCH
 
 __all__ = ["Samples", "Trajectory", "arc", "check_samples", "four_three_four", "move", "straight"]

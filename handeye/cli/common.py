@@ -2,17 +2,18 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from cyclopts import Parameter, Token
 from rich.console import Console
 
-from handeye.al import compile_text, read_script
+from handeye.al import AL
 from handeye.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
 from handeye.files import beside
 from handeye.planfile.plan import Plan
+from handeye.program.language import language_of
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source
@@ -77,20 +78,20 @@ def compiled(file: Path) -> Plan:
     Raises:
         InvalidInput: the script has errors; they have been shown.
     """
-    from handeye.planning.planner import make_plan
+    from handeye.planning.scripts import plan_source
 
-    source = read_script(file)
-    program, diagnostics = compile_text(source, taught(file))
-    if program is not None:
-        made, problems = make_plan(program, task().arm)
-        diagnostics = [*diagnostics, *problems]
-        if made is not None:
-            show(diagnostics, source, json=False)
-            return made
-    show(diagnostics, source, json=False)
-    errors = sum(d.severity == "error" for d in diagnostics)
+    language = language_of(file, LANGUAGES)
+    made = plan_source(language.read(file), taught(file), task().arm, language)
+    show(made.diagnostics, made.source, json=False)
+    if made.plan is not None:
+        return made.plan
+    errors = sum(d.severity == "error" for d in made.diagnostics)
     count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
     raise InvalidInput(f"{file} has {count}; there is no plan")
+
+
+LANGUAGES: Final = {".al": AL}
+"""Languages of scripts by the endings of their files; a file with another ending is taken for the first."""
 
 
 def default_script() -> Path:

@@ -9,8 +9,9 @@ from typing import Annotated
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.al import compile_text, extensions, read_script
+from handeye.al import extensions
 from handeye.cli.common import (
+    LANGUAGES,
     PlanFile,
     Script,
     compiled,
@@ -26,6 +27,7 @@ from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
 from handeye.planfile.store import read_plan, write_plan
+from handeye.program.language import language_of
 from handeye.tasks import task
 
 Version = tuple[int, int, int] | None
@@ -99,7 +101,7 @@ def watched(file: Path, check: Callable[[], int], pause: Callable[[], None] = _w
 def _files(file: Path) -> list[Path]:
     """The files that a check of a script looks at."""
     try:
-        required = [Path(text.name) for text in read_script(file).required]
+        required = [Path(text.name) for text in language_of(file, LANGUAGES).read(file).required]
     except InvalidInput:
         required = []
     return [file, beside(file, ".toml"), *required]
@@ -115,12 +117,11 @@ def _version(path: Path) -> Version:
 
 
 def _check(file: Path, *, json: bool, strict: bool) -> int:
-    from handeye.planning.planner import make_plan
+    from handeye.planning.scripts import plan_source
 
-    source = read_script(file)
-    program, diagnostics = compile_text(source, taught(file))
-    if program is not None:
-        diagnostics = [*diagnostics, *make_plan(program, task().arm)[1]]
+    language = language_of(file, LANGUAGES)
+    source = language.read(file)
+    diagnostics = plan_source(source, taught(file), task().arm, language).diagnostics
     if strict:
         diagnostics = arranged([*diagnostics, *extensions(source)])
     show(diagnostics, source, json=json)

@@ -17,25 +17,25 @@ class GraspState:
     gap: float = 0.0
     """m; after a grasp the least that the script says the thing is thick, for nothing tells more."""
     held: str | None = None
-    taken: Step | None = None
-    """The grasp by which it is held."""
+    taken: int | None = None
+    """The step by which it is held."""
     _goal: str = ""
     _holds: dict[str, str] = field(init=False)
 
     def __post_init__(self) -> None:
         self._holds = {at: name for name, held in self.program.held.items() for at in held.positions}
 
-    def follow(self, step: Step) -> None:
+    def follow(self, number: int, step: Step) -> None:
         """What a step does to the hand, and to what is in it."""
-        operation = step.operation
-        if isinstance(operation, Move):
-            self._goal = operation.goal
-        elif isinstance(operation, Open):
-            self.gap, self.held, self.taken = operation.gap, None, None
-        elif isinstance(operation, Close | Center):
-            self.gap = operation.minimum
-            if self.held is None and self._goal in self._holds:
-                self.held, self.taken = self._holds[self._goal], step
+        match step.operation:
+            case Move(goal=goal):
+                self._goal = goal
+            case Open(gap=gap):
+                self.gap, self.held, self.taken = gap, None, None
+            case Close(minimum=least) | Center(minimum=least):
+                self.gap = least
+                if self.held is None and self._goal in self._holds:
+                    self.held, self.taken = self._holds[self._goal], number
 
     @property
     def fingers(self) -> tuple[Box, ...]:

@@ -5,8 +5,9 @@ to end. What cannot be reached, held or pressed, or would go through the table o
 run time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any, Final
 
 import msgspec
 import numpy as np
@@ -15,12 +16,13 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
-from handeye.diagnostics import Diagnostic, arranged, has_errors
 from handeye.planfile.plan import Joints, Plan, PlannedMotion
+from handeye.planning.findings import FindingList
 from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
-from handeye.planning.planning_findings import PlanningFindings
 from handeye.pose import Array
+from handeye.program.findings import GoalBelowTable, NoConfiguration, PlanningFinding
+from handeye.program.operation import Operation
 from handeye.program.operations import Change, Here, Move, Turn
 from handeye.program.program import Program, Step
 from handeye.program.world_model import WorldModel
@@ -38,8 +40,8 @@ speeds."""
 
 def make_plan(
     program: Program, arm: ArmModel, *, speed: float = SPEED, start: Array | None = None
-) -> tuple[Plan | None, list[Diagnostic]]:
-    """The plan of a program for an arm, and what there is to say about it. There is none if any of that is an error.
+) -> tuple[Plan | None, list[PlanningFinding]]:
+    """The plan of a program for an arm, and what is found against it. There is none if any of that is an error.
 
     A position that only a `HERE` defines is in the plan where the hand is planned to be then.
 
@@ -47,21 +49,20 @@ def make_plan(
         start: where the arm stands when the program begins, shape (n,), rad and m; by default at `HOME`, or at
             the first goal of a program that has none.
     """
-    objections = PlanningFindings(arm=arm, whole=program.whole, positions=program.positions)
+    findings = FindingList()
     walk = _Walk(
-        program=program, arm=arm, speed=speed, world=WorldModel.of(program), objections=objections,
-        checks=Checks(arm, program, objections),
+        program=program, arm=arm, speed=speed, world=WorldModel.of(program), findings=findings,
+        checks=Checks(arm, program, findings),
     )  # fmt: skip
     walk.go(start)
-    found = arranged(objections.found)
-    if has_errors(found):
-        return None, found
+    if findings.is_fatal:
+        return None, findings.found
     positions = {**walk.world.state.moved, **program.positions}
     plan = Plan(
         arm=arm.name, arm_digest=digest(arm), speed=speed, motions=walk.motions,
         program=msgspec.structs.replace(program, positions=positions),
     )  # fmt: skip
-    return plan, found
+    return plan, findings.found
 
 
 @dataclass(slots=True, kw_only=True)
@@ -71,7 +72,7 @@ class _Walk:
     speed: float
     world: WorldModel
     """Nothing in it is measured; what has moved in it, a `HERE` has defined."""
-    objections: PlanningFindings
+    findings: FindingList
     checks: Checks
     q: Array = field(init=False)
     known: bool = True
@@ -91,25 +92,22 @@ class _Walk:
             if step.operation.moves:
                 ahead = set()
             ahead.update(way for way in step.ways if way is not None)
-            self._step(number, step)
-            self.checks.follow(step)
+            plan = _PLANNED.get(type(step.operation))
+            if plan is not None:
+                plan(self, number, step, step.operation)
+            self.checks.follow(number, step)
 
-    def _step(self, number: int, step: Step) -> None:
-        operation = step.operation
-        if isinstance(operation, Move):
-            self._move(number, step, operation)
-        elif isinstance(operation, Change):
-            samples = change_samples(self.arm, self.q, operation)
-            demands = [*to_stop(operation.guards, operation.displacement), *to_press(operation)]
-            self._sampled(number, step, samples, operation.meets, demands)
-        elif isinstance(operation, Turn):
-            centre = self.world.position(operation.centre)
-            samples = turn_samples(self.arm, self.q, centre, operation)
-            self._sampled(number, step, samples, bool(operation.guards), to_stop(operation.guards))
-        elif isinstance(operation, Here):
-            self._define(operation.position)
+    def change(self, number: int, step: Step, operation: Change) -> None:
+        samples = change_samples(self.arm, self.q, operation)
+        demands = [*to_stop(operation.guards, operation.displacement), *to_press(operation)]
+        self._sampled(number, step, samples, operation.meets, demands)
 
-    def _define(self, name: str) -> None:
+    def turn(self, number: int, step: Step, operation: Turn) -> None:
+        samples = turn_samples(self.arm, self.q, self.world.position(operation.centre), operation)
+        self._sampled(number, step, samples, bool(operation.guards), to_stop(operation.guards))
+
+    def define(self, _: int, __: Step, operation: Here) -> None:
+        name = operation.position
         known = self.program.positions.get(name)
         of = None if known is None else known.of
         self.world.state.moved[name] = self.world.seen_from(of, forward(self.arm, self.q))
@@ -117,8 +115,8 @@ class _Walk:
     def _start(self) -> None:
         """Begin at the rest position, or at the first goal of a program that has none."""
         known = self.program.positions
-        moves = [s.operation for s in self.program.steps if isinstance(s.operation, Move)]
-        goals = [move.goal for move in moves if move.goal in known]
+        led_to = (step.operation.goal_position for step in self.program.steps)
+        goals = [goal for goal in led_to if goal in known]
         first = HOME if HOME in known else (goals[0] if goals else None)
         self.q = self.arm.middle
         if first is None:
@@ -130,20 +128,20 @@ class _Walk:
             return
         self.known = False
         if first not in goals:
-            self.objections.unreachable(self.program.steps[0], first, start)
+            self._no_configuration(0, first, start)
 
-    def _move(self, number: int, step: Step, operation: Move) -> None:
+    def move(self, number: int, step: Step, operation: Move) -> None:
         places = (*operation.via, operation.goal)
         *via, X_WT = (self.world.position(name) for name in places)
         for name, X in zip(places, (*via, X_WT), strict=True):
             if X[2, 3] < 0:
                 self.known = False
-                self.objections.below_table(step, name, -float(X[2, 3]))
+                self.findings.add(GoalBelowTable(step=number, position=name, depth=-float(X[2, 3])))
                 return
         trajectory = move_trajectory(self.arm, self.q, via, X_WT, operation, self.speed)
         if isinstance(trajectory, Unreachable):
             self.known = False
-            self.objections.unreachable(step, trajectory.name, trajectory.why)
+            self._no_configuration(number, trajectory.name, trajectory.why)
             return
         knots = tuple(_joints(q) for q in trajectory.knots)
         self.motions[number] = PlannedMotion(knots=knots, times=tuple(float(t) for t in trajectory.times))
@@ -151,8 +149,8 @@ class _Walk:
         count = 2 + int((trajectory.duration - begin) / (_LOOK * self.arm.servo.period))
         q = trajectory.at(np.linspace(begin, trajectory.duration, count)).q
         if not operation.guards:
-            self.checks.clear(step, q)
-        self.checks.strong(step, q, to_stop(operation.guards))
+            self.checks.clear(number, step, q)
+        self.checks.strong(number, q, to_stop(operation.guards))
         self.q, self.known = np.array(knots[-1]), True
 
     def _sampled(
@@ -161,17 +159,34 @@ class _Walk:
         """A motion of which every set-point is there; a guarded one is meant to meet something."""
         if isinstance(samples, IKResult):
             if self.known:
-                self.objections.unreachable(step, step.text.split()[0], samples)
+                self._no_configuration(number, None, samples)
             self.known = False
             return
         q = np.vstack([self.q, samples.q])
         if self.known:
             if not guarded:
-                self.checks.clear(step, q)
-            self.checks.strong(step, q, demands)
+                self.checks.clear(number, step, q)
+            self.checks.strong(number, q, demands)
         seconds = len(samples.q) * self.arm.servo.period
         self.motions[number] = PlannedMotion(knots=(_joints(self.q), _joints(q[-1])), times=(seconds,))
         self.q = q[-1]
+
+    def _no_configuration(self, number: int, position: str | None, failure: IKResult) -> None:
+        """Tell why there are no joint positions for a position, or somewhere on the way of a motion."""
+        assert failure.reason is not None
+        about = position if failure.along is None else None
+        self.findings.add(
+            NoConfiguration(step=number, position=about, reason=failure.reason, along=failure.along)
+        )
+
+
+_PLANNED: Final[dict[type[Operation], Callable[[_Walk, int, Step, Any], None]]] = {
+    Move: _Walk.move,
+    Change: _Walk.change,
+    Turn: _Walk.turn,
+    Here: _Walk.define,
+}
+"""What the planner does at steps that move the arm, or that ask where it is."""
 
 
 def _joints(q: Array) -> Joints:

@@ -97,6 +97,11 @@ class Operation(
         raise NotImplementedError(f"{type(self).__name__} has no branch")
 
     @property
+    def goal_position(self) -> str | None:
+        """The position that it leads the hand to, if it leads it to one."""
+        return None
+
+    @property
     def knots(self) -> int | None:
         """Number of knots of its planned motion; None: it moves no joint along a plan."""
         return None

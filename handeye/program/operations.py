@@ -67,6 +67,11 @@ class Move(ArmMotion, frozen=True, kw_only=True):
         return (*self.used(self.reading), *shifts, *search)
 
     @property
+    def goal_position(self) -> str:
+        """The goal, before anything shifts it."""
+        return self.goal
+
+    @property
     def knots(self) -> int | None:
         """Start, lift-off, what it passes, set-down and goal."""
         return 4 + len(self.via)

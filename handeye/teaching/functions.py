@@ -1,14 +1,13 @@
 """Functions typed in: text to a plan that begins where the arm stands."""
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Final
 
-from handeye.al import compile_text
+from handeye.al import AL
 from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic
-from handeye.planfile.plan import Plan
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import PlannedScript, plan_source
 from handeye.pose import Array
 from handeye.program.taught import Taught
 from handeye.source import Source
@@ -30,15 +29,6 @@ _ALONE: Final = frozenset(
 _LASTING: Final = ("TRANS", "VECT")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Planned:
-    """What the planning phase has made of a text."""
-
-    source: Source
-    plan: Plan | None
-    diagnostics: tuple[Diagnostic, ...]
-
-
 def planned(
     source: Source,
     taught: Taught,
@@ -47,7 +37,7 @@ def planned(
     *,
     saved: Collection[str] = (),
     alone: bool = False,
-) -> Planned:
+) -> PlannedScript:
     """Plan a text.
 
     Args:
@@ -56,13 +46,9 @@ def planned(
         saved: differences that have been saved before.
         alone: the text is only a part of what is done, and need not make sense by itself.
     """
-    program, found = compile_text(source, taught)
-    plan = None
-    if program is not None:
-        plan, problems = make_plan(program, arm, start=start)
-        found = [*found, *problems]
-    told = [d for d in found if not (alone and d.code in _ALONE) and not _known(d, source, saved)]
-    return Planned(source=source, plan=plan, diagnostics=tuple(told))
+    made = plan_source(source, taught, arm, AL, start=start)
+    told = [d for d in made.diagnostics if not (alone and d.code in _ALONE) and not _known(d, source, saved)]
+    return replace(made, diagnostics=told)
 
 
 def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bool:
@@ -73,7 +59,7 @@ def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bo
     return diagnostic.code == "never-saved" and name in saved
 
 
-def mistakes(checked: Planned, line: int) -> list[Diagnostic]:
+def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
     """What is wrong with a line of a text that is still being typed, or with what it requires, as far as the next
     line cannot put it right."""
     found = []

@@ -6,11 +6,11 @@ from msgspec import UNSET
 
 from handeye.debugger.step_summary import step_summaries
 from handeye.diagnostics import Diagnostic
+from handeye.planning.scripts import PlannedScript
 from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.source import Source
 from handeye.teaching.answers import NOTHING, Answer, CommandResult
-from handeye.teaching.functions import Planned
 from handeye.teaching.workplace import Workplace
 
 
@@ -37,7 +37,7 @@ def done(workplace: Workplace, pause: Pause, happened: int = 0) -> CommandResult
 
 
 def about(
-    workplace: Workplace, checked: Planned, found: Sequence[Diagnostic], said: CommandResult = NOTHING
+    workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: CommandResult = NOTHING
 ) -> Answer:
     """An answer with what was found in a text."""
     return Answer(time=workplace.runner.run.time, said=said, source=checked.source, diagnostics=tuple(found))

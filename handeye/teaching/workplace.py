@@ -11,6 +11,7 @@ from handeye.events import Choice, RunStarted
 from handeye.execution.state import ExecutionState
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
+from handeye.planning.scripts import PlannedScript
 from handeye.pose import Array
 from handeye.program.taught import Taught
 from handeye.records import copied
@@ -21,7 +22,7 @@ from handeye.source import Source
 from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
 from handeye.tasks.task import Task
-from handeye.teaching.functions import TYPED, Planned, planned
+from handeye.teaching.functions import TYPED, planned
 from handeye.variation import WorldSpec
 
 MOST: Final = 100
@@ -96,7 +97,7 @@ class Workplace:
         """Where the arm is held, shape (n,), rad and m."""
         return self.runner.run.drive.state.q
 
-    def plan(self, source: Source, *, alone: bool = False) -> Planned:
+    def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
         """What the planning phase makes of a text here and now; `alone` as for `planned`."""
         return planned(
             source, self.known, self.runner.arm, self.q, saved=self.runner.run.state.saved, alone=alone

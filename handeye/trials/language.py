@@ -14,9 +14,9 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from handeye.al import compile_text
+from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_source
 from handeye.program.program import Position
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
@@ -131,9 +131,7 @@ def _check(text: str) -> None:
 
 
 def _plan(source: Source, taught: Taught) -> None:
-    program, _ = compile_text(source, taught)
-    assert program is not None
-    assert make_plan(program, STANFORD)[0] is not None
+    assert plan_source(source, taught, STANFORD, AL).plan is not None
 
 
 def _moved(taught: Taught, times: int) -> Taught:

@@ -17,6 +17,7 @@ import numpy as np
 from cells import ARM, cell_of
 
 from handeye import al
+from handeye.al import AL
 from handeye.arm.ik import solve
 from handeye.diagnostics import Diagnostic, arranged, render
 from handeye.editor.explain import SAMPLE
@@ -25,7 +26,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.inspection.inspection import inspection, inspection_text
 from handeye.planfile.plan import Plan
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.program.program import Program
 from handeye.program.taught import Taught, load_taught
 from handeye.program.world_model import WorldModel
@@ -80,7 +81,7 @@ def shown(case: Case) -> dict[str, str]:
     program, found = compiled(case)
     plan = None
     if program is not None:
-        plan, problems = make_plan(program, ARM)
+        plan, problems = plan_program(program, ARM, AL)
         found = [*found, *problems]
     if case.strict:
         found = arranged([*found, *al.extensions(_source(case))])

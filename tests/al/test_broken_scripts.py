@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from handeye.al import compile_text
+from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import read_source
@@ -135,7 +135,7 @@ def test_the_mistake_is_told_at_its_line_and_nothing_else_is(name: str) -> None:
     source = read_source(HERE / f"{name}.al")
     program, found = compile_text(source, PUMP if name[0] in "cde" else Taught())
     if program is not None:
-        found += make_plan(program, STANFORD)[1]
+        found += plan_program(program, STANFORD, AL)[1]
     (told,) = found
     code, line, message = MISTAKES[name]
     assert (told.code, source.position(told.primary.span.start)[0]) == (code, line)

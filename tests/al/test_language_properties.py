@@ -10,12 +10,13 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from handeye import al
+from handeye.al import AL
 from handeye.al.parser import parse
 from handeye.al.scanner import scan
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import has_errors, render
 from handeye.errors import InvalidInput
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.program.taught import load_taught
 from handeye.source import Source, read_source
 
@@ -36,7 +37,7 @@ def test_no_spoiling_of_the_pump_script_makes_checker_or_planner_fail(text: str)
     source = Source(name="water_pump.al", text=text)
     program, diagnostics = al.compile_text(source, PUMP_TAUGHT)
     if program is not None:
-        plan, problems = make_plan(program, STANFORD)
+        plan, problems = plan_program(program, STANFORD, AL)
         assert (plan is None) == has_errors(problems)
         diagnostics += problems
     assert all(render(d, source) for d in [*diagnostics, *al.extensions(source)])

@@ -3,10 +3,10 @@
 import pytest
 from al_support import diagnose
 
-from handeye.al import compile_text, sewn_of
+from handeye.al import AL, compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
 from handeye.editor.explain import SAMPLE
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.source import Source
 
 
@@ -198,7 +198,7 @@ def planned(text: str) -> list[str | None]:
     """What helps against what the planner finds."""
     program, found = compile_text(Source(name="x.al", text=text), SAMPLE)
     assert program is not None, found
-    return [d.help for d in make_plan(program, STANFORD)[1]]
+    return [d.help for d in plan_program(program, STANFORD, AL)[1]]
 
 
 def test_angles_in_radians_are_known_where_they_lead_nowhere() -> None:

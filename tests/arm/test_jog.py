@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.ik.reasons import BelowTable, OutOfReach
 from handeye.arm.jog import jog
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
 from handeye.pose import hand
+from handeye.program.reasons import BelowTable, OutOfReach
 from handeye.tasks.water_pump.park import PARK
 from handeye.units import INCH
 

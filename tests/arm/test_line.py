@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.ik.reasons import InLine, JointLimit, OutOfReach
 from handeye.arm.kinematics import forward
 from handeye.arm.line import pivot
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.trajectory import arc, straight
 from handeye.pose import hand, rotation, rotation_z
+from handeye.program.reasons import InLine, JointLimit, OutOfReach
 from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])

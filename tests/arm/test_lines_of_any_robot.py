@@ -5,13 +5,13 @@ import pytest
 from robots import CARTESIAN, GANTRY, PLANAR, ROBOTS
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.ik.reasons import FixedDirection, FixedOrientation, Held, InLine, TooFast
 from handeye.arm.jog import jog
 from handeye.arm.kinematics import forward
 from handeye.arm.line import arc, pivot, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.pose import hand, rotation, rotation_z
+from handeye.program.reasons import FixedDirection, FixedOrientation, Held, InLine, TooFast
 from handeye.units import INCH
 
 ANY = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))

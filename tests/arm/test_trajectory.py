@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 
 from handeye.arm.ik import IKResult, solve
-from handeye.arm.ik.reasons import BelowTable, InnerCylinder, OutOfReach
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.trajectory import Trajectory, check_samples, four_three_four, move
 from handeye.pose import hand
+from handeye.program.reasons import BelowTable, InnerCylinder, OutOfReach
 from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])

@@ -3,7 +3,7 @@
 import msgspec
 import pytest
 
-from handeye.al import compile_text, sewn_of
+from handeye.al import AL, compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.errors import InvalidInput
@@ -13,7 +13,7 @@ from handeye.inspection.flow import flow, flow_dot
 from handeye.inspection.inspection import inspection, inspection_text
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.program.taught import Taught
 from handeye.source import Source
 
@@ -25,7 +25,7 @@ def planned(look: str) -> tuple[Source, Plan | None, list[Diagnostic]]:
     source = sewn_of(Source(name="two.al", text=SCRIPT), {"lib/look.al": look})
     program, diagnostics = compile_text(source, Taught())
     assert program is not None, diagnostics
-    return source, *make_plan(program, STANFORD)
+    return source, *plan_program(program, STANFORD, AL)
 
 
 def plan(look: str = LOOK) -> Plan:
@@ -43,7 +43,7 @@ def test_a_plan_keeps_the_texts_of_required_files_on_disk() -> None:
 def test_a_plan_of_one_file_says_nothing_of_required_ones() -> None:
     program, _ = compile_text(Source(name="one.al", text="OPEN 1"), Taught())
     assert program is not None
-    made, _ = make_plan(program, STANFORD)
+    made, _ = plan_program(program, STANFORD, AL)
     assert made is not None
     assert '"required"' not in encode(made)
     assert '"file"' not in encode(made)

@@ -1,9 +1,9 @@
 """What the planner says about short scripts, in a cell with a stand and a stick."""
 
-from handeye.al import compile_text
+from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.program.program import Fixture, Held, Position
 from handeye.program.taught import Taught
 from handeye.source import Source
@@ -42,7 +42,7 @@ def said(text: str) -> list[Diagnostic]:
     """What the planner says."""
     program, diagnostics = compile_text(Source(name="test.al", text=text), CELL)
     assert program is not None, diagnostics
-    return make_plan(program, STANFORD)[1]
+    return plan_program(program, STANFORD, AL)[1]
 
 
 def message(text: str) -> str:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from robots import CARTESIAN, GANTRY, PLANAR, ROBOTS
 
-from handeye.al import compile_text
+from handeye.al import AL, compile_text
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.robots import register
@@ -14,7 +14,7 @@ from handeye.errors import InvalidInput
 from handeye.inspection.difference import difference
 from handeye.inspection.difference_text import difference_text
 from handeye.planfile.plan import Plan
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.tasks import task
@@ -38,7 +38,7 @@ MOVE B
 def planned(arm: ArmModel, text: str) -> tuple[Plan | None, list[Diagnostic]]:
     program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
     assert program is not None, diagnostics
-    return make_plan(program, arm)
+    return plan_program(program, arm, AL)
 
 
 @pytest.mark.parametrize("name", ROBOTS)

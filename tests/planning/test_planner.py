@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from handeye.al import compile_text
+from handeye.al import AL, compile_text
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import Diagnostic
 from handeye.planfile.plan import Plan
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.pose import hand
 from handeye.program.operations import Change
 from handeye.program.taught import Taught
@@ -22,7 +22,7 @@ MIDDLE = (STANFORD.lower + STANFORD.upper) / 2
 def plan_of(text: str) -> tuple[Plan | None, list[Diagnostic]]:
     program, diagnostics = compile_text(Source(name="test.al", text=text), Taught())
     assert program is not None, diagnostics
-    return make_plan(program, STANFORD)
+    return plan_program(program, STANFORD, AL)
 
 
 def only(text: str) -> Diagnostic:
@@ -145,6 +145,6 @@ def test_a_program_planned_from_where_the_arm_stands_is_checked_from_there() -> 
     program, _ = compile_text(Source(name="test.al", text="CHANGE Z -2"), Taught())
     assert program is not None
     high, low = (solve(STANFORD, hand(0.6, 0.9, z * INCH, 1.57, 1.57, 0), MIDDLE).q for z in (4, 1))
-    assert make_plan(program, STANFORD, start=high)[1] == []
-    (problem,) = make_plan(program, STANFORD, start=low)[1]
+    assert plan_program(program, STANFORD, AL, start=high)[1] == []
+    (problem,) = plan_program(program, STANFORD, AL, start=low)[1]
     assert problem.message == "the hand would be 1.00 in below the table at the end of this `CHANGE`"

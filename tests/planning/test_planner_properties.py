@@ -4,10 +4,10 @@ from checking import CELL, said
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from handeye.al import compile_text
+from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import has_errors
-from handeye.planning.planner import make_plan
+from handeye.planning.scripts import plan_program
 from handeye.source import Source
 
 inches = st.floats(-60, 60).map(lambda x: f"{x:.3f}")
@@ -39,7 +39,7 @@ lines = st.one_of(
 def test_any_motions_have_a_plan_or_errors(script: list[str]) -> None:
     program, _ = compile_text(Source(name="any.al", text="\n".join(script)), CELL)
     if program is not None:
-        plan, problems = make_plan(program, STANFORD)
+        plan, problems = plan_program(program, STANFORD, AL)
         assert (plan is None) == has_errors(problems)
         assert not any("nan" in p.message or "inf " in p.message for p in problems)
 
@@ -47,7 +47,7 @@ def test_any_motions_have_a_plan_or_errors(script: list[str]) -> None:
 def test_a_warning_leaves_the_plan() -> None:
     program, _ = compile_text(Source(name="any.al", text="OPEN 1\nMOVE PEG\nCLOSE\nMOVE OVER"), CELL)
     assert program is not None
-    plan, problems = make_plan(program, STANFORD)
+    plan, problems = plan_program(program, STANFORD, AL)
     assert plan is not None
     assert [p.severity for p in problems] == ["warning"]
 

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from handeye.arm.chain import chain
 from handeye.arm.ik.choice import choose
-from handeye.arm.ik.reasons import FixedDirection, FixedOrientation, InLine
 from handeye.arm.ik.result import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.pose import Array, Pose
+from handeye.program.reasons import FixedDirection, FixedOrientation, InLine
 
 _WRITTEN: Final = 1e-5
 """m, and rad: what the rounding of a written position may leave."""

@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.ik.reasons import JointLimit, OutOfReach
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Joint
+from handeye.program.reasons import JointLimit, OutOfReach
 
 SLACK: Final = 1e-9
 """Round-off allowed beyond a joint limit, rad or m."""

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from handeye.arm.chain import chain, link_rotations
 from handeye.arm.ik.choice import choose, nearest_turn
-from handeye.arm.ik.reasons import InLine
 from handeye.arm.ik.result import IKResult
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.pose import Array, Pose, rotation_x
+from handeye.program.reasons import InLine
 
 _COLLINEAR: Final = 1e-9
 """Sine of the middle wrist joint below which the other two count as one axis."""

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from handeye.arm.ik.reasons import Reason
-from handeye.arm.ik.wording import sentence
 from handeye.arm.model import ArmModel
 from handeye.pose import Array
+from handeye.program.reason_text import sentence
+from handeye.program.reasons import Reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.ik import cartesian, gantry, spherical_wrist
-from handeye.arm.ik.reasons import InLine
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Structure
 from handeye.pose import Array, Pose
+from handeye.program.reasons import InLine
 
 
 class Solver(Protocol):

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.ik.choice import choose, nearest_turn
-from handeye.arm.ik.reasons import InLine, InnerCylinder, OutOfReach, TooNear
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, constants
 from handeye.pose import Array, Pose, inverse
+from handeye.program.reasons import InLine, InnerCylinder, OutOfReach, TooNear
 
 _KINDS: Final = ("revolute", "revolute", "prismatic", "revolute", "revolute", "revolute")
 _TWISTS: Final = (-math.pi / 2, math.pi / 2, 0.0, -math.pi / 2, math.pi / 2, 0.0)

@@ -6,9 +6,9 @@ from arm_in_mujoco import postures
 from robots import ROBOTS
 
 from handeye.arm.ik import branches, solve
-from handeye.arm.ik.reasons import OutOfReach
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
+from handeye.program.reasons import OutOfReach
 
 pytestmark = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
 

@@ -3,10 +3,10 @@ import pytest
 from arm_in_mujoco import postures
 
 from handeye.arm.ik import IKResult, branches, solve
-from handeye.arm.ik.reasons import InnerCylinder, JointLimit, OutOfReach, TooNear
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import hand, pose, rotation_z
+from handeye.program.reasons import InnerCylinder, JointLimit, OutOfReach, TooNear
 from handeye.units import DEGREE, INCH
 
 

@@ -1,4 +1,4 @@
-"""Why an arm cannot be, or go, where it is wanted: facts, which `handeye.arm.ik.wording` puts into words.
+"""Why an arm cannot be, or go, where it is wanted: facts, which `handeye.program.reason_text` puts into words.
 
 Joints are counted from 0; SI units.
 """

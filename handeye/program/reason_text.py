@@ -1,8 +1,9 @@
 """Why an arm cannot, in words: the one place that makes a sentence of a reason."""
 
-from typing import assert_never
+from collections.abc import Sequence
+from typing import Protocol, assert_never
 
-from handeye.arm.ik.reasons import (
+from handeye.program.reasons import (
     BelowTable,
     FixedDirection,
     FixedOrientation,
@@ -15,11 +16,38 @@ from handeye.arm.ik.reasons import (
     TooFast,
     TooNear,
 )
-from handeye.arm.model import ArmModel
 from handeye.units import DEGREE, INCH
 
 
-def sentence(arm: ArmModel, reason: Reason) -> str:
+class Joint(Protocol):
+    """A joint, as people are told of it."""
+
+    @property
+    def name(self) -> str:
+        """The part of the arm that it moves, as people call it."""
+        ...
+
+    @property
+    def kind(self) -> str:
+        """`prismatic` if it slides."""
+        ...
+
+
+class Arm(Protocol):
+    """An arm, as people are told of it."""
+
+    @property
+    def name(self) -> str:
+        """The name people know it by."""
+        ...
+
+    @property
+    def joints(self) -> Sequence[Joint]:
+        """From the base to the hand."""
+        ...
+
+
+def sentence(arm: Arm, reason: Reason) -> str:
     """A reason for people: inches and degrees, joints by number and name."""
     match reason:
         case OutOfReach() | TooNear() | JointLimit():
@@ -53,21 +81,21 @@ def sentence(arm: ArmModel, reason: Reason) -> str:
     assert_never(reason)
 
 
-def named(arm: ArmModel, joint: int) -> str:
+def named(arm: Arm, joint: int) -> str:
     """A joint by number and name."""
     return f"joint {joint + 1} ({arm.joints[joint].name})"
 
 
-def _shown(arm: ArmModel, joint: int, value: float, digits: int) -> str:
+def _shown(arm: Arm, joint: int, value: float, digits: int) -> str:
     scale, unit = _unit(arm, joint)
     return f"{value / scale:.{digits}f} {unit}"
 
 
-def _unit(arm: ArmModel, joint: int) -> tuple[float, str]:
+def _unit(arm: Arm, joint: int) -> tuple[float, str]:
     return (INCH, "in") if arm.joints[joint].kind == "prismatic" else (DEGREE, "degrees")
 
 
-def _beyond(arm: ArmModel, reason: OutOfReach | TooNear | JointLimit) -> str:
+def _beyond(arm: Arm, reason: OutOfReach | TooNear | JointLimit) -> str:
     begins = "ends" if reason.amount > reason.limit else "begins"
     digits = 1 if reason.excess > 0.05 * _unit(arm, reason.joint)[0] else 3
     amount, limit = (
@@ -77,7 +105,7 @@ def _beyond(arm: ArmModel, reason: OutOfReach | TooNear | JointLimit) -> str:
     return f"{named(arm, reason.joint)} would have to be {amount}; it {begins} at {limit}"
 
 
-def _off_its_way(arm: ArmModel, reason: FixedDirection) -> str:
+def _off_its_way(arm: Arm, reason: FixedDirection) -> str:
     off, movers = f"{reason.off / INCH:.2f} in", [named(arm, joint) for joint in reason.joints]
     if len(movers) == 1:
         return f"the hand would have to be {off} off the line on which {movers[0]} moves it"

@@ -1,0 +1,227 @@
+"""What the planner found, in the words of the language: inches, degrees, ounces, joints by name, at the place in the
+script that it is about.
+"""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from handeye.al.scanner import scan
+from handeye.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.program.findings import (
+    GoalBelowTable,
+    NoConfiguration,
+    PlanningFinding,
+    RunsInto,
+    TooHeavy,
+    TooWeak,
+)
+from handeye.program.program import Program, Step, Words
+from handeye.program.reason_text import Arm, named, sentence
+from handeye.program.reasons import (
+    BelowTable,
+    InLine,
+    InnerCylinder,
+    JointLimit,
+    OutOfReach,
+    TooFast,
+    TooNear,
+)
+from handeye.source import Source, Span
+from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
+
+RIDDLE: Final = (
+    "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
+    "60 it must have been, for at 600 the search would never end"
+)
+"""Reference D1."""
+_ROUNDED: Final = 0.004
+"""Of 45 degrees: how far from a multiple of them an angle is that people write in radians, as 3.14."""
+_CIRCLE: Final = 8
+"""Times 45 degrees."""
+_FORCE_WORDS: Final = ("STOP", "FORCE")
+"""Modifiers that a force or moment of the hand stands in."""
+
+
+def planning_diagnostics(program: Program, arm: Arm, findings: Iterable[PlanningFinding]) -> list[Diagnostic]:
+    """What was found against a program on an arm, by position; spans are of the whole."""
+    phrases = _Phrases(program, arm)
+    return arranged(_PHRASES[type(finding)](phrases, finding) for finding in findings)
+
+
+@dataclass(slots=True)
+class _Phrases:
+    program: Program
+    arm: Arm
+    whole: Source = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.whole = self.program.whole
+
+    def no_configuration(self, found: NoConfiguration) -> Diagnostic:
+        if found.along is not None:
+            return self.off_the_way(found, self.along(found.step, found.along))
+        name, arm = found.position or self.word(found.step), self.arm.name
+        note, help = sentence(self.arm, found.reason), f"put it elsewhere, or turn it{self.counted(name)}"
+        match found.reason:
+            case JointLimit() as reason:
+                word = self.word(found.step)
+                return self.joint_limit(found, reason, word if name == word else f"{word} {name}")
+            case OutOfReach() | TooNear() | InnerCylinder() as reason:
+                inches = f"{reason.excess / INCH:.2f} in"
+                away, nearer = f"too near to the column of the {arm} arm", "farther from"
+                if isinstance(reason, OutOfReach):
+                    away, nearer = f"beyond the reach of the {arm} arm", "nearer to"
+                message = f"{name} is {inches} {away}"
+                help = f"bring it at least {inches} {nearer} the arm{self.counted(name)}"
+                return self.at_position(found, message, help=help, notes=(note,))
+            case BelowTable():
+                return self.at_position(
+                    found, f"{note} on its way to {name}", help="go by a position between"
+                )
+        return self.at_position(
+            found, f"the {arm} arm cannot put the hand at {name}", help=help, notes=(note,)
+        )
+
+    def off_the_way(self, found: NoConfiguration, place: str) -> Diagnostic:
+        message = f"the hand would leave the arm's reach {place}"
+        help = "shorten the motion, or begin elsewhere"
+        match found.reason:
+            case JointLimit() as reason:
+                return self.joint_limit(found, reason, self.word(found.step), place)
+            case InLine():
+                message = f"the hand could not keep its angles {place}"
+                help = "tilt the hand a little, or go there with a `MOVE`"
+            case TooFast(joint=joint):
+                message = f"{named(self.arm, joint)} would have to move too fast {place}"
+                help = "move more slowly, or begin elsewhere"
+        return self.at_position(found, message, help=help, notes=(sentence(self.arm, found.reason),))
+
+    def joint_limit(
+        self, found: NoConfiguration, reason: JointLimit, motion: str, place: str | None = None
+    ) -> Diagnostic:
+        beyond, limit = f"{reason.excess / DEGREE:.1f} degrees", f"{reason.limit / DEGREE:.0f} degrees"
+        message = (
+            f"`{motion}` would take {named(self.arm, reason.joint)} {beyond} beyond its limit of {limit}"
+        )
+        if place is None:
+            help = self.radians(found.position)
+            help = help or "turn the hand otherwise: other angles O, A, T can be within the limits"
+            return self.at_position(found, message, help=help)
+        help = "shorten the motion" if self.goal(found.step) is None else "go by a position between"
+        return self.at_position(found, message, help=help, notes=(f"it comes to its limit {place}",))
+
+    def radians(self, name: str | None) -> str | None:
+        """What was mistaken in the angles of a position, if they are written in radians."""
+        position = None if name is None else self.program.positions.get(name)
+        for angle in () if position is None else position.at[3:]:
+            parts = angle / DEGREE / (math.pi / 4)
+            if 1 <= abs(round(parts)) <= _CIRCLE and abs(parts - round(parts)) < _ROUNDED:
+                return (
+                    f"O, A and T are in degrees; {angle / DEGREE:g} is {round(parts) * 45} degrees in radians"
+                )
+        return None
+
+    def counted(self, name: str) -> str:
+        """What a position is counted from, if not from the table."""
+        position = self.program.positions.get(name)
+        of = None if position is None else position.of
+        return "" if of is None else f"; it is counted from {quoted(of)}"
+
+    def below_table(self, found: GoalBelowTable) -> Diagnostic:
+        message = f"the hand would be {found.depth / INCH:.2f} in below the table at {found.position}"
+        return self.at_position(found, message, help="the table top is z = 0; raise the position")
+
+    def runs_into(self, found: RunsInto) -> Diagnostic:
+        what = "the hand" if found.held is None else f"{quoted(found.held)} in the hand"
+        depth = f"{found.depth / INCH:.2f} in"
+        into = f"would be {depth} below the table"
+        if found.fixture is not None:
+            into = f"would go {depth} into {quoted(found.fixture)}"
+        place, help = self.along(found.step, found.along), "go round by a position between, or higher"
+        if self.goal(found.step) is None:
+            place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
+            help = "shorten the motion, or give it a `STOP` if it is to meet something"
+        elif found.position is not None:
+            place, help = f"at {found.position}", "raise the position, or put it elsewhere"
+        taken = None if found.held is None else found.grasp
+        labels = () if taken is None else (Label(span=self.word_span(taken), text="taken here"),)
+        return self.at_position(found, f"{what} {into} {place}", help=help, secondary=labels)
+
+    def too_heavy(self, found: TooHeavy) -> Diagnostic:
+        message = f"the arm cannot hold {found.weight / OUNCE_FORCE:.0f} oz up on this motion"
+        said = Label(span=self.word_span(found.declared), text="said here")
+        help = f"{named(self.arm, found.joint)} gives out at {found.most / OUNCE_FORCE:.0f} oz"
+        return self.at_position(found, message, help=help, secondary=(said,))
+
+    def too_weak(self, found: TooWeak) -> Diagnostic:
+        vector, turning = found.exerted
+        verb, si, unit = ("turn", OUNCE_INCH, "oz-in") if turning else ("press", OUNCE_FORCE, "oz")
+        wanted = math.hypot(*vector) / si
+        message = f"the arm cannot {verb} with {wanted:.0f} {unit} here"
+        message += ", so the stop would never fire" if found.guard else ""
+        is_riddle = found.guard and not turning and round(wanted) == 600
+        return Diagnostic(
+            code=found.code, message=message, notes=(RIDDLE,) if is_riddle else (),
+            primary=Label(span=self.modifier_span(found.step, _FORCE_WORDS[not found.guard])),
+            help=f"{named(self.arm, found.joint)} gives out at {found.most / si:.0f} {unit}",
+        )  # fmt: skip
+
+    def at_position(
+        self, found: PlanningFinding, message: str, *,
+        help: str, notes: tuple[str, ...] = (), secondary: tuple[Label, ...] = (),
+    ) -> Diagnostic:  # fmt: skip
+        """A diagnostic at the position it is about, or at the word of its motion."""
+        name = found.position
+        span = self.word_span(found.step) if name is None else self.name_span(found.step, name)
+        primary = Label(span=span)
+        return Diagnostic(
+            code=found.code, message=message, primary=primary, secondary=secondary, notes=notes, help=help
+        )
+
+    def along(self, number: int, along: float) -> str:
+        inches, goal = f"{along / INCH:.1f} in along", self.goal(number)
+        return f"{inches} this `{self.word(number)}`" if goal is None else f"{inches} its way to {goal}"
+
+    def goal(self, number: int) -> str | None:
+        return self.program.steps[number].operation.goal_position
+
+    def word(self, number: int) -> str:
+        return self.program.steps[number].word
+
+    def word_span(self, number: int) -> Span:
+        step = self.program.steps[number]
+        return self.find(step, step.word) or self.span(step)
+
+    def name_span(self, number: int, name: str) -> Span:
+        """The name of a position in a statement or in one of its modifiers; else the word of the statement."""
+        step = self.program.steps[number]
+        places: tuple[Step | Words, ...] = (*step.modifiers, step)
+        found = (self.find(words, name, behind=1) for words in places)
+        return next((span for span in found if span is not None), self.word_span(number))
+
+    def modifier_span(self, number: int, word: str) -> Span:
+        """A modifier of a statement; else, as `PLACE` has none, the word of the statement."""
+        found = (self.find(words, word) for words in self.program.steps[number].modifiers)
+        return next((span for span in found if span is not None), self.word_span(number))
+
+    def find(self, words: Step | Words, word: str, *, behind: int = 0) -> Span | None:
+        """Where a word stands among some words, the first `behind` left out."""
+        span = self.span(words)
+        text, start = self.whole.find(span.start)
+        lines = scan(text.text[start : start + span.end - span.start], span.start)
+        tokens = [token for line in lines for token in line.tokens][behind:]
+        return next((token.span for token in tokens if token.text.upper() == word.upper()), None)
+
+    def span(self, words: Step | Words) -> Span:
+        return self.whole.span(words.file, words.line, words.span)
+
+
+_PHRASES: Final[dict[type[PlanningFinding], Callable[[_Phrases, Any], Diagnostic]]] = {
+    NoConfiguration: _Phrases.no_configuration,
+    GoalBelowTable: _Phrases.below_table,
+    RunsInto: _Phrases.runs_into,
+    TooHeavy: _Phrases.too_heavy,
+    TooWeak: _Phrases.too_weak,
+}

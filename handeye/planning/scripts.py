@@ -1,0 +1,41 @@
+"""From text to plan: a script compiled by its language, planned for an arm, and all there is to say about it."""
+
+from dataclasses import dataclass
+
+from handeye.arm.model import ArmModel
+from handeye.diagnostics import Diagnostic
+from handeye.planfile.plan import Plan
+from handeye.planning.planner import make_plan
+from handeye.pose import Array
+from handeye.program.language import Language
+from handeye.program.program import Program
+from handeye.program.taught import Taught
+from handeye.source import Source
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedScript:
+    """What the planning phase has made of a text."""
+
+    source: Source
+    plan: Plan | None
+    diagnostics: list[Diagnostic]
+
+
+def plan_source(
+    source: Source, taught: Taught, arm: ArmModel, language: Language, *, start: Array | None = None
+) -> PlannedScript:
+    """Compile and plan a text; `start` is where the arm stands, as for `make_plan`."""
+    program, diagnostics = language.compile(source, taught)
+    if program is None:
+        return PlannedScript(source=source, plan=None, diagnostics=diagnostics)
+    plan, problems = plan_program(program, arm, language, start=start)
+    return PlannedScript(source=source, plan=plan, diagnostics=[*diagnostics, *problems])
+
+
+def plan_program(
+    program: Program, arm: ArmModel, language: Language, *, start: Array | None = None
+) -> tuple[Plan | None, list[Diagnostic]]:
+    """The plan of a program, and what the planner says in the words of its language."""
+    plan, findings = make_plan(program, arm, start=start)
+    return plan, language.phrase(program, arm, findings)

@@ -1,0 +1,37 @@
+"""Languages as values: what reads a script, makes a program of it, and puts into its words what a planner finds.
+
+Whoever loads scripts is given languages by the endings of their files, so that no skill knows a
+language, and no language another.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+
+from handeye.diagnostics import Diagnostic
+from handeye.program.findings import PlanningFinding
+from handeye.program.program import Program
+from handeye.program.reason_text import Arm
+from handeye.program.taught import Taught
+from handeye.source import Source
+
+Compiled = tuple[Program | None, list[Diagnostic]]
+"""A program, and what there is to say about its text; there is none if any of that is an error."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Language:
+    """A language that scripts are written in."""
+
+    name: str
+    read: Callable[[Path], Source]
+    """The script in a file with all that belongs to it; raises InvalidInput if it cannot be read."""
+    compile: Callable[[Source, Taught], Compiled]
+    phrase: Callable[[Program, Arm, Iterable[PlanningFinding]], list[Diagnostic]]
+    """What a planner found against a program for an arm, at its places in the text."""
+
+
+def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:
+    """The language of a script by the ending of its file; the first there is, if no language has that ending."""
+    found = languages.get(file.suffix.lower())
+    return next(iter(languages.values())) if found is None else found
