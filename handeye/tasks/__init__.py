@@ -3,6 +3,7 @@
 from importlib import import_module
 from typing import Final
 
+from handeye.arm import robots
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.tasks.task import Task
@@ -15,13 +16,14 @@ _REGISTERED: Final[dict[str, Task]] = {}
 
 
 def register(task: Task) -> None:
-    """Make a task known by its name.
+    """Make a task known by its name, and its arm by its own.
 
     Raises:
-        InvalidInput: another task has that name.
+        InvalidInput: another task, or another arm, has that name.
     """
     if task.name in _BUILT_IN or _REGISTERED.get(task.name, task) is not task:
         raise InvalidInput(f"there is a task called {quoted(task.name)} already")
+    robots.register(task.arm)
     _REGISTERED[task.name] = task
 
 

@@ -4,6 +4,8 @@ from typing import Final
 
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
 
 _ROBOTS: Final = {STANFORD.name: STANFORD}
 
@@ -17,7 +19,7 @@ def register(arm: ArmModel) -> None:
     """Make an arm known by its name.
 
     Raises:
-        ValueError: another arm has that name.
+        InvalidInput: another arm has that name.
     """
     if _ROBOTS.setdefault(arm.name, arm) is not arm:
-        raise ValueError(f"there is an arm {arm.name!r} already")
+        raise InvalidInput(f"there is an arm called {quoted(arm.name)} already")
