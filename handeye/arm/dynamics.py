@@ -37,6 +37,13 @@ def mass_matrix(arm: ArmModel, q: Array) -> Array:
     return _mass_matrix(arm, _links(arm, q))
 
 
+def inverse_dynamics(arm: ArmModel, q: Array, qd: Array, qdd: Array) -> Array:
+    """Torques M qdd + h(q, qd) that give these accelerations, friction apart; each of shape (..., n)."""
+    links = _links(arm, q)
+    inertial = (_mass_matrix(arm, links) @ np.asarray(qdd, dtype=np.float64)[..., None])[..., 0]
+    return np.asarray(inertial + _bias(arm, links, np.asarray(qd, dtype=np.float64)))
+
+
 def gravity(arm: ArmModel, q: Array) -> Array:
     """Torques that hold the arm up at rest, shape (..., n); gravity itself pulls with the opposite ones."""
     return _bias(arm, _links(arm, q), None)

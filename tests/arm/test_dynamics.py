@@ -6,7 +6,7 @@ import pytest
 from arm_in_mujoco import build, postures
 from robots import ROBOTS
 
-from handeye.arm.dynamics import bias, gravity, mass_matrix
+from handeye.arm.dynamics import bias, gravity, inverse_dynamics, mass_matrix
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.robots.stanford import STANFORD
 from handeye.units import INCH
@@ -15,34 +15,40 @@ ARMS = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], 
 
 
 @ARMS
-def test_inertia_and_bias_with_friction_agree_with_mujoco(arm: ArmModel) -> None:
+def test_inertia_and_bias_agree_with_mujoco(arm: ArmModel) -> None:
     model = build(arm)
     data = mujoco.MjData(model)
     q = postures(arm, 100)
     qd = np.random.default_rng(2).normal(size=q.shape)
-    M, h = mass_matrix(arm, q), bias(arm, q, qd)
+    M, h = mass_matrix(arm, q), inverse_dynamics(arm, q, qd, np.zeros_like(q))
     theirs = np.zeros(M[0].shape)
     for i in range(100):
         data.qpos[:], data.qvel[:] = q[i], qd[i]
         mujoco.mj_forward(model, data)
         mujoco.mj_fullM(model, data, theirs)
         np.testing.assert_allclose(M[i], theirs, atol=1e-9)
-        np.testing.assert_allclose(h[i], data.qfrc_bias - data.qfrc_passive, atol=1e-9)
+        np.testing.assert_allclose(h[i], data.qfrc_bias, atol=1e-9)
 
 
 @ARMS
 def test_a_motion_at_once_equals_its_ticks_one_by_one(arm: ArmModel) -> None:
     rng, q = np.random.default_rng(3), postures(arm, 5)
-    qd = rng.normal(size=q.shape)
-    singly = [bias(arm, *args) for args in zip(q, qd, strict=True)]
-    np.testing.assert_allclose(bias(arm, q, qd), singly, atol=1e-12)
-    np.testing.assert_allclose(mass_matrix(arm, q), [mass_matrix(arm, x) for x in q], atol=1e-12)
+    qd, qdd = rng.normal(size=q.shape), rng.normal(size=q.shape)
+    singly = [inverse_dynamics(arm, *args) for args in zip(q, qd, qdd, strict=True)]
+    np.testing.assert_allclose(inverse_dynamics(arm, q, qd, qdd), singly, atol=1e-12)
 
 
 @ARMS
 def test_gravity_is_the_bias_at_rest(arm: ArmModel) -> None:
     q = postures(arm, 20)
     np.testing.assert_allclose(gravity(arm, q), bias(arm, q, np.zeros_like(q)), atol=1e-12)
+
+
+@ARMS
+def test_bias_counts_friction(arm: ArmModel) -> None:
+    q, qd = postures(arm, 1)[0], np.eye(len(arm.joints))[-1]
+    friction = bias(arm, q, qd) - inverse_dynamics(arm, q, qd, np.zeros_like(q))
+    np.testing.assert_allclose(friction, arm.joints[-1].damping * qd, atol=1e-12)
 
 
 @pytest.mark.parametrize(("boom", "torque"), [(12, -7.5), (16.67, 0.0), (20, 5.4), (30, 21.5), (40, 37.6)])

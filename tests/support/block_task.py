@@ -1,0 +1,130 @@
+"""The second task: one block is picked up and put down on a table by a small Cartesian arm that knows nothing else."""
+
+from functools import cache
+from math import acos, degrees
+from pathlib import Path
+from typing import Final
+
+import mujoco
+import numpy as np
+from robots import CARTESIAN, CARTESIAN_MJCF
+
+from handeye import tasks
+from handeye.al import compile_text
+from handeye.cell.arm import SimulatedArm
+from handeye.cell.device_errors import ArmErrors, HandErrors
+from handeye.cell.hand import SimulatedHand
+from handeye.cell.simulated import SimulatedCell
+from handeye.cell.truth import Truth
+from handeye.distributions import Normal, Uniform
+from handeye.judge.finding import Findings, at_most
+from handeye.planfile.plan import Plan
+from handeye.planning.planner import make_plan
+from handeye.program.taught import load_taught
+from handeye.source import read_source
+from handeye.tasks.task import Task, Words
+from handeye.units import INCH, OUNCE_FORCE
+from handeye.variation import Quantity, Variation, World, WorldSpec
+
+SCRIPT: Final = Path(__file__).with_name("block.al")
+HALF: Final = 0.6 * INCH
+"""Of the block's edge, m."""
+GOAL: Final = np.array([30.0, 30.0]) * INCH
+"""Where the block is to stand, x and y, m."""
+PLACE: Final = 0.3  # in: .2 across the finger line, where the hand feels nothing, and what is off with the arm
+LEAN: Final = 1.0  # deg
+HEIGHT: Final = 0.5  # mm, of its middle off half an edge
+
+VARIATION: Final = Variation(
+    *(
+        Quantity(name=f"block.{axis}", unit="in", distribution=Uniform(0.2), source="Where the block stands.")
+        for axis in "xy"
+    ),
+    *(
+        Quantity(
+            name=f"arm.offset.{joint}", unit="in", distribution=Normal(0.03), source="Potentiometers against joints."
+        )
+        for joint in (1, 2, 3)
+    ),
+)  # fmt: skip
+
+
+class Block(Task):
+    """Pick a block up and put it down elsewhere."""
+
+    name = "block"
+    arm = CARTESIAN
+    park = np.array([24.0, 18.0, 0.0]) * INCH + np.array([0.0, 0.0, 0.8 - 12 * INCH])
+    words = Words(product="the block", done="The block stands where it should.")
+
+    def variation(self, seed: int) -> Variation:
+        return VARIATION
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        world = VARIATION.draw(spec)
+        scene = mujoco.MjSpec.from_string(CARTESIAN_MJCF)
+        scene.option.timestep = 1 / 960
+        scene.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC  # else what is held creeps out of the fingers
+        scene.option.impratio = 10
+        scene.worldbody.add_geom(
+            name="table", type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.7, 0.7, 0.02], pos=[0.6, 0.7, -0.02],
+            contype=1, conaffinity=3,
+        )  # fmt: skip
+        block = scene.worldbody.add_body(
+            name="block", pos=[20 * INCH + world["block.x"], 24 * INCH + world["block.y"], HALF]
+        )
+        block.add_freejoint(name="block")
+        block.add_geom(
+            name="block", type=mujoco.mjtGeom.mjGEOM_BOX, size=[HALF] * 3, mass=0.2, contype=1, conaffinity=3
+        )
+        return scene.compile()
+
+    def cell(self, spec: WorldSpec, camera: str) -> SimulatedCell:
+        world = VARIATION.draw(spec)
+        model = self.scene(spec)
+        data = mujoco.MjData(model)
+        noise = world.generator("sensors")
+        return SimulatedCell(
+            model, data, noise=noise,
+            arm=SimulatedArm(model, data, "", arm=CARTESIAN, posture=self.park, errors=_errors(world), noise=noise),
+            hand=SimulatedHand(model, data, "", hand=CARTESIAN.hand, errors=_switches(), noise=noise),
+        )  # fmt: skip
+
+    def judge(self, truth: Truth) -> Findings:
+        model, data = truth.copy()
+        mujoco.mj_step(model, data, 200)
+        place, up = data.body("block").xpos, data.body("block").xmat[8]
+        away = float(np.hypot(*(place[:2] - GOAL))) / INCH
+        return {
+            "place": at_most(away, PLACE, "in", "block from its place"),
+            "height": at_most(abs(place[2] - HALF) * 1e3, HEIGHT, "mm", "middle of the block off its height"),
+            "lean": at_most(degrees(acos(min(1.0, up))), LEAN, "deg", "lean of the block"),
+        }
+
+
+def _errors(world: World) -> ArmErrors:
+    none, ones = np.zeros(3), np.ones(3)
+    return ArmErrors(
+        offset=np.array(world.numbered("arm.offset")), scale=none, wave=none, period=ones, phase=none, centre=none,
+        pot_noise=none, tachometer_noise=none, link_mass=ones, friction=none,
+    )  # fmt: skip
+
+
+def _switches() -> HandErrors:
+    return HandErrors(
+        gap_offset=0.0, gap_scale=0.0, gap_noise=0.0, switch_force=(2 * OUNCE_FORCE, 2 * OUNCE_FORCE), torque_noise=0.0
+    )  # fmt: skip
+
+
+BLOCK: Final = Block()
+tasks.register(BLOCK)
+
+
+@cache
+def block_plan() -> Plan:
+    """The plan of the script beside this file, for the small arm."""
+    program, _ = compile_text(read_source(SCRIPT), load_taught(SCRIPT.with_suffix(".toml")))
+    assert program is not None
+    plan, _ = make_plan(program, CARTESIAN)
+    assert plan is not None
+    return plan
