@@ -31,7 +31,9 @@ HALF: Final = 0.6 * INCH
 """Of the block's edge, m."""
 GOAL: Final = np.array([30.0, 30.0]) * INCH
 """Where the block is to stand, x and y, m."""
-PLACE: Final = 0.3  # in: .2 across the finger line, where the hand feels nothing, and what is off with the arm
+PLACE: Final = (
+    0.3  # in: .2 across the finger line, where the hand feels nothing, and what is off with the arm
+)
 LEAN: Final = 1.0  # deg
 HEIGHT: Final = 0.5  # mm, of its middle off half an edge
 
