@@ -1,6 +1,7 @@
 """What the commands share: consoles, options, scripts and their diagnostics."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Final, Literal
 
@@ -104,7 +105,8 @@ def default_script() -> Path:
 def taught(file: Path) -> Taught:
     """Positions and parts taught for a script, from the file beside it; a script may do without."""
     path = beside(file, ".toml")
-    return load_taught(path) if path.exists() else Taught()
+    known = load_taught(path) if path.exists() else Taught()
+    return replace(known, fixtures={**task().fixtures(), **known.fixtures})
 
 
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, note, notes, screen
+from handeye.cli.common import Camera, Json, default_script, note, notes, screen
+from handeye.cli.common import taught as taught_for
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import beside, check_place
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
 from handeye.source import read_source
 
 if TYPE_CHECKING:
@@ -176,7 +176,7 @@ def _workplace(
         )
     if first is not None:
         return Workplace.at(read_checkpoint(first), taught, panic)
-    known = load_taught(plans() / "water_pump.toml") if taught is None else taught
+    known = taught_for(default_script()) if taught is None else taught
     try:
         return Workplace(world=world.spec, camera=camera, taught=known, look=look, halt=panic)
     except Halted:

@@ -14,6 +14,7 @@ from handeye.execution.calibration_look import CalibrationLook
 from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
 from handeye.pose import Array
+from handeye.program.program import Fixture
 from handeye.variation import Variation, WorldSpec
 from handeye.vision.camera import CameraModel
 
@@ -85,6 +86,10 @@ class Task(ABC):
     period: Period | None = None
     trials: Mapping[str, Trial] = MappingProxyType({})
     """What can be tried in many worlds without carrying out a program."""
+
+    def fixtures(self) -> Mapping[str, Fixture]:
+        """What the planner keeps motions clear of where the program has not been taught otherwise."""
+        return {}
 
     @abstractmethod
     def variation(self, seed: int) -> Variation:

@@ -7,8 +7,8 @@ from handeye.pose import planar
 from handeye.program.program import Part
 from handeye.program.taught import load_taught
 from handeye.resources import plans
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, dispenser_places, screw_holes, standard
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, dispenser_places, screw_holes, standard
 
 TAUGHT = load_taught(plans() / "water_pump.toml")
 

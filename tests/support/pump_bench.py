@@ -27,10 +27,10 @@ from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source
 from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard
 from handeye.units import DEGREE, INCH
 
 Kind = TypeVar("Kind", bound=Event)

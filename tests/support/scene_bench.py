@@ -4,10 +4,10 @@ import mujoco
 import numpy as np
 
 from handeye.pose import Pose, planar
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard
 from handeye.units import DEGREE, INCH
 
 PARKED = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [1, 1, INCH / DEGREE, 1, 1, 1] * DEGREE

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 
 from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
-from handeye.tasks.water_pump.stations import Station
+from handeye.tasks.water_pump.stations import stations
 from handeye.tasks.water_pump.variation import (
     ARM_CENTRE,
     ARM_PERIOD,
@@ -52,7 +52,7 @@ class PumpWorld:
     hand: HandErrors
     camera: CameraErrors
     light: Light
-    fixtures: dict[Station, Placing]
+    fixtures: dict[str, Placing]
     """Error of each fixture."""
     holes: tuple[tuple[float, float], ...]
     """Error of each tapped hole in the base, m; as many as there are holes."""
@@ -79,7 +79,7 @@ class PumpWorld:
                 strength=world["light.strength"],
                 ambient=world["light.ambient"],
             ),
-            fixtures={station: _placing(world, f"fixtures.{station}") for station in Station},
+            fixtures={station: _placing(world, f"fixtures.{station}") for station in stations()},
             holes=tuple((world[f"holes.{hole}.x"], world[f"holes.{hole}.y"]) for hole in holes),
             part_mass=1 + world["part_mass"],
             friction={name: 1 + world[f"friction.{name}"] for name in RUBBING},

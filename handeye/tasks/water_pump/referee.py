@@ -10,9 +10,9 @@ from handeye.judge.finding import Finding, Findings, at_least, at_most
 from handeye.judge.measured import Measured, displacement, tilt
 from handeye.pose import Pose, translated, yaw
 from handeye.tasks.water_pump import limits
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, screw_holes
 from handeye.tasks.water_pump.measure import head_force, rotor_torque
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes
 from handeye.tasks.water_pump.threads import holes_of
 from handeye.units import INCH
 

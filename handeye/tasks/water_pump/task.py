@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.judge.finding import Findings
+from handeye.program.program import Fixture
 from handeye.tasks.task import Count, Eye, Period, Task, Words
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.stations import planned_fixtures
 from handeye.tasks.water_pump.variation import variation
 from handeye.variation import Variation, WorldSpec
 
@@ -41,6 +44,9 @@ class WaterPump(Task):
 
     def __init__(self) -> None:
         self.trials = {"base": _base_trial, "gasket": _gasket_trial}
+
+    def fixtures(self) -> Mapping[str, Fixture]:
+        return planned_fixtures()
 
     def variation(self, seed: int) -> Variation:
         return variation(seed)

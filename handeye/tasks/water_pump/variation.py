@@ -11,7 +11,7 @@ import numpy as np
 
 from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
 from handeye.tasks.water_pump.old_draws import OldVariation
-from handeye.tasks.water_pump.stations import Station
+from handeye.tasks.water_pump.stations import stations
 from handeye.variation import Quantity, Variation
 
 JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
@@ -195,7 +195,7 @@ def _light() -> Iterator[Quantity]:
 
 
 def _fixtures() -> Iterator[Quantity]:
-    for station in Station:
+    for station in stations():
         yield from _group(
             f"fixtures.{station}", {"x": Normal(0.02), "y": Normal(0.02), "yaw": Normal(0.2)},
             ("in", "in", "deg"), "Where the fixture stands against its drawing. Placeholder.",

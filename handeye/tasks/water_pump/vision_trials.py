@@ -13,12 +13,12 @@ from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
 from handeye.program.program import Hole, Part
 from handeye.tasks.task import Count
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import ARM, build
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.units import DEGREE, INCH
 from handeye.variation import WorldSpec

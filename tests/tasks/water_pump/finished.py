@@ -10,9 +10,9 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
 from handeye.pose import Pose, planar, translated
 from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, standard
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, standard
 from handeye.tasks.water_pump.threads import Threads
 from handeye.units import JIFFY
 

@@ -11,8 +11,8 @@ from finished import finished, put
 from handeye.cell.truth import Truth
 from handeye.judge.finding import all_right
 from handeye.pose import planar, pose, rotation_x, translated
+from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.referee import judge
-from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.threads import ThreadsState, holes_of
 
 

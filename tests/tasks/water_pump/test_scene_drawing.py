@@ -8,10 +8,10 @@ from scene_bench import Bench
 from handeye.errors import InvalidInput
 from handeye.pose import planar
 from handeye.tasks.water_pump import scene
+from handeye.tasks.water_pump.dimensions import dimensions, parse
+from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.scene.dimensions import dimensions, parse
-from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.scene.shapes import Bore
 from handeye.tasks.water_pump.stations import Station
 from handeye.units import INCH

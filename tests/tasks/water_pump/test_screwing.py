@@ -10,7 +10,7 @@ from finished import stacked
 
 from handeye.cell.truth import Truth
 from handeye.pose import Array
-from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.threads import holes_of
 from handeye.units import INCH
 

@@ -11,7 +11,7 @@ from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.base import add_base
 from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
 from handeye.tasks.water_pump.scene.fasteners import add_pins, add_screws
-from handeye.tasks.water_pump.scene.fixtures import add_blocks
+from handeye.tasks.water_pump.scene.fixtures import add_blocks, add_plain_stations
 from handeye.tasks.water_pump.scene.room import add_room
 from handeye.tasks.water_pump.scene.shapes import Shaper
 from handeye.tasks.water_pump.scene.textures import add_textures
@@ -41,6 +41,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     add_pins(shaper, world)
     add_screws(shaper, world)
     add_driver(shaper, world)
+    add_plain_stations(shaper, world)
     add_merging(spec)
     add_textures(spec)
     return spec

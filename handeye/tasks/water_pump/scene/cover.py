@@ -4,10 +4,10 @@ import math
 
 import mujoco
 
+from handeye.tasks.water_pump.dimensions import Dimensions, dimensions
+from handeye.tasks.water_pump.drawing import screw_holes, web_centre
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.scene.dimensions import Dimensions, dimensions
-from handeye.tasks.water_pump.scene.drawing import screw_holes, web_centre
 from handeye.tasks.water_pump.scene.fixtures import add_gasket_stand, add_top_stand
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
 

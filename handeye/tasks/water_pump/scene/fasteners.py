@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from handeye.cell.looks import MESH
 from handeye.pose import Array
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import dispenser_places, pin_seat
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import dispenser_places, pin_seat
 from handeye.tasks.water_pump.scene.fixtures import add_fixture
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper
 from handeye.tasks.water_pump.stations import Station

@@ -4,13 +4,15 @@ import math
 from dataclasses import dataclass
 
 import mujoco
+import numpy as np
 
+from handeye.cell.looks import SEEN
 from handeye.pose import Pose, inverse, planar, yaw
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import Point
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import Point
 from handeye.tasks.water_pump.scene.shapes import Shaper
-from handeye.tasks.water_pump.stations import Station
+from handeye.tasks.water_pump.stations import Station, plain_stations
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,7 +42,7 @@ def upright(angle: float) -> list[float]:
     return [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
 
 
-def add_fixture(shaper: Shaper, world: PumpWorld, station: Station, middle: Point) -> Fixture:
+def add_fixture(shaper: Shaper, world: PumpWorld, station: str, middle: Point) -> Fixture:
     """An empty fixture; `middle` (m) is what its error turns about."""
     error = world.fixtures[station]
     X = planar(middle[0] + error.x, middle[1] + error.y, 0.0, error.yaw) @ inverse(planar(*middle, 0.0, 0.0))
@@ -101,3 +103,13 @@ def add_top_stand(shaper: Shaper, world: PumpWorld) -> Fixture:
         for py in (y - 0.035, y + 0.035):
             shaper.cylinder(fixture.body, "look", 0.006, (px, py, 0), (px, py, height - 0.008), "steel")
     return fixture
+
+
+def add_plain_stations(shaper: Shaper, world: PumpWorld) -> None:
+    """The stations that are no more than boxes."""
+    for name, boxes in plain_stations().items():
+        corners = np.array(boxes)
+        x, y = (corners[:, :2].min(axis=0) + corners[:, 3:5].max(axis=0)) / 2
+        fixture = add_fixture(shaper, world, name, (float(x), float(y)))
+        for box in boxes:
+            shaper.box(fixture.body, "solid", box[:3], box[3:], "enamel").group = SEEN

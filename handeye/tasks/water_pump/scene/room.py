@@ -7,8 +7,8 @@ import numpy as np
 
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.pose import Array
+from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.shapes import Shaper
 
 TRAY = -2.0

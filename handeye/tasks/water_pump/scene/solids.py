@@ -8,8 +8,8 @@ from manifold3d import CrossSection, Manifold  # type: ignore[import-not-found] 
 from numpy.typing import NDArray
 
 from handeye.pose import Array
-from handeye.tasks.water_pump.scene.dimensions import dimensions
-from handeye.tasks.water_pump.scene.drawing import base_top, screw_holes, web_centre
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, screw_holes, web_centre
 
 Surface = tuple[Array, NDArray[np.int32]]
 """Vertices, shape (n, 3), m, and triangles, shape (m, 3)."""

@@ -2,8 +2,8 @@
 
 import mujoco
 
+from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene.dimensions import dimensions
 from handeye.tasks.water_pump.scene.fixtures import Fixture, add_fixture
 from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
 from handeye.tasks.water_pump.stations import Station

@@ -4,7 +4,7 @@ import math
 from functools import cache
 
 from handeye.pose import Pose, planar
-from handeye.tasks.water_pump.scene.dimensions import dimensions
+from handeye.tasks.water_pump.dimensions import dimensions
 
 Point = tuple[float, float]
 
