@@ -23,6 +23,8 @@ class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
 class RunStarted(Event, frozen=True, kw_only=True):
     """The working phase begins; all that the events after it depend on, but for what the operator does."""
 
+    system: str = "program"
+    """The kind of system that carries it out."""
     program: str
     steps: int
     plan: str
@@ -68,10 +70,11 @@ class StepFinished(Event, frozen=True, kw_only=True):
     """A step ended; where the hand is by the arm's own sensors (m), and the finger gap (m)."""
 
     step: int
-    hand: tuple[float, float, float]
+    hand: tuple[float, float, float] | None
+    """None: the system has no hand."""
     planned: tuple[float, float, float] | None
     """Where a motion was planned to end (m); a guard or a measured world ends it elsewhere."""
-    gap: float
+    gap: float | None
 
 
 class Adjusted(Event, frozen=True, kw_only=True):
@@ -187,7 +190,8 @@ class OperatorAnswered(Event, frozen=True, kw_only=True):
 class ExperimentMade(Event, frozen=True, kw_only=True):
     """Somebody at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
 
-    what: Literal["saved", "position"]
+    what: str
+    """What kind of thing: `saved`, `position`, or what else a system lets people set."""
     name: str
     value: tuple[float, ...]
 

@@ -15,7 +15,8 @@ from handeye.planfile.store import read_plan
 from handeye.resources import plans
 from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
 from handeye.trace.account import account
 from handeye.variation import WorldSpec
@@ -54,7 +55,7 @@ def stepper(plan: Plan) -> Stepper:
     runner = Runner(Checkpoint(setup=Setup(plan=plan, world=WorldSpec(seed=SEED), camera="auto")))
     if runner.cell.renderer.method != "opengl":
         pytest.skip("the walk was made with pictures by OpenGL")
-    before = stage_number("insert", plan) - 1
+    before = stage_number("insert", plan.program) - 1
     advance(runner, [AfterStage(stage=before, name=runner.stages[before])])
     return Stepper(runner)
 
@@ -68,7 +69,7 @@ def transcript(stepper: Stepper, commands: list[str]) -> Iterator[str]:
 
 
 def test_the_stages_of_the_walk_are_those_of_the_plan(plan: Plan) -> None:
-    listed = "\n".join(listing_text(plan))
+    listed = "\n".join(listing_text(plan.program))
     shown = pieces(of_command("stages plans/water_pump.plan.json"))
     assert shown
     assert all("\n".join(piece) in listed for piece in shown)

@@ -22,11 +22,11 @@ FOUNDATIONS = {
     "distributions",
     "world_options",
     "versions",
-    "records",
+    "mutable_records",
 }
 LAYERS = [
     {"__init__", *FOUNDATIONS},
-    {"program", "planfile", "events", "ports"},
+    {"program", "planfile", "events", "system_state", "ports"},
     {"arm", "vision", "touch", "al"},
     {"planning", "inspection", "execution"},
     {"cell", "tasks", "judge"},

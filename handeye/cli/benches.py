@@ -29,7 +29,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     started = time.process_time()
     plan = compiled(default_script())
     planning = time.process_time() - started
-    with Progress(plan, notes) as progress:
+    with Progress(plan.program.stages, notes) as progress:
         finished = run_plan(
             plan,
             world=world.spec,
@@ -48,12 +48,12 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
     Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
     """
     from handeye.report.progress import Progress
-    from handeye.runs.snapshot import Setup
+    from handeye.runs.setup import Setup
     from handeye.trials.overhead import measure
 
     plan = compiled(default_script())
     setup = Setup(plan=plan, world=world.spec, camera=camera)
-    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan, notes):
+    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan.program.stages, notes):
         cost = measure(setup, Path(folder) / "run")
     screen.print(f"working phase without them   {cost.run:6.2f} s of this computer's clock")
     rows = (

@@ -33,8 +33,10 @@ from handeye.runs.folder import PICTURES, RESULT, RunFolder, open_new
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Operator, attend, parse_policy
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
+from handeye.runs.systems import listing_of
 from handeye.trace.sentences import renderer_name
 from handeye.versions import versions
 
@@ -96,7 +98,7 @@ class _Work:
         self.folder = job.folder
         if self.folder is None and job.out is not None:
             self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
-        self.progress = Progress(job.start.setup.plan, notes)
+        self.progress = Progress(listing_of(job.start.setup).stages, notes)
         self.refused = False
         self.left: Path | None = None
         """The file that a state was last kept in, outside the folder of the run."""
@@ -146,7 +148,7 @@ class _Work:
 
     def _attended(self, runner: Runner) -> Pause:
         with self.progress:
-            breaks = [breakpoint(text, runner.setup.plan) for text in self.job.breaks]
+            breaks = [breakpoint(text, runner.listing) for text in self.job.breaks]
             lines = typed_lines("> ", self._waiting, lambda: (), droppable=False)
             return attend(runner, self.policy or Ask(lines, note), [*breaks, *self.job.stops], self._kept)
 
@@ -166,8 +168,8 @@ class _Work:
             keep=self._keep,
             pictures=None if self.folder is None else self.folder.path / PICTURES,
         )
-        program = runner.setup.plan.program
-        words = [*(command.name for command in COMMANDS), *TOPICS, *program.labels, *program.positions]
+        names = [name for settable in runner.system.settables().values() for name in settable.names]
+        words = [*(command.name for command in COMMANDS), *TOPICS, *runner.listing.labels, *names]
         lines = typed_lines("handeye> ", self._waiting, lambda: words)
         most = MOST if screen.is_terminal else None
         try:
@@ -202,7 +204,7 @@ class _Work:
     # -- ending ---------------------------------------------------------------------------------------
 
     def _interrupted(self, runner: Runner | None) -> int:
-        where = "while the cell was set up" if runner is None else f"at {runner.run.time:.1f} s"
+        where = "while the cell was set up" if runner is None else f"at {runner.time:.1f} s"
         note(f"interrupted {where}; the brakes are set")
         if self.folder is None and runner is not None:
             try:

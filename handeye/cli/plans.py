@@ -43,7 +43,7 @@ def inspect(
     if graph is not None and json:
         raise InvalidInput("--graph and --json do not go together")
     plan = read_plan(file)
-    number = None if stage is None else stage_number(stage, plan) + 1
+    number = None if stage is None else stage_number(stage, plan.program) + 1
     if graph is not None:
         shown = flow(plan, number)
         _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output, DRAWINGS[graph])

@@ -9,12 +9,12 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, default_script, note
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
-from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 
 if TYPE_CHECKING:
     from handeye.runs.snapshot import Checkpoint
     from handeye.runs.stops import AnyStop
+    from handeye.runs.system import Listing
 
 To = Annotated[str | None, Parameter(help="Stop when this stage has ended.")]
 Until = Annotated[
@@ -62,7 +62,8 @@ def assemble(
     referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
-    from handeye.runs.snapshot import Checkpoint, Setup
+    from handeye.runs.setup import Setup
+    from handeye.runs.snapshot import Checkpoint
 
     spec = world.spec
     started = time.process_time()
@@ -114,14 +115,15 @@ def run(
     no terminal; 130: interrupted.
     """
     from handeye.cli.job import Job, work
-    from handeye.runs.snapshot import Checkpoint, Setup
+    from handeye.runs.setup import Setup
+    from handeye.runs.snapshot import Checkpoint
 
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage says it all; --from and --to do not go with it")
     start = Checkpoint(setup=Setup(plan=plan, world=world.spec, camera=camera, judged=judge))
-    stops = _stops(plan, to=to if stage is None else stage, until=until, breaks=breaks or [])
-    _check_order(plan, first, to)
+    stops = _stops(plan.program, to=to if stage is None else stage, until=until, breaks=breaks or [])
+    _check_order(plan.program, first, to)
     kept = _checkpoint_folder(checkpoints, out)
     if stage is not None or first is not None:
         start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
@@ -177,6 +179,7 @@ def resume(
     from handeye.cli.job import Job, work
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import CHECKPOINTS, PLAN, open_again
+    from handeye.runs.systems import listing_of
 
     folder = None
     if path.name == CHECKPOINTS and (path.parent / PLAN).is_file():
@@ -189,8 +192,8 @@ def resume(
             note(f"left out: {fault}")
     else:
         start = read_checkpoint(path)
-    stops = _stops(start.setup.plan, to=to, until=until, breaks=breaks or [])
-    _check_order(start.setup.plan, start.stage, to)
+    stops = _stops(listing_of(start.setup), to=to, until=until, breaks=breaks or [])
+    _check_order(listing_of(start.setup), start.stage, to)
     _check_ahead(start, stops, breaks or [])
     done = "no steps" if start.position < 1 else f"{start.position} step{'' if start.position == 1 else 's'}"
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
@@ -212,30 +215,30 @@ def resume(
     )
 
 
-def _stops(plan: Plan, *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
+def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
     """Where a run ends; breaks are only looked at, so that a wrong one is told before anything moves."""
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.stops import AfterStage, BeforeStep
 
     for text in breaks:
-        breakpoint(text, plan)
+        breakpoint(text, listing)
     stops: list[AnyStop] = []
     if to is not None:
-        number = stage_number(to, plan)
-        stops.append(AfterStage(stage=number, name=plan.program.stages[number]))
+        number = stage_number(to, listing)
+        stops.append(AfterStage(stage=number, name=listing.stages[number]))
     if until is not None:
-        stops.append(BeforeStep(steps=(step_number(until, plan),)))
+        stops.append(BeforeStep(steps=(step_number(until, listing),)))
     return stops
 
 
-def _check_order(plan: Plan, first: str | None, last: str | None) -> None:
+def _check_order(listing: "Listing", first: str | None, last: str | None) -> None:
     """Raises InvalidInput if a run that begins with one stage cannot end with another."""
     from handeye.debugger.breakpoints import stage_number
 
     if first is None or last is None:
         return
-    stages = plan.program.stages
-    begin, end = stages[stage_number(first, plan)], stages[stage_number(last, plan)]
+    stages = listing.stages
+    begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
         raise InvalidInput(f"the run begins with “{begin}”, and “{end}” comes before that")
 
@@ -249,12 +252,13 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
     from handeye.debugger.ahead import is_ahead
     from handeye.debugger.breakpoints import breakpoint
     from handeye.runs.stops import BeforeStep
+    from handeye.runs.systems import listing_of
 
     for stop in stops:
         if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
             raise InvalidInput(f"from where the run begins it never comes to step {stop.step}")
     for text in breaks:
-        if not is_ahead(breakpoint(text, start.setup.plan), start):
+        if not is_ahead(breakpoint(text, listing_of(start.setup)), start):
             note(f"from where the run begins it never comes to {text}")
 
 
@@ -273,12 +277,13 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     from handeye.debugger.breakpoints import stage_number
     from handeye.runs.checkpoint_store import CheckpointStore
     from handeye.runs.folder import EVENTS
+    from handeye.runs.systems import listing_of
 
     if out is not None and (out / EVENTS).exists():
         raise InvalidInput(f"{out} holds a run; name it by --checkpoints, and another folder by --out")
-    plan = start.setup.plan
-    number = stage_number(name, plan)
-    wanted = plan.program.stages[number]
+    listing = listing_of(start.setup)
+    number = stage_number(name, listing)
+    wanted = listing.stages[number]
     found = None if kept is None else CheckpointStore(kept).for_stage(start.setup, number)
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"

@@ -159,9 +159,11 @@ def stages(
 
     made = read_plan(file)
     if json:
-        sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(listing(made)), indent=1) + b"\n")
+        sys.stdout.buffer.write(
+            msgspec.json.format(msgspec.json.encode(listing(made.program)), indent=1) + b"\n"
+        )
         sys.stdout.flush()
     else:
-        for line in listing_text(made):
+        for line in listing_text(made.program):
             say(line)
     return 0

@@ -69,15 +69,15 @@ class Ask:
 def _begun(runner: Runner, text: str) -> int:
     """The stage a user names, the present one if none, that has begun."""
     present = runner.stage
-    stage = present if not text and present is not None else stage_number(text, runner.setup.plan)
+    stage = present if not text and present is not None else stage_number(text, runner.listing)
     if stage not in beginnings(runner):
-        raise InvalidInput(f"{numbered_stage(runner.setup.plan.program, stage)}, has not begun yet")
+        raise InvalidInput(f"{numbered_stage(runner.listing, stage)}, has not begun yet")
     return stage
 
 
 def _question(runner: Runner, sentence: str) -> list[str]:
     """What happened, where, and what can be said to it."""
-    program, stage = runner.setup.plan.program, runner.stage
+    program, stage = runner.listing, runner.stage
     assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
     return [
@@ -90,7 +90,7 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 
 def _choices(runner: Runner) -> list[str]:
     """What can be said, and what it does here."""
-    program, onward = runner.setup.plan.program, runner.onward
+    program, onward = runner.listing, runner.onward
     first = next(step.place for step in program.steps if step.stage == runner.stage)
     where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"
     return [

@@ -8,15 +8,15 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.debugger.source_places import Place, named_place
 from handeye.diagnostics import nearest, quoted
 from handeye.errors import ERRORS, InvalidInput
-from handeye.planfile.plan import Plan
 from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
+from handeye.runs.system import Listing
 from handeye.source import line_name
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)
 
 
-def breakpoint(text: str, plan: Plan) -> AnyStop:
+def breakpoint(text: str, listing: Listing) -> AnyStop:
     """Read a breakpoint.
 
     Args:
@@ -33,51 +33,51 @@ def breakpoint(text: str, plan: Plan) -> AnyStop:
         )
     if error := _ERROR.fullmatch(text):
         return _on_error(error["number"] or error["any"])
-    place = named_place(text, plan.program)
+    place = named_place(text, listing)
     if place is not None:
-        return _at_line(place, plan)
-    stop = _at_label(text, plan) or _at_word(text, plan) or _at_stage(text, plan)
+        return _at_line(place, listing)
+    stop = _at_label(text, listing) or _at_word(text, listing) or _at_stage(text, listing)
     if stop is None and text.upper() in INSTRUCTIONS:
         raise InvalidInput(f"no step of the program begins with {text.upper()}")
     if stop is None:
-        known = [*plan.program.labels, *_words(plan), *plan.program.stages]
+        known = [*listing.labels, *_words(listing), *listing.stages]
         raise InvalidInput(
             f"the program has no label, instruction or stage {quoted(text)}{meant(text, known)}"
         )
     return stop
 
 
-def stage_number(text: str, plan: Plan) -> int:
+def stage_number(text: str, listing: Listing) -> int:
     """The index of a stage given by its number from 1, its name, or a beginning that no other name has.
 
     Raises:
         InvalidInput: there is no such stage, or more than one.
     """
-    stages = plan.program.stages
+    stages = listing.stages
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):
             raise InvalidInput(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
         return int(text) - 1
-    found = _stage(text, plan)
+    found = _stage(text, listing)
     if found is None:
         raise InvalidInput(f"there is no stage {quoted(text)}{meant(text, stages)}")
     return found
 
 
-def step_number(text: str, plan: Plan) -> int:
+def step_number(text: str, listing: Listing) -> int:
     """The index of a step given by its number in the plan, or by a label that stands for one step.
 
     Raises:
         InvalidInput: there is no such step.
     """
-    text, steps = text.strip(), plan.program.steps
+    text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
         if int(text) >= len(steps):
             raise InvalidInput(f"there is no step {int(text)}; the program has steps 0 to {len(steps) - 1}")
         return int(text)
-    found = plan.program.labels.get(text)
+    found = listing.labels.get(text)
     if found is None:
-        known = plan.program.labels
+        known = listing.labels
         raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
@@ -103,11 +103,11 @@ def _on_error(number: str) -> AnyStop:
     return OnError(number=int(number))
 
 
-def _at_line(place: Place, plan: Plan) -> AnyStop:
+def _at_line(place: Place, listing: Listing) -> AnyStop:
     file, line = place
-    lines = {i: step.line for i, step in enumerate(plan.program.steps) if step.file == file}
+    lines = {i: step.line for i, step in enumerate(listing.steps) if step.file == file}
     if not lines:
-        raise InvalidInput(f"no step stands in {quoted(file or plan.program.name)}")
+        raise InvalidInput(f"no step stands in {quoted(file or listing.name)}")
     last = max(lines.values())
     if line > last:
         behind, on = line_name(line, file), line_name(last, file)
@@ -117,39 +117,39 @@ def _at_line(place: Place, plan: Plan) -> AnyStop:
     return AtLine(steps=steps, file=file, line=first)
 
 
-def _at_label(text: str, plan: Plan) -> AnyStop | None:
-    known = plan.program.labels
+def _at_label(text: str, listing: Listing) -> AnyStop | None:
+    known = listing.labels
     label = text if text in known else text.upper()
     return AtLabel(steps=tuple(known[label]), label=label) if label in known else None
 
 
-def _words(plan: Plan) -> list[str]:
+def _words(listing: Listing) -> list[str]:
     """The instruction of each step."""
-    return [step.word.upper() for step in plan.program.steps]
+    return [step.word.upper() for step in listing.steps]
 
 
-def _at_word(text: str, plan: Plan) -> AnyStop | None:
-    steps = tuple(i for i, word in enumerate(_words(plan)) if word == text.upper())
+def _at_word(text: str, listing: Listing) -> AnyStop | None:
+    steps = tuple(i for i, word in enumerate(_words(listing)) if word == text.upper())
     return AtInstruction(steps=steps, word=text.upper()) if steps else None
 
 
-def _at_stage(text: str, plan: Plan) -> AnyStop | None:
-    stage = _stage(text, plan)
-    return None if stage is None else AtStage(stage=stage, name=plan.program.stages[stage])
+def _at_stage(text: str, listing: Listing) -> AnyStop | None:
+    stage = _stage(text, listing)
+    return None if stage is None else AtStage(stage=stage, name=listing.stages[stage])
 
 
-def _stage(text: str, plan: Plan) -> int | None:
+def _stage(text: str, listing: Listing) -> int | None:
     """The index of a stage by its name or the beginning of it; None if there is none.
 
     Raises:
         InvalidInput: several begin so.
     """
-    names = [name.casefold() for name in plan.program.stages]
+    names = [name.casefold() for name in listing.stages]
     wanted = text.strip().casefold()
     if wanted in names:
         return names.index(wanted)
     found = [i for i, name in enumerate(names) if wanted and name.startswith(wanted)]
     if len(found) > 1:
-        several = ", ".join(quoted(plan.program.stages[i]) for i in found)
+        several = ", ".join(quoted(listing.stages[i]) for i in found)
         raise InvalidInput(f"{len(found)} stages begin with {quoted(text.strip())}: {several}")
     return found[0] if found else None

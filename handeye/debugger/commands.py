@@ -7,8 +7,8 @@ from typing import Final
 
 from msgspec import UNSET
 
+from handeye.debugger import experiments
 from handeye.debugger.breakpoints import breakpoint
-from handeye.debugger.experiments import set_position, set_saved
 from handeye.debugger.reply import Break, CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.source_places import named_place, text_of
@@ -51,7 +51,7 @@ def go_on(hands: DebugSession, _: str) -> CommandResult:
 
 def until(hands: DebugSession, rest: str) -> CommandResult:
     """Go on to a place."""
-    return _told(hands, hands.go([breakpoint(rest, hands.runner.setup.plan)]))
+    return _told(hands, hands.go([breakpoint(rest, hands.program)]))
 
 
 def _told(hands: DebugSession, pause: Pause) -> CommandResult:
@@ -154,13 +154,7 @@ def picture(hands: DebugSession, rest: str) -> CommandResult:
 
 def experiment(hands: DebugSession, rest: str) -> CommandResult:
     """Give what the program remembers another value."""
-    kind, _, values = rest.partition(" ")
-    act = {"saved": set_saved, "position": set_position}.get(kind.casefold())
-    if act is None:
-        raise InvalidInput("an experiment is `set saved NAME x y z` or `set position NAME x y z [o a t]`")
-    if hands.runner.trouble is not None:
-        raise InvalidInput("nothing can be tried from here; go back first")
-    act(hands.runner, values)
+    experiments.experiment(hands.runner, rest)
     return CommandResult()
 
 

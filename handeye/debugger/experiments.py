@@ -1,4 +1,4 @@
-"""Experiments: giving what the program remembers another value, in the units of the language."""
+"""Experiments: giving what a system remembers another value, in the units of people."""
 
 import math
 import re
@@ -7,55 +7,39 @@ from typing import Final
 from handeye.debugger.breakpoints import meant
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.program.program import Program
 from handeye.runs.runner import Runner
-from handeye.units import DEGREE, INCH
+from handeye.runs.system import Settable
 
 FARTHEST: Final = 1000.0
-"""No inches or degrees of an experiment are more."""
+"""No number of an experiment is greater."""
 
 
-def set_saved(runner: Runner, text: str) -> None:
-    """Give a saved difference another value: `NAME x y z` (in).
-
-    Raises:
-        InvalidInput: the program has no such difference, or these are not three numbers.
-    """
-    name, values = _read(text, (3,), "set saved NAME x y z")
-    known = saved_names(runner.setup.plan.program)
-    name = _known(name, known, "saved difference")
-    x, y, z = values
-    runner.set_saved(name, (x * INCH, y * INCH, z * INCH))
-
-
-def set_position(runner: Runner, text: str) -> None:
-    """Teach a position anew: `NAME x y z` or `NAME x y z o a t` (in, deg), in the frame it was taught in.
+def experiment(runner: Runner, text: str) -> None:
+    """Set something: its kind, its name and numbers, as in `saved H 0 0 .1`.
 
     Raises:
-        InvalidInput: the program has no such position, or these are not three or six numbers.
+        InvalidInput: the system has no such thing, or these are not the numbers for it.
     """
-    name, values = _read(text, (3, 6), "set position NAME x y z [o a t]")
-    world = runner.run.world
-    name = _known(name, sorted(world.positions), "position")
-    x, y, z = values[:3]
-    o, a, t = world.state.moved.get(name, world.positions[name]).at[3:]
-    if len(values) == 6:
-        o, a, t = (angle * DEGREE for angle in values[3:])
-    runner.set_position(name, (x * INCH, y * INCH, z * INCH, o, a, t))
+    kind, _, rest = text.strip().partition(" ")
+    settables = runner.system.settables()
+    settable = settables.get(kind.casefold())
+    if settable is None:
+        known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
+        raise InvalidInput(f"an experiment is {known}" if known else "nothing can be set in this run")
+    if runner.trouble is not None:
+        raise InvalidInput("nothing can be tried from here; go back first")
+    name, numbers = _read(rest, settable, kind.casefold())
+    values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
+    runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])
 
 
-def saved_names(program: Program) -> list[str]:
-    """The differences that a program saves or restores."""
-    uses = (use for step in program.steps for use in (*step.operation.reads, *step.operation.writes))
-    return sorted({use.name for use in uses if use.kind == "difference"})
-
-
-def _read(text: str, counts: tuple[int, ...], usage: str) -> tuple[str, list[float]]:
+def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
     """The name and the numbers, brackets and commas left out."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
-    if not name or len(words) not in counts:
-        raise InvalidInput(f"an experiment is written `{usage}`")
-    return name, [_number(word) for word in words]
+    if not name or len(words) not in (settable.fewest, len(settable.units)):
+        raise InvalidInput(f"an experiment is written `set {kind} {settable.usage}`")
+    numbers = [_number(word) for word in words]
+    return _known(name, settable), numbers
 
 
 def _number(word: str) -> float:
@@ -68,9 +52,9 @@ def _number(word: str) -> float:
     return value
 
 
-def _known(name: str, known: list[str], what: str) -> str:
+def _known(name: str, settable: Settable) -> str:
     """The name as the program has it."""
     for choice in (name, name.upper()):
-        if choice in known:
+        if choice in settable.names:
             return choice
-    raise InvalidInput(f"the program has no {what} {quoted(name)}{meant(name, known)}")
+    raise InvalidInput(f"the program has no {settable.noun} {quoted(name)}{meant(name, settable.names)}")

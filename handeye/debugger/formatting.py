@@ -175,5 +175,6 @@ _TITLES: Final[dict[str, tuple[str, Callable[[Any], list[str]]]]] = {
     "parts": ("parts", _parts),
     "picture": ("picture", _picture),
     "positions": ("positions", _positions),
+    "state": ("state", lambda state: [f"{name} {value}" for name, value in state.items()]),
 }
 """Of each field: its title, and how to tell it."""

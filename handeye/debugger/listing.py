@@ -1,9 +1,8 @@
 """The program to look at: its stages and steps, its labels, and the source around a line."""
 
 from handeye.debugger.source_places import text_of
-from handeye.planfile.plan import Plan
-from handeye.program.program import Program
 from handeye.record import Record
+from handeye.runs.system import Listing
 from handeye.source import Source, line_name
 
 
@@ -39,9 +38,8 @@ class SourceLine(Record, frozen=True, kw_only=True, omit_defaults=True):
     """The run stands at it."""
 
 
-def listing(plan: Plan) -> tuple[ListedStage, ...]:
+def listing(program: Listing) -> tuple[ListedStage, ...]:
     """The stages of a plan with their steps."""
-    program = plan.program
     listed: list[list[ListedStep]] = [[] for _ in program.stages]
     for number, step in enumerate(program.steps):
         shown = ListedStep(step=number, file=step.file, line=step.line, text=one_line(step.text))
@@ -53,9 +51,9 @@ def listing(plan: Plan) -> tuple[ListedStage, ...]:
     )
 
 
-def listing_text(plan: Plan) -> list[str]:
+def listing_text(program: Listing) -> list[str]:
     """The stages of a plan and their steps as lines of text."""
-    found = listing(plan)
+    found = listing(program)
     width = max(len(stage.name) for stage in found)
     out = []
     for stage in found:
@@ -74,7 +72,7 @@ def listing_text(plan: Plan) -> list[str]:
 
 
 def excerpt(
-    program: Program, line: int, here: int | None, around: int, file: str = ""
+    program: Listing, line: int, here: int | None, around: int, file: str = ""
 ) -> tuple[SourceLine, ...]:
     """The source, or a required file, from `around` lines before `line` to as many after it; `here` is marked."""
     text = text_of(program, file).removesuffix("\n")
@@ -94,7 +92,7 @@ def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]
     ]
 
 
-def numbered_stage(program: Program, stage: int) -> str:
+def numbered_stage(program: Listing, stage: int) -> str:
     """`stage 4, insert the aligning pins`."""
     return f"stage {stage + 1}, {program.stages[stage]}"
 

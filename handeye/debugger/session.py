@@ -11,12 +11,12 @@ from handeye.debugger.source_places import Place
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.events import StepStarted
 from handeye.execution.servo_loop import Halted
-from handeye.program.program import Program
 from handeye.runs.advance import Pause, advance, ended
 from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop, ByHand
+from handeye.runs.system import Listing
 
 AROUND: Final = 2
 """Lines of the script that are told before and behind the one where the run stands."""
@@ -54,9 +54,9 @@ class DebugSession:
         self._begun = tuple(runner.events)
 
     @property
-    def program(self) -> Program:
+    def program(self) -> Listing:
         """What is carried out."""
-        return self.runner.setup.plan.program
+        return self.runner.listing
 
     @property
     def idle(self) -> bool:
@@ -71,7 +71,7 @@ class DebugSession:
         Raises:
             InvalidInput: there is no such place.
         """
-        stop = breakpoint(text, self.runner.setup.plan)
+        stop = breakpoint(text, self.program)
         number = next((number for number, there in self.breaks.items() if there == stop), None)
         if number is None:
             number = self._set = self._set + 1

@@ -6,19 +6,19 @@ from typing import Final
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.program.program import Program
+from handeye.runs.system import Listing
 
 Place = tuple[str, int]
 """A required file, or the script itself if that is empty, and a line of it."""
 _PLACE: Final = re.compile(r"(?:(?P<file>[^:]+):)?(?P<line>[0-9]{1,9})")
 
 
-def text_of(program: Program, file: str) -> str:
+def text_of(program: Listing, file: str) -> str:
     """The text of a required file, or of the script itself."""
     return program.required[file] if file else program.source
 
 
-def named_place(text: str, program: Program) -> Place | None:
+def named_place(text: str, program: Listing) -> Place | None:
     """The place a user means by `12`, `pins.al:12` or `lib/pins.al:12`; None if that is not the form of one.
 
     Raises:

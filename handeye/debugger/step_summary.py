@@ -7,8 +7,8 @@ from handeye import events as happened
 from handeye.debugger.listing import one_line
 from handeye.events import AnyEvent
 from handeye.program.operations import Center, Close, Open
-from handeye.program.program import Program
 from handeye.record import Record
+from handeye.runs.system import Listing
 from handeye.trace.sentences import inches, sentence
 from handeye.units import INCH
 
@@ -31,7 +31,7 @@ class StepSummary(Record, frozen=True, kw_only=True):
     outcome: str
 
 
-def step_summaries(events: Iterable[AnyEvent], program: Program) -> tuple[StepSummary, ...]:
+def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSummary, ...]:
     """What was done in the course of some events, whole steps."""
     groups: list[list[AnyEvent]] = [[]]
     for event in events:
@@ -42,7 +42,7 @@ def step_summaries(events: Iterable[AnyEvent], program: Program) -> tuple[StepSu
     return tuple(_deed(group, program) for group in groups[1:])
 
 
-def _deed(group: Sequence[AnyEvent], program: Program) -> StepSummary:
+def _deed(group: Sequence[AnyEvent], program: Listing) -> StepSummary:
     first = group[0]
     if isinstance(first, happened.StepStarted):
         outcome = _outcome(group, first, program)
@@ -50,7 +50,7 @@ def _deed(group: Sequence[AnyEvent], program: Program) -> StepSummary:
     return StepSummary(line=None, text=sentence(first), outcome="")
 
 
-def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Program) -> str:
+def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing) -> str:
     """What came of a step."""
     said = []
     for event in group:
@@ -66,18 +66,19 @@ def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Pro
     return "; ".join(said) or _end(group, step, program)
 
 
-def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Program) -> str:
+def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Listing) -> str:
     """Where the program goes on after a test."""
-    tested = program.steps[step.step]
-    onward = getattr(tested.operation, "raised", None) if event.occurred else tested.next
+    ways = program.steps[step.step].ways
+    onward = ways[-1] if event.occurred else ways[0]
     return "to the end" if onward is None else f"on at line {program.steps[onward].place}"
 
 
-def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Program) -> str:
+def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing) -> str:
     """Where a step ended of which there is nothing else to say; nothing for one that took no time."""
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
-    if isinstance(program.steps[step.step].operation, _HAND):
+    operation = getattr(program.steps[step.step], "operation", None)  # other systems have none
+    if isinstance(operation, _HAND) and last.gap is not None:
         return f"gap {last.gap / INCH:.2f} in"
-    return f"hand at {inches(last.hand)}"
+    return "" if last.hand is None else f"hand at {inches(last.hand)}"

@@ -90,7 +90,7 @@ class Stepper:
         return Reply(
             command=line,
             position=runner.position,
-            time=runner.run.time,
+            time=runner.time,
             stage=None if stage is None else hands.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
             step=runner.at,

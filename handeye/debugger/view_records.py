@@ -1,5 +1,7 @@
 """What can be seen of a run that stands still, as plain records in inches, degrees and ounces."""
 
+from typing import Any
+
 from msgspec import UNSET, UnsetType
 
 from handeye.record import Record, Vector3
@@ -87,3 +89,5 @@ class Shown(Record, frozen=True, kw_only=True):
     parts: dict[str, PartShown] | UnsetType = UNSET
     picture: PictureShown | UnsetType | None = UNSET
     positions: dict[str, Taught] | UnsetType = UNSET
+    state: dict[str, Any] | UnsetType = UNSET
+    """All that a system remembers of which nobody has made a view."""

@@ -1,10 +1,11 @@
 """Looking at a run that stands still: what the arm's own sensors say, and what the program remembers."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any, Final
 
+import msgspec
 import numpy as np
 
 from handeye.debugger.breakpoints import meant
@@ -27,6 +28,7 @@ from handeye.pose import Array, Pose, hand_angles, yaw
 from handeye.program.world_model import planned_pose
 from handeye.record import Vector3
 from handeye.report.pictures import annotated_png
+from handeye.runs.programs import ProgramSystem
 from handeye.runs.runner import Runner
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
@@ -41,10 +43,11 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     Raises:
         InvalidInput: no such topic, or the picture cannot be written.
     """
-    names = [_topic(word) for word in what.split()] or [name for name in TOPICS if name != "positions"]
+    topics = TOPICS if isinstance(runner.system, ProgramSystem) else PLAIN
+    names = [_topic(word, topics) for word in what.split()] or [n for n in topics if n != "positions"]
     fields: dict[str, Any] = {}
     for name in names:
-        field, look = TOPICS[name]
+        field, look = topics[name]
         fields[field] = look(runner)
     last = fields.get("picture")
     if last is not None and pictures is not None:
@@ -65,9 +68,9 @@ def write_picture(runner: Runner, file: Path) -> str:
     return last.name
 
 
-def _topic(what: str) -> str:
-    found = [name for name in TOPICS if name.startswith(what.casefold())]
-    if what.casefold() not in TOPICS and len(found) != 1:
+def _topic(what: str, topics: Collection[str]) -> str:
+    found = [name for name in topics if name.startswith(what.casefold())]
+    if what.casefold() not in topics and len(found) != 1:
         near = meant(what, TOPICS) or f"; there are {', '.join(TOPICS)}"
         raise InvalidInput(f"there is no {quoted(what)} to show{near}")
     return found[0]
@@ -80,7 +83,7 @@ def _joints(runner: Runner) -> tuple[Joint, ...]:
     unit = {"revolute": ("deg", DEGREE), "prismatic": ("in", INCH)}
     return tuple(
         Joint(name=joint.name, value=_round(q / unit[joint.kind][1]), unit=unit[joint.kind][0])
-        for joint, q in zip(runner.arm.joints, runner.run.drive.sensed.q, strict=True)
+        for joint, q in zip(runner.run.arm.joints, runner.run.drive.sensed.q, strict=True)
     )
 
 
@@ -97,7 +100,7 @@ def _force(runner: Runner) -> Vector3:
 
 
 def _error(runner: Runner) -> Error | None:
-    fault = runner.executor.state.pending
+    fault = runner.run.state.pending
     if fault is None:
         return None
     sentence = ERRORS.get(fault.number, "unknown")
@@ -182,8 +185,13 @@ def _named(table: dict[str, Array]) -> dict[str, Vector3]:
     return {name: _inches(difference) for name, difference in sorted(table.items())}
 
 
+PLAIN: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
+    "time": ("time_s", lambda runner: runner.time),
+    "state": ("state", lambda runner: msgspec.to_builtins(runner.system.state, enc_hook=np.ndarray.tolist)),
+}
+"""What can be asked for of any system."""
 TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
-    "time": ("time_s", lambda runner: runner.run.time),
+    "time": ("time_s", lambda runner: runner.time),
     "joints": ("joints", _joints),
     "hand": ("hand", _hand),
     "force": ("force_oz", _force),

@@ -9,10 +9,10 @@ from handeye.events import AnyEvent
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState, ExecutionState, Fault, check_fits
 from handeye.execution.stopwatch import Stopwatch
+from handeye.mutable_records import put_back
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.program.world_model import WorldModel
-from handeye.records import put_back
 from handeye.vision.camera import CameraModel
 
 

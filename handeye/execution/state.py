@@ -1,30 +1,28 @@
 """The state of a working phase: one record that executor, actions, servo loop and world model live in.
 
 The plan, the arm and the cell are no part of it: they are given anew when a run is taken up again. A snapshot is a
-copy of the record (`handeye.records`).
+copy of the record (`handeye.mutable_records`).
 """
 
 from dataclasses import dataclass
-from typing import Annotated
 
 import msgspec
 import numpy as np
 
 from handeye.arm.model import ArmModel
 from handeye.errors import InvalidInput
-from handeye.events import OperatorCalled
+from handeye.mutable_records import MutableRecord
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.world_model import WorldState
-from handeye.records import MutableRecord
+from handeye.system_state import SystemState
 from handeye.touch.spiral import spiral
 from handeye.vision.base import GeneralLocation, SpecificLocation
+from handeye.vision.calibration import Calibration
 from handeye.vision.camera import View
 from handeye.vision.gasket import Inspection
-
-Natural = Annotated[int, msgspec.Meta(ge=0)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,18 +86,11 @@ class DriveState(MutableRecord, kw_only=True):
         return cls(q=sensed.q.copy(), gap=sensed.gap)
 
 
-class ExecutionState(MutableRecord, kw_only=True):
+class ExecutionState(SystemState, kw_only=True):
     """All that a working phase remembers from step to step."""
 
-    at: Natural | None = 0
-    """The step to do next; None when the program has ended or the operator was called."""
     pending: Fault | None = None
     """An error raised, which the next step tests."""
-    stage: Natural | None = None
-    """The stage under way; None between two stages."""
-    stopped: OperatorCalled | None = None
-    onward: Natural | None = None
-    """After a stop: the step that would have been next."""
     idle: int = 0
     """Steps since time last passed."""
     clock: float = -1.0
@@ -115,9 +106,11 @@ class ExecutionState(MutableRecord, kw_only=True):
     """How far the last straight motion went (m)."""
     finger_line: Array | None = None
     """Unit vector of the finger line when the last action was a Center."""
+    calibration: Calibration | None = None
+    """Of the camera, if the plan takes pictures."""
+    unable: str | None = None
+    """Why the camera could not be calibrated."""
     lens: float = FIRST_LENS
-    camera_busy: float = 0.0
-    """Simulated seconds that the camera's mechanism has taken."""
     shots: dict[str, Shot] = msgspec.field(default_factory=dict)
     general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
     found: dict[str, Found] = msgspec.field(default_factory=dict)

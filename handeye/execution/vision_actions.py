@@ -79,7 +79,6 @@ def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
     if seconds <= 0:
         return
     run.drive.brake(seconds)
-    run.state.camera_busy += seconds
     run.emit(CameraBusy(time=run.time, action=action, seconds=round(seconds, 6)))
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 import msgspec
 
 from handeye.errors import InvalidInput
+from handeye.mutable_records import MutableRecord
 from handeye.pose import Pose, hand, hand_angles, inverse, planar
 from handeye.program.program import Part, Position, Program
-from handeye.records import MutableRecord
 
 
 def planned_pose(part: Part) -> Pose:

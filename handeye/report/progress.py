@@ -11,7 +11,6 @@ from rich.progress import BarColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
 
 from handeye.events import AnyEvent, ErrorRaised, RunStarted, StageStarted, StepStarted
-from handeye.planfile.plan import Plan
 from handeye.runs.observer import Observer
 
 
@@ -21,8 +20,8 @@ class Progress(Observer):
     Without a terminal it prints one line a stage.
     """
 
-    def __init__(self, plan: Plan, console: Console) -> None:
-        self._plan = plan
+    def __init__(self, stages: tuple[str, ...], console: Console) -> None:
+        self._stages = stages
         self._console = console
         self._bar = RichProgress(
             SpinnerColumn(),
@@ -35,7 +34,7 @@ class Progress(Observer):
             disable=not console.is_terminal,
         )
         self._task = self._bar.add_task(
-            "setting up the cell", total=len(plan.program.stages), text="", clock=""
+            "setting up the cell", total=len(stages), text="", clock=""
         )  # fmt: skip
 
     def __enter__(self) -> Self:
@@ -60,7 +59,7 @@ class Progress(Observer):
 
     def goes_on(self, stage: str) -> None:
         """Begin in the midst of a stage."""
-        number = self._plan.program.stages.index(stage)
+        number = self._stages.index(stage)
         self._bar.update(self._task, description=escape(stage), completed=number)
 
     def event(self, event: AnyEvent) -> None:

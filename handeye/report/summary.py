@@ -45,8 +45,8 @@ def summary(
         stages=stage_times(names, runner.events),
         timing=_timing(runner, wall, planning),
         referee=checks,
-        task=runner.task.name,
-        program=runner.setup.plan.program.name,
+        task=runner.setup.task,
+        program=runner.listing.name,
         seed=runner.setup.world.seed,
         world=runner.setup.world,
         camera=_camera(runner),
@@ -98,9 +98,9 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
 
 
 def _timing(runner: Runner, wall: float, planning: float) -> Timing:
-    run = runner.run
-    begun = next((e.time for e in runner.events if isinstance(e, RunStarted)), run.time)
-    simulated, lens, vision = run.time - begun, run.state.camera_busy, runner.vision.seconds
+    begun = next((e.time for e in runner.events if isinstance(e, RunStarted)), runner.time)
+    lens = sum(event.seconds for event in runner.events if isinstance(event, CameraBusy))
+    simulated, vision = runner.time - begun, runner.vision.seconds
     return Timing(
         planning_wall_s=planning,
         manipulation_s=round(simulated - lens, 3),
@@ -108,12 +108,14 @@ def _timing(runner: Runner, wall: float, planning: float) -> Timing:
         vision_wall_s=vision,
         total_s=round(simulated + vision, 3),
         wall_s=wall,
-        real_time_factor=(run.time - runner.started) / wall if wall > 0 else 0.0,
+        real_time_factor=(runner.time - runner.started) / wall if wall > 0 else 0.0,
     )
 
 
 def _camera(runner: Runner) -> CameraReport:
-    renderer, calibration = renderer_name(runner.cell.renderer), runner.calibration
+    if runner.system.cell is None:
+        return CameraReport(renderer="none", sightings_rms_px={}, residual_in=None)
+    renderer, calibration = renderer_name(runner.cell.renderer), runner.run.state.calibration
     if calibration is None:
         return CameraReport(renderer=renderer, sightings_rms_px={}, residual_in=None)
     residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}

@@ -7,24 +7,25 @@ wrong, is refused before anything in it is used.
 import hashlib
 import re
 import zlib
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
 
 import msgspec
 import numpy as np
 
+from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.files import Kind, read_whole, write_whole
-from handeye.planfile.store import decode as decode_plan
-from handeye.planfile.store import encode as encode_plan
-from handeye.planfile.store import plan_digest
 from handeye.record import Record
-from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
-from handeye.tasks import DEFAULT, task
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint, Snapshot
+from handeye.runs.system import SystemKind
+from handeye.runs.systems import digest_of, kind_of, listing_of, system_kind
+from handeye.tasks import DEFAULT
 from handeye.variation import WorldSpec
 from handeye.versions import versions
-from handeye.vision.calibration import Calibration
 
 MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 2
@@ -39,6 +40,8 @@ _KINDS: Final = ("<f8", "|u1")
 class Head(Record, frozen=True, kw_only=True):
     """What a checkpoint is of, for people and for finding the right one."""
 
+    system: str = "program"
+    """The kind of system that carries the run out."""
     program: str
     plan: str
     """Digest of the plan."""
@@ -61,28 +64,39 @@ class Head(Record, frozen=True, kw_only=True):
     """The referee is to look at what came out."""
 
 
+class _Snapshot(Record, frozen=True, kw_only=True):
+    """A `Snapshot` whose state is read by the type of its system."""
+
+    position: Annotated[int, msgspec.Meta(ge=0)]
+    happened: Annotated[int, msgspec.Meta(ge=0)]
+    cell: CellState | None
+    state: msgspec.Raw
+    vision_s: float
+
+
 class _Body(Record, frozen=True, kw_only=True):
     plan: str
-    calibration: Calibration | None
-    snapshot: Snapshot | None
+    snapshot: _Snapshot | None
     events: tuple[AnyEvent, ...]
 
 
 def head_of(checkpoint: Checkpoint) -> Head:
     """What there is to say about a checkpoint in a line."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
+    arm, arm_digest = kind_of(setup).machine(setup.plan)
     return Head(
-        program=setup.plan.program.name,
-        plan=plan_digest(setup.plan),
-        arm=setup.plan.arm,
-        arm_digest=setup.plan.arm_digest,
+        system=setup.system,
+        program=listing_of(setup).name,
+        plan=digest_of(setup),
+        arm=arm,
+        arm_digest=arm_digest,
         world=setup.world,
         camera=setup.camera,
         versions=versions(),
         position=checkpoint.position,
         stage=checkpoint.stage,
         between_stages=checkpoint.between_stages,
-        time=None if snapshot is None else round(snapshot.cell.time, 6),
+        time=None if snapshot is None else _time(snapshot, checkpoint.events),
         touched=checkpoint.touched,
         task=setup.task,
         judged=setup.judged,
@@ -91,10 +105,10 @@ def head_of(checkpoint: Checkpoint) -> Head:
 
 def encode(checkpoint: Checkpoint) -> bytes:
     """A checkpoint as bytes."""
+    setup, snapshot = checkpoint.setup, checkpoint.snapshot
     body = _Body(
-        plan=encode_plan(checkpoint.setup.plan),
-        calibration=checkpoint.calibration,
-        snapshot=checkpoint.snapshot,
+        plan=kind_of(setup).encode(setup.plan).decode(),
+        snapshot=None if snapshot is None else _on_disk(snapshot),
         events=checkpoint.events,
     )
     head = msgspec.json.encode(head_of(checkpoint))
@@ -114,9 +128,18 @@ def decode(data: bytes, name: str) -> Checkpoint:
         body = msgspec.msgpack.decode(_inflated(packed), type=_Body, dec_hook=_array)
     except (zlib.error, msgspec.DecodeError, ValueError, TypeError) as error:
         raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
-    plan = decode_plan(body.plan, f"the plan in {name}")
+    kind = system_kind(head.system)
+    plan = kind.decode(body.plan.encode(), f"the plan in {name}")
+    setup = Setup(
+        system=kind.name,
+        plan=plan,
+        world=head.world,
+        camera=head.camera,
+        task=head.task,
+        judged=head.judged,
+    )
     try:
-        task(head.task).check_arm(plan)
+        kind.check(setup)
     except InvalidInput as error:
         raise InvalidInput(f"{name} cannot be used: {error}") from None
     if body.snapshot is not None and (
@@ -125,18 +148,54 @@ def decode(data: bytes, name: str) -> Checkpoint:
     ):
         raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
-        setup=Setup(plan=plan, world=head.world, camera=head.camera, task=head.task, judged=head.judged),
-        calibration=body.calibration,
-        snapshot=body.snapshot,
+        setup=setup,
+        snapshot=None if body.snapshot is None else _in_memory(body.snapshot, kind, name),
         events=body.events,
     )
+    listing = kind.listing(plan)
     begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
-    if not begun <= set(plan.program.stages):
+    if not begun <= set(listing.stages):
         raise InvalidInput(f"{name} is not a sound checkpoint: it tells of stages that its plan has not")
     told = (head.program, head.plan, head.position, head.touched)
-    if told != (plan.program.name, plan_digest(plan), checkpoint.position, checkpoint.touched):
+    if told != (listing.name, digest_of(setup), checkpoint.position, checkpoint.touched):
         raise InvalidInput(f"{name} is not a sound checkpoint: its head does not tell of what is in it")
     return checkpoint
+
+
+def _on_disk(snapshot: Snapshot) -> _Snapshot:
+    state = msgspec.msgpack.encode(snapshot.state, enc_hook=_plain)
+    return _Snapshot(
+        position=snapshot.position,
+        happened=snapshot.happened,
+        cell=snapshot.cell,
+        state=msgspec.Raw(state),
+        vision_s=snapshot.vision_s,
+    )
+
+
+def _in_memory(kept: _Snapshot, kind: SystemKind, name: str) -> Snapshot:
+    """The snapshot, its state decoded by the type of its system.
+
+    Raises:
+        InvalidInput: it is no state of that system.
+    """
+    try:
+        state = msgspec.msgpack.decode(kept.state, type=kind.state, dec_hook=_array)
+    except (msgspec.DecodeError, ValueError, TypeError) as error:
+        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+    return Snapshot(
+        position=kept.position,
+        happened=kept.happened,
+        cell=kept.cell,
+        state=state,
+        vision_s=kept.vision_s,
+    )
+
+
+def _time(snapshot: Snapshot, events: Sequence[AnyEvent]) -> float:
+    """When a snapshot was taken, s: by the clock of the cell, or of the last event where there is none."""
+    time = events[-1].time if snapshot.cell is None else snapshot.cell.time
+    return round(time, 6)
 
 
 def decode_head(data: bytes, name: str) -> Head:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
-from handeye.planfile.store import plan_digest
 from handeye.runs.checkpoint_file import (
     ENDING,
     Head,
@@ -16,7 +15,9 @@ from handeye.runs.checkpoint_file import (
     read_head,
     write_checkpoint,
 )
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.systems import digest_of, listing_of
 
 
 class CheckpointStore:
@@ -67,7 +68,7 @@ class CheckpointStore:
             InvalidInput: there are those of another run.
         """
         for path, head in self.heads():
-            if head.plan != plan_digest(setup.plan):
+            if (head.system, head.plan) != (setup.system, digest_of(setup)):
                 raise InvalidInput(f"{path} is of another plan ({head.program}, {head.plan})")
             if (head.world, head.camera) != (setup.world, setup.camera):
                 raise InvalidInput(
@@ -116,7 +117,7 @@ class CheckpointStore:
             InvalidInput: the checkpoints here are of another run.
         """
         self.check(setup)
-        stages = setup.plan.program.stages
+        stages = listing_of(setup).stages
         for path, head in self.heads():
             if head.touched or head.stage is None or not head.between_stages:
                 continue
@@ -154,7 +155,7 @@ def leave(folder: Path, checkpoint: Checkpoint) -> Path:
     state, setup, name = encode(checkpoint), checkpoint.setup, file_name(checkpoint)
     if _holds(folder / name, state):
         return folder / name
-    program = re.sub(r"[^A-Za-z0-9_.-]+", "-", setup.plan.program.name).lstrip(".")
+    program = re.sub(r"[^A-Za-z0-9_.-]+", "-", listing_of(setup).name).lstrip(".")
     stem = f"{program}-{setup.world.seed}-{name.removesuffix(ENDING)}"
     names = (stem if number == 1 else f"{stem}-{number}" for number in count(1))
     path = next(path for path in (folder / f"{name}{ENDING}" for name in names) if _free(path, state))

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
+import msgspec
+
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent
-from handeye.files import write_whole
-from handeye.planfile.plan import Plan
-from handeye.planfile.store import encode, plan_digest, read_plan
+from handeye.files import read_whole, write_whole
 from handeye.ports.camera import Picture
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
@@ -21,8 +21,10 @@ from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.journal import Journal
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.trace.frames import Frames
+from handeye.runs.systems import digest_of, kind_of
+from handeye.trace.frames import Frames, NoFrames
 from handeye.trace.recorder import Recorder
 
 PLAN: Final = "plan.json"
@@ -59,7 +61,7 @@ class RunFolder(Observer):
         (self.path / RESULT).unlink(missing_ok=True)  # it is not over yet
         self._recorder = self._recording(start.events)
         if again:
-            self._journal.undone(len(start.events), runner.run.time, "resumed")
+            self._journal.undone(len(start.events), runner.time, "resumed")
         return self
 
     def begin(self, start: Checkpoint) -> None:
@@ -73,14 +75,15 @@ class RunFolder(Observer):
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
-        write_whole(self.path / PLAN, encode(start.setup.plan).encode())
+        write_whole(self.path / PLAN, kind_of(start.setup).encode(start.setup.plan))
         self.kept.save(start)
 
     def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
         """A recorder that goes on behind these events."""
         assert self._runner is not None
-        plan = encode(self._runner.setup.plan).encode()
-        frames = Frames(self._runner.cell.truth, self._runner.arm)
+        setup, cell = self._runner.setup, self._runner.system.cell
+        plan = kind_of(setup).encode(setup.plan)
+        frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.run.arm)
         return Recorder.resumed(self.path / TRACE, frames, self._picture, plan, len(events), events)
 
     def _picture(self, name: str) -> Picture:
@@ -108,7 +111,7 @@ class RunFolder(Observer):
         try:
             self._recorder.cut(events)
         finally:  # none of the three must go on as if nothing was undone
-            self._journal.undone(events, self._runner.run.time, "back")
+            self._journal.undone(events, self._runner.time, "back")
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         assert self._recorder is not None
@@ -159,7 +162,7 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
     if not overwrite:
         _refuse_run(path)
         CheckpointStore(path / CHECKPOINTS).claim(start.setup)
-        _check_plan(path, start.setup.plan)
+        _check_plan(path, start.setup)
     inner = [path / CHECKPOINTS, path / PICTURES]
     made = [place for place in (*inner, path, *path.parents) if not place.exists()]
     try:
@@ -190,14 +193,20 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
     if checkpoint is None:
         faults = folder.kept.damaged()
         raise InvalidInput(faults[-1] if faults else f"there is no checkpoint in {folder.kept.folder}")
-    _check_plan(path, checkpoint.setup.plan)
+    _check_plan(path, checkpoint.setup)
     return folder, checkpoint
 
 
-def _check_plan(path: Path, plan: Plan) -> None:
+def _check_plan(path: Path, setup: Setup) -> None:
     beside = path / PLAN
-    if beside.exists() and plan_digest(read_plan(beside)) != plan_digest(plan):
+    if beside.exists() and _digest(beside, setup) != digest_of(setup):
         raise InvalidInput(f"the runs in {path} are of another plan than this one, by {beside}")
+
+
+def _digest(beside: Path, setup: Setup) -> str:
+    """The digest of the plan in a file, brought to the present format."""
+    kind = kind_of(setup)
+    return digest_of(msgspec.structs.replace(setup, plan=kind.decode(read_whole(beside), str(beside))))
 
 
 def _holds_run(path: Path) -> bool:

@@ -6,11 +6,9 @@ Between two steps the cell is put into its own state, which changes nothing but 
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Final, Literal
+from typing import Final
 
-import numpy as np
-
-from handeye.cell.simulated import SimulationError
+from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
@@ -19,31 +17,23 @@ from handeye.events import (
     OperatorAnswered,
     OperatorCalled,
     PanicStopped,
-    RunStarted,
     StageStarted,
     StepFinished,
     StepStarted,
 )
-from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
 from handeye.execution.context import ExecutionContext
-from handeye.execution.devices import check_devices
-from handeye.execution.executor import Executor
 from handeye.execution.servo_loop import Halted
 from handeye.execution.stopwatch import Stopwatch
-from handeye.planfile.store import plan_digest
+from handeye.mutable_records import copied
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
-from handeye.program.program import Position, Step
-from handeye.record import Vector3
-from handeye.records import copied
 from handeye.runs.observer import Observer
+from handeye.runs.programs import ProgramSystem
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
+from handeye.runs.system import StepFacts, Surroundings, System
+from handeye.runs.systems import kind_of, listing_of
 from handeye.tasks import task
-from handeye.versions import versions
-from handeye.vision.calibration import Calibration
-from handeye.vision.camera import CameraModel
-
-Taught = tuple[float, float, float, float, float, float]
+from handeye.tasks.task import Task
 
 RECENT: Final = 400
 """Steps whose states are kept in memory; of older ones those at the beginning of stages."""
@@ -76,34 +66,13 @@ class Runner:
             Halted: the panic button was hit during calibration.
         """
         self.setup = start.setup
-        plan = start.setup.plan
-        self.task = task(start.setup.task)
-        self.task.check_arm(plan)
-        self.arm = self.task.arm
-        self.cell = self.task.cell(start.setup.world, start.setup.camera)
-        check_devices(plan.program, self.cell.devices)
-        self._unable: str | None = None
-        self.calibration = start.calibration
-        if start.snapshot is None:
-            self.calibration = self._calibrated(halt)
-        elif self.calibration is None and self._looks:
-            self._unable = "the camera could not be calibrated when the run was begun"
-        self.trouble: str | None = self._unable
-        """Why the run cannot go on, if it is not a matter for the operator."""
+        self.listing = listing_of(start.setup)
+        """Stages and steps of what is carried out."""
         self.vision = Stopwatch(time.process_time)
         """Processor time that vision has taken in all."""
-        self.run = ExecutionContext(
-            plan=plan,
-            arm=self.arm,
-            cell=self.cell.devices,
-            camera=self._camera_model(),
-            emit=self._emit,
-            vision=self.vision,
+        self.system: System = kind_of(start.setup).build(
+            start.setup, Surroundings(emit=self._emit, watch=self._watch, halt=halt, vision=self.vision)
         )
-        if self.calibration is not None and self.task.eye is not None:
-            self.run.state.lens = self.task.eye.looks[-1].lens
-        self.run.drive.halt, self.run.drive.watch = halt, self._watch
-        self.executor = Executor(run=self.run)
         self.events: list[AnyEvent] = []
         """Everything that has happened and was not undone."""
         self.position = 0
@@ -111,18 +80,58 @@ class Runner:
         self.history: list[Snapshot] = []
         """States to go back to, the present one last."""
         self.started = 0.0
-        """The cell's clock when this object took the run up, or the camera's calibration began."""
+        """The clock when this object took the run up, or the system began to prepare it."""
         self.observers: list[Observer] = []
+        self._broken: str | None = None
+        begun = None if start.snapshot is not None else self.system.begin()
         if start.snapshot is not None:
             self.events += start.events
             self._put(start.snapshot)
             self.history.append(start.snapshot)
-            self.started = self.run.time
+            self.started = self.time
         self.observers += observers(self)
-        if start.snapshot is None:
-            self._begin()
+        if begun is not None:
+            self._emit(begun)
+            self._settle()
 
     # -- knowing --------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """The clock of the system, s."""
+        return self.system.time
+
+    @property
+    def trouble(self) -> str | None:
+        """Why the run cannot go on, if it is not a matter for the operator."""
+        return self._broken or self.system.trouble
+
+    @property
+    def task(self) -> Task:
+        """What is done in its cell, and by what it is judged."""
+        return task(self.setup.task)
+
+    @property
+    def cell(self) -> SimulatedCell:
+        """The simulated cell.
+
+        Raises:
+            InvalidInput: the system acts on none.
+        """
+        if self.system.cell is None:
+            raise InvalidInput(f"the system {self.setup.system} acts on no cell")
+        return self.system.cell
+
+    @property
+    def run(self) -> ExecutionContext:
+        """The surroundings of the executor of programs.
+
+        Raises:
+            InvalidInput: another system carries the run out.
+        """
+        if not isinstance(self.system, ProgramSystem):
+            raise InvalidInput(f"this is a run of the system {self.setup.system}, which moves no arm")
+        return self.system.run
 
     @property
     def ended(self) -> bool:
@@ -132,32 +141,32 @@ class Runner:
     @property
     def call(self) -> OperatorCalled | None:
         """The call of the operator that has not been answered."""
-        return self.executor.state.stopped
+        return self.system.state.stopped
 
     @property
     def at(self) -> int | None:
         """The number of the step to be done next; None if the run cannot go on by itself."""
-        return self.executor.state.at
+        return self.system.state.at
 
     @property
-    def next(self) -> Step | None:
+    def next(self) -> StepFacts | None:
         """The step to be done next."""
-        return None if self.at is None else self.setup.plan.program.steps[self.at]
+        return None if self.at is None else self.listing.steps[self.at]
 
     @property
     def onward(self) -> int | None:
         """After a call of the operator: the number of the step that would have been next."""
-        return self.executor.state.onward
+        return self.system.state.onward
 
     @property
     def stages(self) -> tuple[str, ...]:
         """The names of the stages."""
-        return self.setup.plan.program.stages
+        return self.listing.stages
 
     @property
     def stage(self) -> int | None:
         """The index of the stage under way; None between two stages."""
-        return self.executor.state.stage
+        return self.system.state.stage
 
     @property
     def between_stages(self) -> bool:
@@ -174,7 +183,6 @@ class Runner:
         kept = snapshot or self.history[-1]
         return Checkpoint(
             setup=self.setup,
-            calibration=self.calibration,
             snapshot=kept,
             events=tuple(self.events[: kept.happened]),
         )
@@ -189,24 +197,24 @@ class Runner:
         """
         assert not self.ended
         try:
-            self.executor.step()
+            self.system.step()
         except Halted:
-            self._emit(PanicStopped(time=self.run.time))
+            self._emit(PanicStopped(time=self.time))
             raise
         except SimulationError as error:
-            self.trouble = str(error)
+            self._broken = str(error)
             return
         self.position += 1
         self._settle()
 
     def answer(self, choice: Choice) -> None:
         """Go on after the operator was called."""
-        self.executor.answer(choice)
+        self.system.answer(choice)
         self._settle()
 
     def finish(self) -> bool:
         """Close the account of the run; True when the program came to its end."""
-        return self.executor.finish() and self.trouble is None
+        return self.system.finish() and self.trouble is None
 
     def repeat(self, events: Sequence[AnyEvent]) -> None:
         """Go on until as many events as these have happened, doing what people did in them.
@@ -219,7 +227,7 @@ class Runner:
             if isinstance(then, OperatorAnswered) and self.call is not None:
                 self.answer(then.choice)
             elif isinstance(then, ExperimentMade):
-                self._try_again(then)
+                self.experiment(then.what, then.name, then.value)
             elif self.ended:
                 self.finish()
                 return
@@ -280,89 +288,30 @@ class Runner:
 
     # -- experiments ----------------------------------------------------------------------------------
 
-    def set_saved(self, name: str, difference: Vector3) -> None:
-        """Give a saved difference (m) a value of one's own."""
-        self.run.state.saved[name] = np.array(difference)
-        self._experiment("saved", name, difference)
-
-    def set_position(self, name: str, at: Taught) -> None:
-        """Teach a position anew: x, y, z (m) and O, A, T (rad), in the frame it was taught in.
+    def experiment(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        """Give what the system remembers a value of one's own, SI.
 
         Raises:
-            InvalidInput: there is no such position.
+            InvalidInput: there is no such thing, or the value does not fit it.
         """
-        known = self.setup.plan.program.positions
-        if name not in known:
-            raise InvalidInput(f"no position {name}; there are {', '.join(known)}")
-        self.run.state.world.moved[name] = Position(at=at, of=known[name].of)
-        self._experiment("position", name, at)
-
-    def _try_again(self, made: ExperimentMade) -> None:
-        if made.what == "saved" and len(made.value) == 3:
-            x, y, z = made.value
-            self.set_saved(made.name, (x, y, z))
-        elif made.what == "position" and len(made.value) == 6:
-            x, y, z, o, a, t = made.value
-            self.set_position(made.name, (x, y, z, o, a, t))
-        else:
-            raise InvalidInput(f"{made.what} {made.name} cannot be set to {len(made.value)} numbers")
-
-    def _experiment(self, what: Literal["saved", "position"], name: str, value: tuple[float, ...]) -> None:
-        self._emit(ExperimentMade(time=self.run.time, what=what, name=name, value=value))
+        self.system.set_value(what, name, value)
+        self._emit(ExperimentMade(time=self.time, what=what, name=name, value=value))
         self._settle()
 
     # -- inside ---------------------------------------------------------------------------------------
 
-    def _begin(self) -> None:
-        plan = self.setup.plan
-        self._emit(
-            RunStarted(
-                time=self.run.time,
-                program=plan.program.name,
-                steps=len(plan.program.steps),
-                plan=plan_digest(plan),
-                arm=plan.arm,
-                arm_digest=plan.arm_digest,
-                world=self.setup.world,
-                task=self.setup.task,
-                camera=self.cell.renderer,
-                versions=versions(),
-            )
-        )
-        self._settle()
-
-    @property
-    def _looks(self) -> bool:
-        """The plan takes pictures."""
-        return bool(self.setup.plan.program.written("picture"))
-
-    def _calibrated(self, halt: Callable[[], bool]) -> Calibration | None:
-        """The calibration of the camera, if the plan looks at all and it can be had."""
-        eye = self.task.eye
-        if eye is None or not self._looks:
-            return None
-        try:
-            return calibrate_camera(self.cell.devices, self.arm, eye.drawing, eye.looks, halt)
-        except (CalibrationFailed, SimulationError) as error:
-            self._unable = str(error)
-            return None
-
-    def _camera_model(self) -> CameraModel | None:
-        """The camera as well as it is known; None if the task has none."""
-        if self.calibration is not None:
-            return self.calibration.model
-        return None if self.task.eye is None else self.task.eye.drawing
-
     def _settle(self) -> None:
         """Put the cell into its own state, and keep that."""
-        state = self.cell.capture()
-        self.cell.restore(state)
+        cell = self.system.cell
+        captured = None if cell is None else cell.capture()
+        if cell is not None and captured is not None:
+            cell.restore(captured)
         self.history.append(
             Snapshot(
                 position=self.position,
                 happened=len(self.events),
-                cell=state,
-                state=copied(self.run.state),
+                cell=captured,
+                state=copied(self.system.state),
                 vision_s=self.vision.seconds,
             )
         )
@@ -379,10 +328,14 @@ class Runner:
                 return
 
     def _put(self, snapshot: Snapshot) -> None:
-        self.cell.restore(snapshot.cell)
-        self.run.restore(snapshot.state)
+        cell = self.system.cell
+        if (cell is None) != (snapshot.cell is None):
+            raise InvalidInput("the state is of another system: one has a cell, the other has none")
+        if cell is not None and snapshot.cell is not None:
+            cell.restore(snapshot.cell)
+        self.system.restore(snapshot.state)
         self.vision.seconds = snapshot.vision_s
-        self.position, self.trouble = snapshot.position, self._unable
+        self.position, self._broken = snapshot.position, None
         del self.events[snapshot.happened :]
 
     def _emit(self, event: AnyEvent) -> None:

@@ -7,25 +7,10 @@ import msgspec
 
 from handeye.cell.state import CellState
 from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
-from handeye.execution.state import ExecutionState
-from handeye.planfile.plan import Plan
 from handeye.record import Record
-from handeye.tasks import DEFAULT
-from handeye.variation import WorldSpec
-from handeye.vision.calibration import Calibration
-
-
-class Setup(Record, frozen=True, kw_only=True):
-    """What decides a run, as long as nobody interferes."""
-
-    plan: Plan
-    world: WorldSpec
-    camera: str
-    """How to make pictures: `auto`, `gl` or `ray`."""
-    task: str = DEFAULT
-    """Name of the task."""
-    judged: bool = False
-    """The referee is to look at what came out. It decides nothing of the run."""
+from handeye.runs.setup import Setup
+from handeye.runs.systems import listing_of
+from handeye.system_state import SystemState
 
 
 class Snapshot(Record, frozen=True, kw_only=True):
@@ -35,9 +20,10 @@ class Snapshot(Record, frozen=True, kw_only=True):
     """Steps done since the run began."""
     happened: Annotated[int, msgspec.Meta(ge=0)]
     """Events until then, undone ones not counted."""
-    cell: CellState
-    state: ExecutionState
-    """What the working phase remembers."""
+    cell: CellState | None
+    """None: the system acts on no simulated cell."""
+    state: SystemState
+    """What the system remembers."""
     vision_s: float = 0.0
     """Processor time that vision has taken until then: beside the state, since no two runs take the same."""
 
@@ -46,8 +32,6 @@ class Checkpoint(Record, frozen=True, kw_only=True):
     """All that is needed to take up a run: here, on another day, on another computer."""
 
     setup: Setup
-    calibration: Calibration | None = None
-    """Of the camera; None if the plan takes no pictures, or the run has not begun."""
     snapshot: Snapshot | None = None
     """None: the run has not begun."""
     events: tuple[AnyEvent, ...] = ()
@@ -76,10 +60,10 @@ class Checkpoint(Record, frozen=True, kw_only=True):
         """The stage under way, or the one to come; None if the run has not begun or has ended."""
         if self.snapshot is None:
             return None
-        state, program = self.snapshot.state, self.setup.plan.program
+        state, listing = self.snapshot.state, listing_of(self.setup)
         if state.stage is not None:
-            return program.stages[state.stage]
-        return None if state.at is None else program.stages[program.steps[state.at].stage]
+            return listing.stages[state.stage]
+        return None if state.at is None else listing.stages[listing.steps[state.at].stage]
 
 
 def interfered(events: Iterable[AnyEvent]) -> bool:

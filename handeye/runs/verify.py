@@ -6,23 +6,28 @@ from pathlib import Path
 from handeye.events import (
     AnyEvent,
     PanicStopped,
-    RunStarted,
     StepFinished,
     StepStarted,
 )
-from handeye.planfile.plan import Plan
-from handeye.planfile.store import decode
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.systems import system_kind
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import Trace, read_trace
 
 
-def setup_of(begun: RunStarted, plan: Plan) -> Setup:
-    """What a recorded run began with; its pictures are made in the way they were."""
+def setup_of(trace: Trace) -> Setup:
+    """What a recorded run began with; its pictures are made in the way they were.
+
+    Raises:
+        InvalidInput: there is no such system here, or its plan is not sound.
+    """
+    begun = trace.head
+    plan = system_kind(begun.system).decode(trace.plan, f"the plan in {trace.name}")
     camera = "gl" if begun.camera.method == "opengl" else "ray"
-    return Setup(plan=plan, world=begun.world, camera=camera, task=begun.task)
+    return Setup(system=begun.system, plan=plan, world=begun.world, camera=camera, task=begun.task)
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
@@ -43,7 +48,7 @@ def difference(trace: Trace, folder: Path) -> str | None:
     """
     trace.check_repeatable()
     wanted = trace.events[: settled(trace.events)]
-    start = Checkpoint(setup=setup_of(trace.head, decode(trace.plan, f"the plan in {trace.name}")))
+    start = Checkpoint(setup=setup_of(trace))
     keeping = open_new(folder, start)
     try:
         runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])

@@ -82,7 +82,7 @@ class Teacher:
         Raises:
             InvalidInput: it cannot go there, or something is in the way.
         """
-        arm = self.workplace.runner.arm
+        arm = self.workplace.runner.run.arm
         self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
@@ -91,7 +91,7 @@ class Teacher:
         Raises:
             InvalidInput: it cannot go there, or something is in the way.
         """
-        arm = self.workplace.runner.arm
+        arm = self.workplace.runner.run.arm
         self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
 
     def turn(self, turn: Vector3) -> None:
@@ -100,12 +100,12 @@ class Teacher:
         Raises:
             InvalidInput: it cannot be turned so, or something is in the way.
         """
-        arm = self.workplace.runner.arm
+        arm = self.workplace.runner.run.arm
         self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
     def _follow(self, samples: Samples | IKResult) -> None:
         if isinstance(samples, IKResult):
-            raise InvalidInput(samples.message(self.workplace.runner.arm))
+            raise InvalidInput(samples.message(self.workplace.runner.run.arm))
         self.afloat = False
         self._let(lambda: self.workplace.runner.run.drive.follow(samples))
 

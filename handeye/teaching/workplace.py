@@ -9,15 +9,16 @@ import msgspec
 from handeye.errors import InvalidInput
 from handeye.events import Choice, RunStarted
 from handeye.execution.state import ExecutionState
+from handeye.mutable_records import copied
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
 from handeye.planning.scripts import PlannedScript
 from handeye.pose import Array
 from handeye.program.taught import Taught
-from handeye.records import copied
 from handeye.runs.advance import Pause, advance
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup, Snapshot
+from handeye.runs.setup import Setup, plan_of
+from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.source import Source
 from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
@@ -75,7 +76,7 @@ class Workplace:
         Raises:
             InvalidInput: the checkpoint does not fit this scene.
         """
-        program = checkpoint.setup.plan.program
+        program = plan_of(checkpoint.setup).program
         made = cls.__new__(cls)
         made.taught = taught or Taught(
             positions=program.positions, parts=program.parts, fixtures=program.fixtures, held=program.held
@@ -100,7 +101,7 @@ class Workplace:
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
         """What the planning phase makes of a text here and now; `alone` as for `planned`."""
         return planned(
-            source, self.known, self.runner.arm, self.q, saved=self.runner.run.state.saved, alone=alone
+            source, self.known, self.runner.run.arm, self.q, saved=self.runner.run.state.saved, alone=alone
         )
 
     def checkpoint(self) -> Checkpoint:
@@ -115,7 +116,6 @@ class Workplace:
         )
         return Checkpoint(
             setup=runner.setup,
-            calibration=runner.calibration,
             snapshot=snapshot,
             events=tuple(runner.events),
         )
@@ -128,16 +128,16 @@ class Workplace:
         Raises:
             InvalidInput: it looks, and the camera was not set up.
         """
-        if self.runner.calibration is None and plan.program.written("picture"):
+        if self.runner.run.state.calibration is None and plan.program.written("picture"):
             raise InvalidInput("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None
-        state = _onward(here.snapshot.state, plan)
+        state = _onward(self.runner.run.state, plan)
         snapshot = msgspec.structs.replace(here.snapshot, position=0, happened=1, state=state)
         setup = msgspec.structs.replace(here.setup, plan=plan)
         start = Checkpoint(
-            setup=setup, calibration=here.calibration, snapshot=snapshot, events=(self._started(plan),)
+            setup=setup, snapshot=snapshot, events=(self._started(plan),)
         )  # fmt: skip
         self.runner = Runner(start, halt=self.halt)
         return self._go()

@@ -102,7 +102,7 @@ class _Teller:
 
     def _ended(self, event: happened.StepFinished) -> None:
         """Tell where a motion ended, if not where its goal was, nor as far off as the last one."""
-        if event.planned is None:
+        if event.planned is None or event.hand is None:
             return
         off = np.subtract(event.hand, event.planned)
         shift = np.zeros(3) if self._shift is None else self._shift

@@ -1,6 +1,7 @@
 """Where everything in the simulated cell really is, for the trace: an observer that can change nothing."""
 
 import numpy as np
+from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from numpy.typing import NDArray
 
 from handeye.arm.model import ArmModel
@@ -36,3 +37,19 @@ class Frames:
     def scene(self, time: int) -> bytes:
         """What the bodies look like, as a message; `time` in ns."""
         return scene(self._truth, time)
+
+
+class NoFrames(Frames):
+    """No frames at all: of a system that acts on no cell."""
+
+    def __init__(self) -> None:
+        self.names, self.joints = (), ()
+
+    def poses(self) -> Poses:
+        return np.empty((0, 7), dtype=np.float32)
+
+    def there(self) -> Mask:
+        return np.empty(0, dtype=np.bool_)
+
+    def scene(self, time: int) -> bytes:
+        return SceneUpdate().SerializeToString()

@@ -9,7 +9,7 @@ import msgspec
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
 from handeye.files import read_whole
-from handeye.planfile.store import decode, written_digest
+from handeye.planfile.store import written_digest
 from handeye.trace.channels import EVENTS, FORMAT, VERSION
 from handeye.trace.events_read import read_event
 from handeye.trace.records import Unsound, check, front, is_mcap, read_messages
@@ -44,7 +44,6 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         raise InvalidInput(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
     if not events or not isinstance(events[0], RunStarted):
         raise InvalidInput(f"{path} is a trace without the start of a run")
-    decode(plan, f"the plan in {path}")
     if written_digest(plan) != events[0].plan:
         raise InvalidInput(f"the plan in {path} is not the one that was carried out")
     return Trace(

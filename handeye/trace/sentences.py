@@ -47,6 +47,10 @@ _CHOICES: Final = {
 }
 
 
+_PLACES: Final = ("saved", "position")
+"""Kinds of experiments whose values are differences or places."""
+
+
 def inches(vector: Sequence[float], places: int = 2) -> str:
     """A vector (m) as the language would write it."""
     return "(" + ", ".join(f"{round(c / INCH, places) + 0.0:.{places}f}" for c in vector) + ") in"
@@ -64,7 +68,11 @@ def sentence(event: Event) -> str:
         case happened.RunStarted():
             world = f"the world of {event.world}, pictures by {renderer_name(event.camera)}"
             steps = f"{event.steps} step{'' if event.steps == 1 else 's'}"
-            return f"{event.program}: {steps} on the {event.arm} arm, {world}"
+            return (
+                f"{event.program}: {steps} on the {event.arm} arm, {world}"
+                if event.arm
+                else f"{event.program}: {steps}"
+            )
         case happened.StageStarted():
             return f"stage “{event.stage}”"
         case happened.StageFinished():
@@ -72,7 +80,7 @@ def sentence(event: Event) -> str:
         case happened.StepStarted():
             return event.text
         case happened.StepFinished():
-            return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:.2f} in"
+            return _ended(event)
         case happened.Adjusted():
             return f"{event.goal} is {inches(event.shift, 3)} from where it was planned"
         case happened.GuardTripped():
@@ -105,7 +113,8 @@ def sentence(event: Event) -> str:
         case happened.OperatorAnswered():
             return f"the operator chooses {_CHOICES[event.choice]}"
         case happened.ExperimentMade():
-            return f"experiment: {event.what} {event.name} is set to {_value(event.value)}"
+            value = _value(event.value) if event.what in _PLACES else ", ".join(f"{x:g}" for x in event.value)
+            return f"experiment: {event.what} {event.name} is set to {value}"
         case happened.PanicStopped():
             return "panic button: drives off, brakes set"
         case happened.WentBack():
@@ -138,6 +147,12 @@ _MET: Final[dict[GuardKind, Callable[[happened.GuardTripped], str]]] = {
     GuardKind.TORQUE: _beyond("the driver holds", OUNCE_INCH, "ounce-inches"),
     GuardKind.TOUCH: _touched,
 }
+
+
+def _ended(event: happened.StepFinished) -> str:
+    if event.hand is None or event.gap is None:
+        return "the step is done"
+    return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:.2f} in"
 
 
 def _meaning(event: happened.ErrorRaised) -> str:

@@ -11,7 +11,8 @@ from handeye.report.summary import summary
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 from handeye.variation import WorldSpec
 
 

@@ -13,7 +13,8 @@ from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, RunFolder, open_new
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -71,21 +71,21 @@ def stopped(runner: Runner, *stops: AnyStop) -> tuple[str, int | None]:
 def test_a_run_stops_before_the_place_that_is_named(
     runner: Runner, text: str, sentence: str, line: int
 ) -> None:
-    assert stopped(runner, breakpoint(text, PLAN)) == (sentence, line)
+    assert stopped(runner, breakpoint(text, PLAN.program)) == (sentence, line)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("text", ["error:23", "error 23", "ERROR: 23"])
 def test_a_run_stops_behind_the_step_that_raised_the_error(runner: Runner, text: str) -> None:
     why = "break on error 23: the motion ended without meeting the force it was to stop on"
-    assert stopped(runner, breakpoint(text, PLAN)) == (why, 11)
+    assert stopped(runner, breakpoint(text, PLAN.program)) == (why, 11)
 
 
 @pytest.mark.slow
 def test_a_break_that_was_met_does_not_stop_the_run_again_where_it_stands(runner: Runner) -> None:
-    places = breakpoint("4", PLAN), breakpoint("AOJ", PLAN)
+    places = breakpoint("4", PLAN.program), breakpoint("AOJ", PLAN.program)
     assert stopped(runner, *places) == ("break at AOJ", 14)
-    assert stopped(runner, *places, breakpoint("17", PLAN)) == ("break at line 18", 18)
+    assert stopped(runner, *places, breakpoint("17", PLAN.program)) == ("break at line 18", 18)
 
 
 @pytest.mark.slow
@@ -131,13 +131,13 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
 )  # fmt: skip
 def test_a_place_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(InvalidInput) as refused:
-        breakpoint(text, PLAN)
+        breakpoint(text, PLAN.program)
     assert str(refused.value) == sentence
 
 
 @pytest.mark.parametrize("text", ["2", "search in the air", "SEARCH", " se "])
 def test_a_stage_is_found_by_its_number_its_name_or_the_beginning_of_it(text: str) -> None:
-    assert stage_number(text, PLAN) == 1
+    assert stage_number(text, PLAN.program) == 1
 
 
 @pytest.mark.parametrize(
@@ -152,12 +152,12 @@ def test_a_stage_is_found_by_its_number_its_name_or_the_beginning_of_it(text: st
 )
 def test_a_stage_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(InvalidInput) as refused:
-        stage_number(text, PLAN)
+        stage_number(text, PLAN.program)
     assert str(refused.value) == sentence
 
 
 def test_a_step_is_found_by_its_number_or_its_label() -> None:
-    assert [step_number(text, PLAN) for text in ("0", "12", "L2")] == [0, 12, 8]
+    assert [step_number(text, PLAN.program) for text in ("0", "12", "L2")] == [0, 12, 8]
 
 
 @pytest.mark.parametrize(
@@ -170,10 +170,10 @@ def test_a_step_is_found_by_its_number_or_its_label() -> None:
 )
 def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(InvalidInput) as refused:
-        step_number(text, PLAN)
+        step_number(text, PLAN.program)
     assert str(refused.value) == sentence
 
 
 def test_a_label_that_stands_for_several_steps_is_no_step(macro: Plan) -> None:
     with pytest.raises(InvalidInput, match=r"^label `LM` stands for steps 0, 2; give one by its number$"):
-        step_number("LM", macro)
+        step_number("LM", macro.program)

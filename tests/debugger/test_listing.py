@@ -10,7 +10,7 @@ PLAN = plan_of(AIR)
 
 
 def test_the_stages_of_a_plan_are_listed_with_their_steps() -> None:
-    assert listing_text(PLAN)[:6] == [
+    assert listing_text(PLAN.program)[:6] == [
         "  1  open the hand        2 steps  lines 4 to 5",
         "         0  line 4     OPEN .5",
         "         1  line 5     OPEN .4",
@@ -21,19 +21,19 @@ def test_the_stages_of_a_plan_are_listed_with_their_steps() -> None:
 
 
 def test_the_listing_is_data_as_well() -> None:
-    first = msgspec.to_builtins(listing(PLAN))[0]
+    first = msgspec.to_builtins(listing(PLAN.program))[0]
     assert (first["number"], first["name"], first["lines"]) == (1, "open the hand", (4, 5))
     assert first["steps"][1] == {"step": 1, "line": 5, "text": "OPEN .4"}
 
 
 def test_every_step_of_a_plan_is_listed_once_and_by_its_number() -> None:
-    steps = [step for stage in listing(PLAN) for step in stage.steps]
+    steps = [step for stage in listing(PLAN.program) for step in stage.steps]
     assert [step.step for step in steps] == list(range(len(PLAN.program.steps)))
 
 
 def test_a_stage_that_only_calls_a_macro_has_the_lines_of_the_macro() -> None:
     plan = plan_of('DEFINE M\nOPEN 1\nOPEN 2\n\nSTAGE "both"\nM\nOPEN 3\nSTAGE "macro"\nM\n')
-    assert [stage.lines for stage in listing(plan)] == [(7, 7), (2, 3)]
+    assert [stage.lines for stage in listing(plan.program)] == [(7, 7), (2, 3)]
 
 
 def test_the_source_is_shown_as_in_the_script_with_the_line_where_the_run_stands() -> None:

@@ -116,7 +116,9 @@ def test_each_stage_is_retried_on_its_own_account() -> None:
 )
 def test_the_program_goes_on_as_the_answer_says(runner: Runner, answer: str, last: str) -> None:
     talk = Talk(answer)
-    assert attend(runner, talk.operator, [breakpoint("shut", plan_of(AIR))] if answer != "s" else []).kind
+    assert attend(
+        runner, talk.operator, [breakpoint("shut", plan_of(AIR).program)] if answer != "s" else []
+    ).kind
     assert texts(runner)[-1] == last
 
 
@@ -203,7 +205,7 @@ def test_a_break_where_the_program_goes_on_after_an_answer_stops_it_and_the_stat
             kept.append(checkpoint)
 
     runner.observers.append(Keep())
-    pause = attend(runner, Talk("p").operator, [breakpoint("20", plan_of(AIR))])
+    pause = attend(runner, Talk("p").operator, [breakpoint("20", plan_of(AIR).program)])
     assert (pause.kind, pause_sentence(pause)) == ("break", "break at line 20")
     assert history(list(kept[-1].events)) == history(runner.events)
 

@@ -6,8 +6,8 @@ from pump_bench import SEATED, TAUGHT, at_standard, bench, shifted
 
 from handeye.errors import NO_FORCE, NOTHING_HELD
 from handeye.events import HandTold
+from handeye.mutable_records import copied
 from handeye.program.program import Position
-from handeye.records import copied
 from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow

@@ -5,8 +5,8 @@ import pytest
 from pump_bench import TAUGHT, bench, shifted
 
 from handeye.events import PositionDefined, StepFinished
+from handeye.mutable_records import copied
 from handeye.program.program import Position
-from handeye.records import copied
 from handeye.units import INCH
 
 pytestmark = pytest.mark.slow

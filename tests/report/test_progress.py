@@ -23,20 +23,20 @@ def console() -> Console:
 
 
 def test_a_run_that_begins_in_the_midst_of_a_stage_shows_that_stage(console: Console) -> None:
-    with Progress(plan(), console) as progress:
+    with Progress(plan().program.stages, console) as progress:
         progress.goes_on("put on the gasket")
     assert console.file.getvalue().rindex("put on the gasket") > console.file.getvalue().rindex("setting up")
 
 
 def test_to_ask_somebody_brings_no_bar_where_there_was_none(console: Console) -> None:
-    progress = Progress(plan(), console)
+    progress = Progress(plan().program.stages, console)
     with progress.aside():
         pass
     assert console.file.getvalue() == ""
 
 
 def test_a_bar_comes_back_when_somebody_was_asked(console: Console) -> None:
-    with Progress(plan(), console) as progress:
+    with Progress(plan().program.stages, console) as progress:
         with progress.aside():
             before = console.file.getvalue()
         assert console.file.getvalue() != before

@@ -300,7 +300,7 @@ def test_a_record_that_nothing_tells_the_run_of_is_not_replaced(copy: Path) -> N
 def test_states_of_a_run_somebody_took_a_hand_in_are_not_replaced(tmp_path: Path) -> None:
     runner, folder = recorded(tmp_path / "run", begin())
     advance(runner, steps=5)
-    runner.set_saved("C1", (0.0, 0.0, 0.001))
+    runner.experiment("saved", "C1", (0.0, 0.0, 0.001))
     folder.checkpoint(runner.checkpoint())
     folder.close()
     with pytest.raises(InvalidInput, match="somebody took a hand in"):

@@ -36,7 +36,7 @@ def say(tmp_path: Path) -> Callable[..., list[Reply]]:
 
 
 def test_stages_are_listed_with_the_files_of_their_lines(plan: Plan) -> None:
-    assert listing_text(plan) == [
+    assert listing_text(plan.program) == [
         "  1  program     1 step  lines 2 to 2",
         "         0  line 2     OPEN 1",
         "  2  hand       4 steps  lines lib/hand.al:2 to 3",
@@ -74,7 +74,7 @@ def test_an_excerpt_of_a_required_file_names_it(plan: Plan) -> None:
 def test_a_break_is_a_line_of_the_script_or_of_a_file(
     plan: Plan, text: str, steps: set[int], name: str
 ) -> None:
-    stop = breakpoint(text, plan)
+    stop = breakpoint(text, plan.program)
     assert isinstance(stop, AtSteps)
     assert (set(stop.steps), stop_name(stop)) == (steps, name)
 
@@ -92,7 +92,7 @@ def test_a_break_is_a_line_of_the_script_or_of_a_file(
 )
 def test_a_break_where_no_step_is_gets_a_sentence(plan: Plan, text: str, message: str) -> None:
     with pytest.raises(InvalidInput, match=f"^{message}$"):
-        breakpoint(text, plan)
+        breakpoint(text, plan.program)
 
 
 def test_the_stepper_shows_the_file_it_stands_in(say: Callable[..., list[Reply]]) -> None:

@@ -123,7 +123,7 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
 def test_an_experiment_with_a_saved_difference_moves_the_next_goal_and_is_told() -> None:
     runner = Runner(begin("OPEN 1\nMOVE P1\nMOVE P1\nRESTORE D\nOPEN 1\nSAVE D\n"))
     runner.step()
-    runner.set_saved("D", (0.01, 0.0, 0.0))
+    runner.experiment("saved", "D", (0.01, 0.0, 0.0))
     through(runner)
     assert runner.touched
     (made,) = [event for event in runner.events if isinstance(event, ExperimentMade)]
@@ -135,7 +135,7 @@ def test_an_experiment_with_a_position_moves_the_hand_there() -> None:
     runner = Runner(begin("OPEN 1\nMOVE P1\n"))
     position = runner.setup.plan.program.positions["P1"]
     x, *rest = position.at
-    runner.set_position("P1", (x + 0.02, *rest))  # type: ignore[arg-type]
+    runner.experiment("position", "P1", (x + 0.02, *rest))
     planned = runner.run.world.planned_position("P1")[:3, 3]
     through(runner)
     assert runner.run.drive.hand()[:3, 3] - planned == pytest.approx([0.02, 0, 0], abs=1e-3)
@@ -144,7 +144,7 @@ def test_an_experiment_with_a_position_moves_the_hand_there() -> None:
 def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> None:
     runner = Runner(begin("OPEN 1\nMOVE P1\n"))
     runner.step()
-    runner.set_saved("D", (0.01, 0.0, 0.0))
+    runner.experiment("saved", "D", (0.01, 0.0, 0.0))
     kept = Runner(runner.checkpoint())
     assert kept.run.state.saved["D"] == pytest.approx([0.01, 0, 0])
     runner.back_to(0)
@@ -155,7 +155,7 @@ def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> Non
 def test_an_unknown_position_is_refused() -> None:
     runner = Runner(begin("OPEN 1\n"))
     with pytest.raises(InvalidInput, match="no position NOWHERE"):
-        runner.set_position("NOWHERE", (0, 0, 0, 0, 0, 0))
+        runner.experiment("position", "NOWHERE", (0, 0, 0, 0, 0, 0))
 
 
 WAITING = 'STAGE "one"\nOPEN 1\nWAIT "LOOK AT IT"\nOPEN 2\nSTAGE "two"\nOPEN 3\n'
@@ -171,7 +171,7 @@ WAITING = 'STAGE "one"\nOPEN 1\nWAIT "LOOK AT IT"\nOPEN 2\nSTAGE "two"\nOPEN 3\n
 def test_the_operator_says_how_a_stop_goes_on(choice: str, texts: list[str]) -> None:
     runner = through(Runner(begin(WAITING)))
     assert isinstance(runner.events[-1], OperatorCalled)
-    runner.answer(choice)  # type: ignore[arg-type]
+    runner.answer(choice)
     through(runner)
     done = [" ".join(event.text.split()) for event in runner.events if type(event).__name__ == "StepStarted"]
     assert done == [" ".join(text.split()) for text in texts]
@@ -225,7 +225,7 @@ def test_going_back_over_what_people_did_does_it_again() -> None:
     runner = Runner(begin("OPEN .3\nWAIT HERE\nOPEN .4\nOPEN .5\nSAVE D\n"))
     first = runner.checkpoint()
     through(runner).answer("proceed")
-    runner.set_saved("D", (0.01, 0.0, 0.0))
+    runner.experiment("saved", "D", (0.01, 0.0, 0.0))
     for _ in range(2):
         runner.step()
     late = Runner(runner.checkpoint())

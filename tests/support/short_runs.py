@@ -10,7 +10,8 @@ from handeye.planning.planner import make_plan
 from handeye.program.taught import load_taught
 from handeye.resources import plans
 from handeye.runs.runner import Runner
-from handeye.runs.snapshot import Checkpoint, Setup
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
 from handeye.source import Source
 from handeye.variation import WorldSpec
 

@@ -122,7 +122,9 @@ def test_a_trace_with_a_plan_that_is_none_is_refused(tmp_path: Path) -> None:
     recording = Recording(tmp_path / "short.mcap").begin()
     recording.recorder._writing._plan = b"no plan"
     recording.play().close()
-    with pytest.raises(InvalidInput, match=r"^the plan in .*short\.mcap is not a plan, or is cut short"):
+    with pytest.raises(
+        InvalidInput, match=r"^the plan in .*short\.mcap is not the one that was carried out$"
+    ):
         read_trace(recording.path)
 
 

@@ -6,8 +6,8 @@ import msgspec
 import numpy as np
 import pytest
 
+from handeye.mutable_records import MutableRecord, copied, put_back
 from handeye.pose import Array
-from handeye.records import MutableRecord, copied, put_back
 
 
 class Inner(MutableRecord, kw_only=True):

@@ -1,0 +1,188 @@
+"""Executor of programs in the cell of a task: the first system that runs drive."""
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+
+from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.errors import InvalidInput
+from handeye.events import Choice, RunStarted
+from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
+from handeye.execution.context import ExecutionContext
+from handeye.execution.devices import check_devices
+from handeye.execution.executor import Executor
+from handeye.execution.state import DriveState, ExecutionState
+from handeye.mutable_records import put_back
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import decode, encode, plan_digest
+from handeye.program.program import Position
+from handeye.runs.setup import Setup, plan_of
+from handeye.runs.system import Settable, Surroundings, System, SystemKind
+from handeye.system_state import SystemState
+from handeye.tasks import task
+from handeye.tasks.task import Eye
+from handeye.units import DEGREE, INCH
+from handeye.versions import versions
+
+
+class ProgramSystem(System):
+    """Carries out a plan with the arm of a simulated cell."""
+
+    def __init__(self, setup: Setup, around: Surroundings) -> None:
+        """Build the cell.
+
+        Raises:
+            InvalidInput: the plan is for another arm, or the camera cannot work as asked.
+        """
+        self._setup, self._halt = setup, around.halt
+        self.plan = plan_of(setup)
+        self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
+        check(setup)
+        self._cell = task(setup.task).cell(setup.world, setup.camera)
+        check_devices(self.plan.program, self._cell.devices)
+        self.run = ExecutionContext(
+            plan=self.plan,
+            arm=self.arm,
+            cell=self._cell.devices,
+            camera=None if self._eye is None else self._eye.drawing,
+            emit=around.emit,
+            vision=around.vision,
+        )
+        self.run.drive.halt, self.run.drive.watch = around.halt, around.watch
+        self.executor = Executor(run=self.run)
+
+    @property
+    def state(self) -> ExecutionState:
+        return self.run.state
+
+    @property
+    def cell(self) -> SimulatedCell:
+        return self._cell
+
+    @property
+    def time(self) -> float:
+        return self.run.time
+
+    @property
+    def trouble(self) -> str | None:
+        return self.state.unable
+
+    # -- going on -------------------------------------------------------------------------------------
+
+    def begin(self) -> RunStarted:
+        if self._eye is not None and self.plan.program.written("picture"):
+            self._calibrate(self._eye)
+        return RunStarted(
+            time=self.time,
+            program=self.plan.program.name,
+            steps=len(self.plan.program.steps),
+            plan=plan_digest(self.plan),
+            arm=self.plan.arm,
+            arm_digest=self.plan.arm_digest,
+            world=self._setup.world,
+            task=self._setup.task,
+            camera=self._cell.renderer,
+            versions=versions(),
+        )
+
+    def step(self) -> None:
+        self.executor.step()
+
+    def answer(self, choice: Choice) -> None:
+        self.executor.answer(choice)
+
+    def finish(self) -> bool:
+        return self.executor.finish()
+
+    def restore(self, state: SystemState) -> None:
+        if not isinstance(state, ExecutionState):
+            raise InvalidInput("what the run remembers is not of the executor of programs")
+        self.run.restore(state)
+        self._take_calibration()
+
+    def _calibrate(self, eye: Eye) -> None:
+        """Calibrate the camera; the arm is held where that leaves it."""
+        try:
+            self.state.calibration = calibrate_camera(
+                self._cell.devices, self.arm, eye.drawing, eye.looks, self._halt
+            )
+            self.state.lens = eye.looks[-1].lens
+        except (CalibrationFailed, SimulationError) as error:
+            self.state.unable = str(error)
+        put_back(self.state.drive, DriveState.holding(self._cell.devices.sense()))
+        self._take_calibration()
+
+    def _take_calibration(self) -> None:
+        """Look with the calibrated camera, if it is."""
+        if self.state.calibration is not None:
+            self.run.camera = self.state.calibration.model
+        elif self._eye is not None:
+            self.run.camera = self._eye.drawing
+
+    # -- experiments ----------------------------------------------------------------------------------
+
+    def settables(self) -> Mapping[str, Settable]:
+        return {
+            "saved": Settable(
+                noun="saved difference",
+                usage="NAME x y z",
+                names=tuple(sorted(self._saved_names())),
+                units=(INCH, INCH, INCH),
+                fewest=3,
+                present=lambda _: (),
+            ),
+            "position": Settable(
+                noun="position",
+                usage="NAME x y z [o a t]",
+                names=tuple(sorted(self.plan.program.positions)),
+                units=(INCH, INCH, INCH, DEGREE, DEGREE, DEGREE),
+                fewest=3,
+                present=lambda name: self._position(name).at,
+            ),
+        }
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        if what == "saved" and len(value) == 3:
+            self.state.saved[name] = np.array(value)
+        elif what == "position" and len(value) == 6:
+            known = self.plan.program.positions
+            if name not in known:
+                raise InvalidInput(f"no position {name}; there are {', '.join(known)}")
+            x, y, z, o, a, t = value
+            self.state.world.moved[name] = Position(at=(x, y, z, o, a, t), of=known[name].of)
+        else:
+            raise InvalidInput(f"{what} {name} cannot be set to {len(value)} numbers")
+
+    def _saved_names(self) -> set[str]:
+        """The differences that the program saves or restores."""
+        uses = [
+            use for step in self.plan.program.steps for use in (*step.operation.reads, *step.operation.writes)
+        ]
+        return {use.name for use in uses if use.kind == "difference"}
+
+    def _position(self, name: str) -> Position:
+        return self.state.world.moved.get(name, self.plan.program.positions[name])
+
+
+def check(setup: Setup) -> None:
+    """See that a plan was made for the arm of its task.
+
+    Raises:
+        InvalidInput: it was made for another one, or there is no such task.
+    """
+    task(setup.task).check_arm(plan_of(setup))
+
+
+PROGRAM: Final = SystemKind(
+    name="program",
+    plan=Plan,
+    state=ExecutionState,
+    encode=lambda plan: encode(plan).encode(),
+    decode=decode,
+    listing=lambda plan: plan.program,
+    machine=lambda plan: (plan.arm, plan.arm_digest),
+    check=check,
+    build=ProgramSystem,
+)
+"""Programs of the first waist, planned for an arm."""

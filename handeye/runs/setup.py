@@ -1,0 +1,34 @@
+"""Setup: what decides a run."""
+
+from handeye.errors import InvalidInput
+from handeye.planfile.plan import Plan
+from handeye.record import Record
+from handeye.tasks import DEFAULT
+from handeye.variation import WorldSpec
+
+
+class Setup(Record, frozen=True, kw_only=True):
+    """What decides a run, as long as nobody interferes."""
+
+    system: str = "program"
+    """The kind of system that carries it out."""
+    plan: Record
+    """What is carried out: a `Plan` for the executor of programs."""
+    world: WorldSpec
+    camera: str
+    """How to make pictures: `auto`, `gl` or `ray`."""
+    task: str = DEFAULT
+    """Name of the task."""
+    judged: bool = False
+    """The referee is to look at what came out. It decides nothing of the run."""
+
+
+def plan_of(setup: Setup) -> Plan:
+    """The plan of a run of the executor of programs.
+
+    Raises:
+        InvalidInput: another system carries the run out.
+    """
+    if not isinstance(setup.plan, Plan):
+        raise InvalidInput(f"this is a run of the system {setup.system}, which has no plan of motions")
+    return setup.plan

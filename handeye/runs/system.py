@@ -1,0 +1,189 @@
+"""System: a machine that a run drives. It can step, give its state as one record and take it back; facts tell of it.
+
+The executor of programs (`runs/programs.py`) is the first.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from handeye.cell.simulated import SimulatedCell
+from handeye.events import AnyEvent, Choice, RunStarted
+from handeye.execution.stopwatch import Stopwatch
+from handeye.ports.workcell import Sensed
+from handeye.pose import Array
+from handeye.record import Record
+from handeye.runs.setup import Setup
+from handeye.system_state import SystemState
+
+
+class StepFacts(Protocol):
+    """A step as people see it."""
+
+    @property
+    def stage(self) -> int:
+        """Index of its stage."""
+
+    @property
+    def file(self) -> str:
+        """The required file it stands in; empty: the source itself."""
+
+    @property
+    def line(self) -> int:
+        """Line of that text, from 1."""
+
+    @property
+    def text(self) -> str:
+        """Its statement."""
+
+    @property
+    def word(self) -> str:
+        """The word that its statement begins with."""
+
+    @property
+    def macro(self) -> str:
+        """The macro whose call it comes from; empty: none."""
+
+    @property
+    def ways(self) -> tuple[int | None, ...]:
+        """The steps that may follow; None: the end."""
+
+    @property
+    def place(self) -> str:
+        """Its line, as people are told: `12`, or `pins.al:12`."""
+
+
+class Listing(Protocol):
+    """Stages and steps of what a system carries out, and the source they were made from."""
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+
+    @property
+    def source(self) -> str:
+        """Its text."""
+
+    @property
+    def required(self) -> dict[str, str]:
+        """Texts of the files that it requires."""
+
+    @property
+    def stages(self) -> tuple[str, ...]:
+        """Names of the stages."""
+
+    @property
+    def labels(self) -> Mapping[str, Sequence[int]]:
+        """The steps that each label stands before."""
+
+    @property
+    def steps(self) -> Sequence[StepFacts]:
+        """The steps; they are numbered by their place."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settable:
+    """Something that a person can set in a paused run."""
+
+    noun: str
+    usage: str
+    """What stands behind its kind: `NAME x y z`."""
+    names: tuple[str, ...]
+    units: tuple[float, ...]
+    """SI units in one of the units that people give each number in."""
+    fewest: int
+    """Numbers that have to be given; the others stay as they are."""
+    present: Callable[[str], tuple[float, ...]]
+    """The values of a name as they are, SI."""
+
+
+class System(Protocol):
+    """A machine that can be stepped, kept and put back."""
+
+    @property
+    def state(self) -> SystemState:
+        """All that it remembers: the record it lives in."""
+
+    @property
+    def cell(self) -> SimulatedCell | None:
+        """The simulated cell it acts on, if there is one."""
+
+    @property
+    def time(self) -> float:
+        """Its clock, s."""
+
+    @property
+    def trouble(self) -> str | None:
+        """Why it cannot do any step, if it is not a matter for the operator."""
+
+    def begin(self) -> RunStarted:
+        """Prepare the first step; the event that begins the run.
+
+        Raises:
+            Halted: the panic button was hit.
+        """
+
+    def step(self) -> None:
+        """Do one step: the unit that is done again when it is interrupted.
+
+        Raises:
+            Halted: the panic button was hit.
+            SimulationError: its cell broke down.
+        """
+
+    def answer(self, choice: Choice) -> None:
+        """Go on after the operator was called."""
+
+    def finish(self) -> bool:
+        """Close the account of the run; True when the program came to its end."""
+
+    def restore(self, state: SystemState) -> None:
+        """Go on from a copy of a state; its cell is as it was then.
+
+        Raises:
+            InvalidInput: it is not a state of what is carried out.
+        """
+
+    def settables(self) -> Mapping[str, Settable]:
+        """What a person can set, by kind."""
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        """Set something; SI.
+
+        Raises:
+            InvalidInput: there is no such thing, or the value does not fit it.
+        """
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surroundings:
+    """What a system is given by the run that drives it."""
+
+    emit: Callable[[AnyEvent], None]
+    watch: Callable[[Sensed, Array], None]
+    """Told of every servo period: what was sensed, and the torques put out."""
+    halt: Callable[[], bool]
+    """The panic button, asked at every servo period."""
+    vision: Stopwatch = field(default_factory=Stopwatch)
+    """Processor time of vision."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SystemKind:
+    """A kind of system: how its plans are written and read, what its state is, how it is built."""
+
+    name: str
+    """Checkpoints and traces name it."""
+    plan: type[Record]
+    state: type[SystemState]
+    encode: Callable[[Any], bytes]
+    """A plan as bytes; their digest stands for it."""
+    decode: Callable[[bytes, str], Any]
+    """The plan in some bytes, found sound; the name is for messages. Raises InvalidInput."""
+    listing: Callable[[Any], Listing]
+    machine: Callable[[Any], tuple[str, str]]
+    """Name and digest of the machine that a plan is for; empty if it is for none."""
+    check: Callable[[Setup], None]
+    """Raises InvalidInput unless that machine is that of the task."""
+    build: Callable[[Setup, Surroundings], System]
+    """Raises InvalidInput if it cannot be built here."""

@@ -1,0 +1,212 @@
+"""A counter machine, the second system: registers, and lines that add to one, jump while one is positive, or call.
+
+It has no arm, no cell and no physics; a line takes a second.
+"""
+
+from typing import ClassVar
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.events import (
+    Choice,
+    OperatorAnswered,
+    OperatorCalled,
+    RunFinished,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+)
+from handeye.planfile.store import written_digest
+from handeye.ports.camera import Renderer
+from handeye.record import Record
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.system import Settable, Surroundings, System, SystemKind
+from handeye.runs.systems import register
+from handeye.system_state import SystemState
+from handeye.variation import WorldSpec
+
+
+class Line(Record, frozen=True, kw_only=True):
+    """A line: `ADD A 1`, `JUMP A 0` (to line number 0 while A is positive) or `CALL A` (the operator, once)."""
+
+    stage: int
+    line: int
+    text: str
+    label: str = ""
+    ways: tuple[int | None, ...]
+    file: ClassVar[str] = ""
+    macro: ClassVar[str] = ""
+
+    @property
+    def word(self) -> str:
+        return self.text.split()[0]
+
+    @property
+    def place(self) -> str:
+        return str(self.line)
+
+
+class Lines(Record, frozen=True, kw_only=True):
+    """A program of the counter machine."""
+
+    name: str = "toy"
+    stages: tuple[str, ...] = ("count",)
+    steps: tuple[Line, ...]
+    required: ClassVar[dict[str, str]] = {}
+
+    @property
+    def labels(self) -> dict[str, list[int]]:
+        return {step.label: [number] for number, step in enumerate(self.steps) if step.label}
+
+    @property
+    def source(self) -> str:
+        return "\n".join(step.text for step in self.steps)
+
+
+class Registers(SystemState, kw_only=True):
+    """What the counter machine remembers."""
+
+    time: float = 0.0
+    values: dict[str, int] = msgspec.field(default_factory=dict)
+
+
+class CounterMachine(System):
+    """Ten lines of interpreter, and what a run asks of any system."""
+
+    cell = None
+    trouble = None
+
+    def __init__(self, setup: Setup, around: Surroundings) -> None:
+        assert isinstance(setup.plan, Lines)
+        self._setup, self._around, self._lines = setup, around, setup.plan
+        self._state = Registers()
+
+    @property
+    def state(self) -> Registers:
+        return self._state
+
+    @property
+    def time(self) -> float:
+        return self._state.time
+
+    def begin(self) -> RunStarted:
+        steps, plan = self._lines.steps, written_digest(encoded(self._lines))
+        return RunStarted(
+            system="toy", time=0.0, program="toy", steps=len(steps), plan=plan, arm="", arm_digest="",
+            world=self._setup.world, camera=Renderer(method="none"), versions={},
+        )  # fmt: skip
+
+    def step(self) -> None:
+        at = self._state.at
+        assert at is not None
+        line = self._lines.steps[at]
+        self._enter(line.stage)
+        self._around.emit(StepStarted(time=self.time, step=at, line=line.line, text=line.text))
+        onward = self._interpret(line)
+        self._state.at = onward
+        self._around.emit(StepFinished(time=self.time, step=at, hand=None, planned=None, gap=None))
+        if line.word == "CALL":
+            self._state.stopped = OperatorCalled(time=self.time, message="the operator is wanted", error=None)
+            self._around.emit(self._state.stopped)
+            self._state.at, self._state.onward = None, onward
+        self._leave()
+
+    def _interpret(self, line: Line) -> int | None:
+        values = self._state.values
+        word, register_name, *operand = line.text.split()
+        self._state.time += 1.0
+        if word == "ADD":
+            values[register_name] = values.get(register_name, 0) + int(operand[0])
+        if word == "JUMP" and values.get(register_name, 0) > 0:
+            return line.ways[-1]
+        return line.ways[0]
+
+    def answer(self, choice: Choice) -> None:
+        state = self._state
+        state.at = state.onward if choice != "retry" else 0
+        state.stopped, state.onward = None, None
+        self._around.emit(OperatorAnswered(time=self.time, choice=choice, step=state.at))
+        self._leave()
+
+    def finish(self) -> bool:
+        completed = self._state.at is None and self._state.stopped is None
+        self._around.emit(RunFinished(time=self.time, completed=completed))
+        return completed
+
+    def restore(self, state: SystemState) -> None:
+        if not isinstance(state, Registers) or (state.at or 0) >= len(self._lines.steps):
+            raise InvalidInput("what the run remembers does not fit this plan")
+        from handeye.mutable_records import put_back
+
+        put_back(self._state, state)
+
+    def settables(self) -> dict[str, Settable]:
+        return {
+            "register": Settable(
+                noun="register",
+                usage="NAME n",
+                names=("A", "B"),
+                units=(1.0,),
+                fewest=1,
+                present=lambda _: (),
+            )
+        }
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        if what != "register" or len(value) != 1:
+            raise InvalidInput(f"{what} {name} cannot be set")
+        self._state.values[name] = int(value[0])
+
+    def _enter(self, stage: int) -> None:
+        if self._state.stage is None:
+            self._state.stage = stage
+            self._around.emit(StageStarted(time=self.time, stage=self._lines.stages[stage]))
+
+    def _leave(self) -> None:
+        state, lines = self._state, self._lines
+        over = state.at is None or lines.steps[state.at].stage != state.stage
+        if over and state.stage is not None and state.stopped is None:
+            self._around.emit(StageFinished(time=self.time, stage=lines.stages[state.stage], status="done"))
+            state.stage = None
+
+
+def encoded(lines: Lines) -> bytes:
+    return msgspec.json.encode(lines)
+
+
+def decoded(data: bytes, name: str) -> Lines:
+    try:
+        return msgspec.json.decode(data, type=Lines)
+    except msgspec.DecodeError as error:
+        raise InvalidInput(f"{name} is not sound: {error}") from None
+
+
+TOY = SystemKind(
+    name="toy", plan=Lines, state=Registers, encode=encoded, decode=decoded,
+    listing=lambda lines: lines, machine=lambda _: ("", ""), check=lambda _: None, build=CounterMachine,
+)  # fmt: skip
+register(TOY)
+
+
+def counting(times: int = 5) -> Lines:
+    """Counts A down and B up, so many times; then calls the operator, and counts B on."""
+    return Lines(
+        stages=("count", "ask"),
+        steps=(
+            Line(stage=0, line=1, text=f"ADD A {times}", ways=(1,)),
+            Line(stage=0, line=2, text="ADD B 1", label="AGAIN", ways=(2,)),
+            Line(stage=0, line=3, text="ADD A -1", ways=(3,)),
+            Line(stage=0, line=4, text="JUMP A 1", ways=(4, 1)),
+            Line(stage=1, line=5, text="CALL B", ways=(5,)),
+            Line(stage=1, line=6, text="ADD B 10", ways=(None,)),
+        ),
+    )
+
+
+def begin_toy(times: int = 5) -> Checkpoint:
+    """A run of the counter machine that has not begun."""
+    return Checkpoint(setup=Setup(system="toy", plan=counting(times), world=WorldSpec(seed=0), camera="ray"))
