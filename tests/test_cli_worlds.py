@@ -64,6 +64,12 @@ def test_the_list_says_what_is_off_and_what_is_set(command: Command) -> None:
     assert rows["arm.friction.1"].endswith("N m within 0.04 N m about 0.04 N m")
 
 
+def test_the_page_on_worlds_shows_what_the_command_prints(command: Command) -> None:
+    page = (Path(__file__).parent.parent / "docs" / "worlds.md").read_text(encoding="utf-8")
+    shown = page.split("$ handeye world --seed 3\n")[1].split("...\n")[0]
+    assert command("world", "--seed", "3")[1].startswith(shown)
+
+
 def test_the_list_as_json_tells_the_world(command: Command) -> None:
     _, out, _ = command("world", "--json", *CHOSEN)
     assert json.loads(out)["world"] == SPEC

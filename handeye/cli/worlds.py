@@ -29,7 +29,7 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
         sys.stdout.buffer.write(world_json(table, drawn))
         sys.stdout.flush()
     else:
-        screen.print(world_page(table, drawn))
+        screen.print(world_page(table, drawn, screen.width))
     return 0
 
 

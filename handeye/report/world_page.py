@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import groupby
+from textwrap import fill
 from typing import Literal
 
 import msgspec
@@ -44,13 +45,17 @@ def world_json(table: Variation, world: World) -> bytes:
     return msgspec.json.format(msgspec.json.encode(report(table, world)), indent=1) + b"\n"
 
 
-def world_page(table: Variation, world: World) -> RenderableType:
-    """The quantities of a world; those of one source stand below it."""
+def world_page(table: Variation, world: World, columns: int) -> RenderableType:
+    """The quantities of a world, for a terminal of so many columns; those of one source stand below it."""
     found = report(table, world).quantities
-    parts: list[RenderableType] = [Text(f"The world of {world.spec}", "bold")]
+    parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
     width = max(len(quantity.name) for quantity in found)
     for source, quantities in groupby(found, lambda quantity: quantity.source):
-        parts += [Text(), Text(source, "dim"), *(_row(quantity, width) for quantity in quantities)]
+        parts += [
+            Text(),
+            Text(fill(source, columns), "dim"),
+            *(_row(quantity, width) for quantity in quantities),
+        ]
     return Group(*parts)
 
 
