@@ -63,6 +63,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.qpos = model.jnt_qposadr[joints]
         """Where its joints stand in the simulator's positions."""
         self.dofs = model.jnt_dofadr[joints]
+        self.last_link = int(model.jnt_bodyid[joints[-1]])
+        """The body that carries the hand."""
         self.watchdog = Watchdog(arm.servo.period)
         self._motors = np.array([model.actuator(name).id for name in names])
         self._limits = model.actuator_ctrlrange[self._motors, 1].copy()

@@ -2,18 +2,15 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Final
 
 from handeye.cell.simulated import SimulatedCell
-
-_WRIST: Final = "stanford/link6"
+from handeye.record import Vector3
 
 
 @contextmanager
-def pushed(cell: SimulatedCell, force: tuple[float, float, float]) -> Iterator[None]:
+def pushed(cell: SimulatedCell, force: Vector3) -> Iterator[None]:
     """While this lasts, the hand is pushed with a force (N, table coordinates)."""
-    body = cell.truth.model.body(_WRIST).id
-    applied = cell.truth.data.xfrc_applied
+    applied, body = cell.truth.data.xfrc_applied, cell.arm.last_link
     applied[body, :3] = force
     try:
         yield

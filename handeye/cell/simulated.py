@@ -51,6 +51,8 @@ class SimulatedCell(Clock):
             noise: the generator that all sensors but the camera draw from.
         """
         self._model, self._data, self._noise = model, data, noise
+        self.arm = arm
+        """For the experimenter, who may push it."""
         self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
         devices = (arm, hand, screwdriver, lamp)
         self._mechanisms: tuple[Mechanism[Any], ...] = (
