@@ -18,21 +18,21 @@ NIL: Final = "NIL"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Unit:
+class OperandUnit:
     """A unit as written, and its SI value."""
 
     name: str
     si: float
 
 
-ONE = Unit(name="", si=1.0)
-IN = Unit(name="in", si=units.INCH)
-IN_PER_S = Unit(name="in/s", si=units.INCH)
-MM = Unit(name="mm", si=units.MILLIMETRE)
-DEG = Unit(name="degrees", si=units.DEGREE)
-OZ = Unit(name="oz", si=units.OUNCE_FORCE)
-OZ_IN = Unit(name="oz-in", si=units.OUNCE_INCH)
-REV_PER_MIN = Unit(name="rpm", si=units.RPM)
+ONE = OperandUnit(name="", si=1.0)
+IN = OperandUnit(name="in", si=units.INCH)
+IN_PER_S = OperandUnit(name="in/s", si=units.INCH)
+MM = OperandUnit(name="mm", si=units.MILLIMETRE)
+DEG = OperandUnit(name="degrees", si=units.DEGREE)
+OZ = OperandUnit(name="oz", si=units.OUNCE_FORCE)
+OZ_IN = OperandUnit(name="oz-in", si=units.OUNCE_INCH)
+REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
@@ -56,7 +56,7 @@ class Operand:
     name: str
     """As the manual calls it."""
     takes: tuple[type[Value], ...]
-    units: tuple[Unit, ...] = ()
+    units: tuple[OperandUnit, ...] = ()
     """Of a number: one; of a vector: one for each component."""
     low: float = -BIGGEST
     high: float = BIGGEST
@@ -67,6 +67,8 @@ class Operand:
     choices: tuple[float, ...] = ()
     free: bool = False
     """Words up to the end of the line, with or without quotes."""
+    components: tuple[str, ...] = ()
+    """The letters of a vector, which its name has in brackets."""
     optional: bool = False
     nil: bool = False
     """`NIL` may stand here, for nothing."""
@@ -78,7 +80,7 @@ class Operand:
     @property
     def is_vector(self) -> bool:
         """Whether nothing but a vector, or the name of one, may stand here."""
-        return self.name.startswith("[")
+        return bool(self.components)
 
     @property
     def plain(self) -> str:

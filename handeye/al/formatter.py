@@ -6,7 +6,7 @@ from typing import Final
 from handeye.al.hints import with_digits
 from handeye.al.instructions import FREE
 from handeye.al.operands import free_text
-from handeye.al.scanner import Kind, Line, Token, scan
+from handeye.al.scanner import Line, Token, TokenKind, scan
 
 OPERATION: Final = 8
 OPERANDS: Final = 16
@@ -26,7 +26,7 @@ def _format(line: Line) -> str:
     if tokens and tokens[0].text.upper() == "DEFINE":
         text = " ".join((text, "DEFINE", _operands(tokens[1:]))).strip(" ")
     elif tokens:
-        word = tokens[0].text.upper() if tokens[0].kind is Kind.NAME else tokens[0].text
+        word = tokens[0].text.upper() if tokens[0].kind is TokenKind.NAME else tokens[0].text
         operands = free_text(tokens[1:]) if word in FREE and tokens[1:] else _operands(tokens[1:])
         text = _column(text, OPERATION) + word
         text = _column(text, OPERANDS) + operands if operands else text

@@ -59,7 +59,7 @@ _TABLE = (
         help="move straight from the present place: direction in table coordinates, inches, inches a second "
         "(0: the usual speed)",
         operands=(
-            named_vector("[x y z]", ONE),
+            named_vector(ONE),
             Operand(name="distance", takes=(Number,), units=(IN,), nonzero=True),
             _NIL,
             number("speed", IN_PER_S, 0.0, optional=True, ours=True),
@@ -126,7 +126,7 @@ _TABLE = (
         op="FREE",
         group=MODIFIERS,
         help="give way to force along these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-        operands=(vector("[x y z]", ONE, ONE, ONE),),
+        operands=(vector(x=ONE, y=ONE, z=ONE),),
         axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
@@ -135,7 +135,7 @@ _TABLE = (
         op="SPIN",
         group=MODIFIERS,
         help="give way to a moment about these table axes during the next CHANGE: 1 or 0 each, or `2 X Y`",
-        operands=(vector("[x y z]", ONE, ONE, ONE),),
+        operands=(vector(x=ONE, y=ONE, z=ONE),),
         axes=True,
         role=Role.MODIFIER,
         fits=("CHANGE",),
@@ -272,7 +272,7 @@ _TABLE = (
         help="a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
         operands=(
             name_of("name", Refers.NEW),
-            vector("[x y z o a t]", IN, IN, IN, DEG, DEG, DEG),
+            vector(x=IN, y=IN, z=IN, o=DEG, a=DEG, t=DEG),
             Operand(name="part", takes=(Name,), refers=Refers.PART, word="OF", optional=True, ours=True),
         ),
         role=Role.DECLARATION,
@@ -282,7 +282,7 @@ _TABLE = (
         group=PLACES,
         help="a vector that STOP, FORCE and CHANGE can name; in ounces, ounce-inches or no unit, as its place has it; "
         "X, Y and Z are there already",
-        operands=(name_of("name", Refers.NEW), vector("[x y z]", ONE, ONE, ONE)),
+        operands=(name_of("name", Refers.NEW), vector(x=ONE, y=ONE, z=ONE)),
         role=Role.DECLARATION,
     ),
     Instruction(

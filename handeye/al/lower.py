@@ -14,7 +14,7 @@ from handeye.al.macros import Call, Placed
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
 from handeye.program.operations import AnyOperation, Move
-from handeye.program.program import Step, Words
+from handeye.program.program import SourcePlace, Step
 from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
@@ -68,11 +68,11 @@ def _step(source: Source, draft: "_Draft") -> Step:
     )  # fmt: skip
 
 
-def _words(source: Source, statement: Statement) -> Words:
+def _words(source: Source, statement: Statement) -> SourcePlace:
     text, start = source.find(statement.start)
     column = text.column(start)
     span = (column, column + statement.end - statement.start)
-    return Words(file=text.key, line=statement.line, span=span)
+    return SourcePlace(file=text.key, line=statement.line, span=span)
 
 
 class _Draft(msgspec.Struct, gc=False):

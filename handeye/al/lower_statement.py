@@ -63,6 +63,10 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
     def number_or(self, key: str) -> float | None:
         return self.number(key) if isinstance(self.values[self.places[key][0]], Number) else None
 
+    def names(self) -> tuple[str, ...]:
+        """All that are names, in their order."""
+        return tuple([value.text for value in self.values if isinstance(value, Name)])
+
     def name(self, key: str) -> str:
         value = self.values[self.places[key][0]]
         assert isinstance(value, (Name, Text))
@@ -95,16 +99,7 @@ def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOper
     for modifier in modifiers:
         assert modifier.word is not None
         word, operands = modifier.word.text, _operands(modifier)
-        if word == "FORCE":
-            how = replace(how, press=operands.vector3_or("force"), moment=operands.vector3_or("moment"))
-        elif word == "FREE":
-            how = replace(how, free=operands.vector3("[x y z]"))
-        elif word == "SPIN":
-            how = replace(how, spin=operands.vector3("[x y z]"))
-        elif word == "VIA":
-            how = replace(how, via=tuple(v.text for v in modifier.operands if isinstance(v, Name)))
-        else:
-            how = replace(how, guards=_GUARDS[word](operands))
+        how = _MODIFIERS[word](how, operands)
     motion = _MOTIONS.get(statement.word.text)
     if motion is not None:
         return motion(_operands(statement), how)
@@ -155,10 +150,14 @@ def _place(_: Operands, how: _How) -> p.Change:
     return p.Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
 
 
-_GUARDS: Final[dict[str, Callable[[Operands], g.Guards]]] = {
-    "STOP": _stop,
-    "TORQUE": lambda o: (g.Torque(torque=o.number("torque")),),
-    "TOUCH": lambda o: (g.Touch(fingers=int(o.number("mask"))),),
+_MODIFIERS: Final[dict[str, Callable[[_How, Operands], _How]]] = {
+    "FORCE": lambda how, o: replace(how, press=o.vector3_or("force"), moment=o.vector3_or("moment")),
+    "FREE": lambda how, o: replace(how, free=o.vector3("[x y z]")),
+    "SPIN": lambda how, o: replace(how, spin=o.vector3("[x y z]")),
+    "VIA": lambda how, o: replace(how, via=o.names()),
+    "STOP": lambda how, o: replace(how, guards=_stop(o)),
+    "TORQUE": lambda how, o: replace(how, guards=(g.Torque(torque=o.number("torque")),)),
+    "TOUCH": lambda how, o: replace(how, guards=(g.Touch(fingers=int(o.number("mask"))),)),
 }
 _MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
     "MOVE": lambda o, how: p.Move(

@@ -1,15 +1,16 @@
 """The kinds of places for operands that instructions have."""
 
+from dataclasses import replace
 from typing import Final
 
-from handeye.al.definition import ANY, BIGGEST, IN, ONE, OZ_IN, Operand, Refers, Unit
+from handeye.al.definition import ANY, BIGGEST, IN, ONE, OZ_IN, Operand, OperandUnit, Refers
 from handeye.al.syntax import Name, Number, Vector
 
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
 
 
 def number(
-    name: str, unit: Unit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
+    name: str, unit: OperandUnit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
 ) -> Operand:
     """A number in a unit, perhaps with a least one."""
     why = f"it has to be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
@@ -24,14 +25,15 @@ def gap(name: str, *, optional: bool = False, ours: bool = False) -> Operand:
     )
 
 
-def vector(name: str, *components: Unit) -> Operand:
-    """A vector, with a unit for each component."""
-    return Operand(name=name, takes=(Vector,), units=components)
+def vector(**components: OperandUnit) -> Operand:
+    """A vector, with a letter and a unit for each component."""
+    name, units = f"[{' '.join(components)}]", tuple(components.values())
+    return Operand(name=name, takes=(Vector,), units=units, components=tuple(components))
 
 
-def named_vector(name: str, unit: Unit) -> Operand:
+def named_vector(unit: OperandUnit) -> Operand:
     """A vector of three components in one unit, or the name of one."""
-    return Operand(name=name, takes=(Vector, Name), units=(unit,) * 3, refers=Refers.VECTOR)
+    return replace(vector(x=unit, y=unit, z=unit), takes=(Vector, Name), refers=Refers.VECTOR)
 
 
 def name_of(name: str, refers: Refers) -> Operand:

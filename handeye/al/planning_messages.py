@@ -17,8 +17,8 @@ from handeye.program.findings import (
     TooHeavy,
     TooWeak,
 )
-from handeye.program.program import Program, Step, Words
-from handeye.program.reason_text import Arm, named, sentence
+from handeye.program.program import Program, SourcePlace, Step
+from handeye.program.reason_text import NamedArm, named, sentence
 from handeye.program.reasons import (
     BelowTable,
     InLine,
@@ -44,7 +44,9 @@ _FORCE_WORDS: Final = ("STOP", "FORCE")
 """Modifiers that a force or moment of the hand stands in."""
 
 
-def planning_diagnostics(program: Program, arm: Arm, findings: Iterable[PlanningFinding]) -> list[Diagnostic]:
+def planning_diagnostics(
+    program: Program, arm: NamedArm, findings: Iterable[PlanningFinding]
+) -> list[Diagnostic]:
     """What was found against a program on an arm, by position; spans are of the whole."""
     phrases = _Phrases(program, arm)
     return arranged(_PHRASES[type(finding)](phrases, finding) for finding in findings)
@@ -53,7 +55,7 @@ def planning_diagnostics(program: Program, arm: Arm, findings: Iterable[Planning
 @dataclass(slots=True)
 class _Phrases:
     program: Program
-    arm: Arm
+    arm: NamedArm
     whole: Source = field(init=False)
 
     def __post_init__(self) -> None:
@@ -197,7 +199,7 @@ class _Phrases:
     def name_span(self, number: int, name: str) -> Span:
         """The name of a position in a statement or in one of its modifiers; else the word of the statement."""
         step = self.program.steps[number]
-        places: tuple[Step | Words, ...] = (*step.modifiers, step)
+        places: tuple[Step | SourcePlace, ...] = (*step.modifiers, step)
         found = (self.find(words, name, behind=1) for words in places)
         return next((span for span in found if span is not None), self.word_span(number))
 
@@ -206,7 +208,7 @@ class _Phrases:
         found = (self.find(words, word) for words in self.program.steps[number].modifiers)
         return next((span for span in found if span is not None), self.word_span(number))
 
-    def find(self, words: Step | Words, word: str, *, behind: int = 0) -> Span | None:
+    def find(self, words: Step | SourcePlace, word: str, *, behind: int = 0) -> Span | None:
         """Where a word stands among some words, the first `behind` left out."""
         span = self.span(words)
         text, start = self.whole.find(span.start)
@@ -214,7 +216,7 @@ class _Phrases:
         tokens = [token for line in lines for token in line.tokens][behind:]
         return next((token.span for token in tokens if token.text.upper() == word.upper()), None)
 
-    def span(self, words: Step | Words) -> Span:
+    def span(self, words: Step | SourcePlace) -> Span:
         return self.whole.span(words.file, words.line, words.span)
 
 

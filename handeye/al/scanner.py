@@ -8,7 +8,7 @@ import msgspec
 from handeye.source import Located
 
 
-class Kind(Enum):
+class TokenKind(Enum):
     """What a token is."""
 
     NAME = "name"
@@ -18,14 +18,14 @@ class Kind(Enum):
     JUNK = "junk"
 
 
-NAME, NUMBER, STRING, MARK, JUNK = Kind
+NAME, NUMBER, STRING, MARK, JUNK = TokenKind
 """For those who ask often: a member of an enumeration takes its time to be found."""
 
 
 class Token(Located, frozen=True, gc=False):
     """A piece of the text; its offsets are of the whole."""
 
-    kind: Kind
+    kind: TokenKind
     text: str
 
 
@@ -69,7 +69,7 @@ _TOKEN = re.compile(
     )""",
     re.ASCII | re.VERBOSE,
 )
-_KINDS = {_TOKEN.groupindex[kind.name]: kind for kind in Kind}
+_KINDS = {_TOKEN.groupindex[kind.name]: kind for kind in TokenKind}
 _COMMENT = _TOKEN.groupindex["COMMENT"]
 
 

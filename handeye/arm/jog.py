@@ -8,7 +8,7 @@ from handeye.arm.ik import IKResult
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples, check_samples
 from handeye.pose import Array
-from handeye.program.reasons import Held
+from handeye.program.reasons import HeldJoint
 
 _FASTEST: Final = 1.875
 """Greatest rate of the motion 10 s3 - 15 s4 + 6 s5, as a multiple of its mean."""
@@ -25,7 +25,7 @@ def jog(arm: ArmModel, q: Array, joint: int, goal: float, *, speed: float) -> Sa
         speed: share of the joint's greatest rate; its square of the acceleration.
     """
     if arm.joints[joint].name in arm.held:
-        return IKResult(reason=Held(joint, arm.held[arm.joints[joint].name]))
+        return IKResult(reason=HeldJoint(joint, arm.held[arm.joints[joint].name]))
     distance, limits, period = goal - q[joint], arm.joints[joint], arm.servo.period
     least = max(
         _FASTEST * abs(distance) / (speed * limits.speed),

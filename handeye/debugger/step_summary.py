@@ -6,7 +6,7 @@ from typing import Final
 from handeye import events as happened
 from handeye.debugger.listing import one_line
 from handeye.events import AnyEvent
-from handeye.program.operations import Center, Close, Open
+from handeye.program.operation import Operation
 from handeye.record import Record
 from handeye.runs.system import Listing
 from handeye.trace.sentences import inches, sentence
@@ -16,7 +16,6 @@ _BETWEEN: Final = (happened.StageStarted, happened.OperatorAnswered, happened.Ex
 """What happens between two steps."""
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
 """What happens in a step and is told otherwise, or not at all."""
-_HAND: Final = (Open, Close, Center)
 """Operations that come to a gap; other actions come to a place."""
 
 
@@ -79,6 +78,6 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
     if last is None or last.time == step.time:
         return ""
     operation = getattr(program.steps[step.step], "operation", None)  # other systems have none
-    if isinstance(operation, _HAND) and last.gap is not None:
+    if isinstance(operation, Operation) and operation.needs == "hand" and last.gap is not None:
         return f"gap {last.gap / INCH:.2f} in"
     return "" if last.hand is None else f"hand at {inches(last.hand)}"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from handeye.al.definition import NIL, Operand, Refers
 from handeye.al.instructions import AXES, EXPLAINED
-from handeye.al.scanner import Kind, scan
+from handeye.al.scanner import TokenKind, scan
 from handeye.al.syntax import Name
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION
@@ -68,7 +68,7 @@ def _word_before(text: str) -> str:
 
 def _in_string(text: str) -> bool:
     tokens = scan(text + "\n")[0].tokens
-    return bool(tokens) and tokens[-1].kind is Kind.STRING and text.endswith(tokens[-1].text)
+    return bool(tokens) and tokens[-1].kind is TokenKind.STRING and text.endswith(tokens[-1].text)
 
 
 def _instructions() -> Iterator[Proposal]:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.scanner import Kind
+from handeye.al.scanner import TokenKind
 from handeye.al.syntax import Name, Text
 from handeye.diagnostics import Diagnostic, quoted
 from handeye.editor.completion import names
@@ -99,7 +99,7 @@ def fill_in(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
 
 def nearest_number(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     operand, token = operand_of(line_of(document, diagnostic), diagnostic)
-    if operand is None or token is None or token.kind is not Kind.NUMBER:
+    if operand is None or token is None or token.kind is not TokenKind.NUMBER:
         return
     value = float(token.text)
     for choice in sorted(operand.choices, key=lambda c: abs(c - value)):

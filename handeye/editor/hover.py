@@ -7,9 +7,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.al.definition import Instruction, Unit
+from handeye.al.definition import Instruction, OperandUnit
 from handeye.al.instructions import DEFINE
-from handeye.al.scanner import Kind, Line, Token
+from handeye.al.scanner import Line, Token, TokenKind
 from handeye.al.syntax import Number, Vector
 from handeye.arm.ik import solve
 from handeye.arm.model import ArmModel
@@ -82,7 +82,7 @@ def _about_value(definition: Instruction, place: Place) -> str | None:
         return None
     if operand.word and token.text.upper() == operand.word:
         return f"`{definition.usage}`"
-    if token.kind is not Kind.NUMBER:
+    if token.kind is not TokenKind.NUMBER:
         return None
     try:
         value = float(token.text)
@@ -93,12 +93,12 @@ def _about_value(definition: Instruction, place: Place) -> str | None:
     vector = Vector in operand.takes and (Number not in operand.takes or place.component > 0)
     units = operand.units
     unit = units[place.component] if vector and place.component < len(units) else units[0] if units else None
-    letters = operand.name.strip("[]").split() if operand.name.startswith("[") else [operand.name]
+    letters = operand.components or (operand.name,)
     name = letters[place.component] if len(letters) == len(units) else operand.name
     return f"{name}: {in_both_units(value, unit)}" if unit is not None else None
 
 
-def in_both_units(value: float, unit: Unit) -> str:
+def in_both_units(value: float, unit: OperandUnit) -> str:
     """A quantity as written and in the other system of units."""
     if unit.name not in SI:
         return f"{value:g} {unit.name}".rstrip()

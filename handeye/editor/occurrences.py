@@ -6,7 +6,7 @@ from typing import Final
 
 from handeye.al.definition import Instruction, Refers
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.scanner import Kind, Line, scan
+from handeye.al.scanner import Line, TokenKind, scan
 from handeye.al.syntax import Name
 from handeye.editor.places import instruction, places
 from handeye.source import Span
@@ -70,7 +70,7 @@ def makes(definition: Instruction) -> str | None:
 def _macros(lines: Sequence[Line]) -> Iterator[Occurrence]:
     for line in lines:
         _, tokens = instruction(line)
-        if len(tokens) > 1 and tokens[0].text.upper() == "DEFINE" and tokens[1].kind is Kind.NAME:
+        if len(tokens) > 1 and tokens[0].text.upper() == "DEFINE" and tokens[1].kind is TokenKind.NAME:
             yield Occurrence(kind=MACRO, name=tokens[1].text.upper(), span=tokens[1].span, makes=True)
 
 
@@ -100,7 +100,7 @@ def _operands(line: Line, scope: str, parts: set[str]) -> Iterator[Occurrence]:
         yield Occurrence(kind=POSITION, name=PARK, span=tokens[0].span, makes=False, fixed=True)
     for place in places(definition, tokens[1:]):
         operand, token = place.operand, place.token
-        if operand is None or token.kind is not Kind.NAME or Name not in operand.takes:
+        if operand is None or token.kind is not TokenKind.NAME or Name not in operand.takes:
             continue
         if token.text.upper() == operand.word:
             continue

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from handeye.al.scanner import Kind
+from handeye.al.scanner import TokenKind
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO
 from handeye.editor.places import instruction
@@ -54,7 +54,7 @@ def _stages(document: Document) -> list[Symbol]:
     for line in document.lines:
         definition, tokens = instruction(line)
         if definition is not None and definition.op == "STAGE" and len(tokens) > 1:
-            quoted = tokens[1].text.strip('"') if tokens[1].kind is Kind.STRING else tokens[1].text
+            quoted = tokens[1].text.strip('"') if tokens[1].kind is TokenKind.STRING else tokens[1].text
             _close(found, line.start)
             found.append(
                 Symbol(

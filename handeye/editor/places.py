@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from handeye.al.definition import Instruction, Operand
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.scanner import Kind, Line, Token
+from handeye.al.scanner import Line, Token, TokenKind
 from handeye.al.syntax import Vector
 
 SEPARATOR = ","
@@ -28,7 +28,7 @@ class Place:
 def instruction(line: Line) -> tuple[Instruction | None, tuple[Token, ...]]:
     """The instruction of a line, if it is one, and the tokens from its word on (none: labels at most)."""
     tokens = line.split()[1]
-    known = bool(tokens) and tokens[0].kind is Kind.NAME
+    known = bool(tokens) and tokens[0].kind is TokenKind.NAME
     return (INSTRUCTIONS.get(tokens[0].text.upper()) if known else None), tokens
 
 

@@ -19,7 +19,7 @@ from handeye.program.taught import Taught, load_taught
 from handeye.source import Source, Span, line_name, read_source
 
 
-class Script:
+class EditedScript:
     """A document, and how its client counts."""
 
     def __init__(self, workspace: Workspace, uri: str) -> None:

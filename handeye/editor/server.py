@@ -9,7 +9,7 @@ from pygls.lsp.server import LanguageServer
 from handeye import __version__
 from handeye.diagnostics import Diagnostic
 from handeye.editor.checking import planning
-from handeye.editor.script import Script
+from handeye.editor.script import EditedScript
 from handeye.program.taught import Taught
 from handeye.source import Source, Span
 
@@ -24,17 +24,17 @@ class ArmServer(LanguageServer):
         super().__init__("handeye", __version__)
         self.planned: dict[str, tuple[Source, Taught, list[Diagnostic]]] = {}
 
-    def script(self, uri: str) -> Script:
+    def script(self, uri: str) -> EditedScript:
         """A script as it is now."""
-        return Script(self.workspace, uri)
+        return EditedScript(self.workspace, uri)
 
-    def diagnostics(self, script: Script) -> list[Diagnostic]:
+    def diagnostics(self, script: EditedScript) -> list[Diagnostic]:
         """What is known about a script by now: the planner's part only if it is about this very text."""
         whole, taught, problems = self.planned.get(script.uri, (None, None, []))
         known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]
 
-    def publish(self, script: Script) -> None:
+    def publish(self, script: EditedScript) -> None:
         """Tell the client what is known about a script."""
         found = [script.told(problem) for problem in self.diagnostics(script)]
         if script.problem is not None:
@@ -59,6 +59,6 @@ class ArmServer(LanguageServer):
             self.planned[uri] = (script.document.whole, script.document.taught, problems)
             self.publish(script)
 
-    def _is_old(self, script: Script) -> bool:
+    def _is_old(self, script: EditedScript) -> bool:
         documents = self.workspace.text_documents
         return script.uri not in documents or documents[script.uri].version != script.version

@@ -4,11 +4,11 @@ from typing import Final
 
 from handeye.errors import InvalidInput
 from handeye.ports.workcell import Workcell
-from handeye.program import operations as op
+from handeye.program.operation import Device
 from handeye.program.program import Program
 
-_HAND: Final = (op.Open, op.Close, op.Center)
-_CAMERA: Final = (op.Lens, op.Aim, op.Look)
+_CALLED: Final[dict[Device, str]] = {"camera": "television camera"}
+"""Devices that people call otherwise."""
 
 
 def check_devices(program: Program, cell: Workcell) -> None:
@@ -17,12 +17,9 @@ def check_devices(program: Program, cell: Workcell) -> None:
     Raises:
         InvalidInput: a step needs one that is not there.
     """
-    there = {
-        "hand": (cell.hand is not None, _HAND),
-        "screwdriver": (cell.screwdriver is not None, (op.Tool,)),
-        "television camera": (cell.camera is not None, _CAMERA),
-    }
+    devices = {"hand": cell.hand, "screwdriver": cell.screwdriver, "camera": cell.camera}
     for step in program.steps:
-        for device, (available, operations) in there.items():
-            if isinstance(step.operation, operations) and not available:
-                raise InvalidInput(f"line {step.place} needs a {device}, which this cell does not have")
+        needed = step.operation.needs
+        if needed is not None and devices[needed] is None:
+            called = _CALLED.get(needed, needed)
+            raise InvalidInput(f"line {step.place} needs a {called}, which this cell does not have")

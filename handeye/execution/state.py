@@ -22,7 +22,7 @@ from handeye.touch.spiral import spiral
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera import View
-from handeye.vision.gasket import Inspection
+from handeye.vision.gasket import GasketInspection
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,7 +60,7 @@ class Found:
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
-    inspection: Inspection | None = None
+    inspection: GasketInspection | None = None
 
 
 class DriveState(MutableRecord, kw_only=True):

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from handeye.inspection.flow import Edge, Node
+from handeye.inspection.flow import Node, Way
 
 WIDTH: Final = 264
 """Of a step."""
@@ -30,9 +30,9 @@ class Column:
     """Steps one below the other."""
 
     nodes: tuple[Node, ...]
-    back: dict[Edge, int]
+    back: dict[Way, int]
     """Lanes of the ways that go back, on the left; 0 is next to the steps."""
-    skip: dict[Edge, int]
+    skip: dict[Way, int]
     """Lanes of those that skip something, on the right."""
 
     @property
@@ -51,7 +51,7 @@ class Column:
         return sum(height(node) + GAP for node in self.nodes) - GAP
 
 
-def _breadth(lanes: dict[Edge, int]) -> float:
+def _breadth(lanes: dict[Way, int]) -> float:
     deepest = max(lanes.values(), default=-1) + 1
     return SIDE + (SIDE + LANE * deepest if deepest else 0)
 
@@ -61,7 +61,7 @@ def height(node: Node) -> float:
     return ROW + NOTE * len(node.notes)
 
 
-def columns(nodes: Sequence[Node], edges: Sequence[Edge]) -> list[Column]:
+def columns(nodes: Sequence[Node], edges: Sequence[Way]) -> list[Column]:
     """The steps of a stage in columns of equal height as nearly as loops allow."""
     total = sum(height(node) + GAP for node in nodes)
     goal = total / max(1, round(total / TALL + 0.2))
@@ -86,7 +86,7 @@ def columns(nodes: Sequence[Node], edges: Sequence[Edge]) -> list[Column]:
     ]
 
 
-def _lanes(column: Sequence[Node], edges: Sequence[Edge], side: str) -> dict[Edge, int]:
+def _lanes(column: Sequence[Node], edges: Sequence[Way], side: str) -> dict[Way, int]:
     """A lane for each way that goes back, or skips something, within a column; short ones inside."""
     place = {node.step: at for at, node in enumerate(column)}
     found = []
@@ -96,7 +96,7 @@ def _lanes(column: Sequence[Node], edges: Sequence[Edge], side: str) -> dict[Edg
             if (span <= 0 and side == "back") or (span > 1 and side == "skip"):
                 found.append((abs(span), min(place[edge.start], place[edge.end]), edge))
     taken: list[list[tuple[int, int]]] = []
-    lanes: dict[Edge, int] = {}
+    lanes: dict[Way, int] = {}
     for span, low, edge in sorted(found, key=lambda item: item[:2]):
         high = low + span
         lane = next((n for n, of in enumerate(taken) if all(high < a or b < low for a, b in of)), len(taken))

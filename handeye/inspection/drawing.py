@@ -4,8 +4,8 @@ from html import escape
 from typing import Final
 
 from handeye.inspection.columns import NOTE, ROW, WIDTH
-from handeye.inspection.flow import Edge, Flow
-from handeye.inspection.layout import Box, Layout, Point, Route, layout
+from handeye.inspection.flow import Flow, Way
+from handeye.inspection.layout import Layout, Point, Route, StepBox, layout
 from handeye.inspection.wording import counted
 
 COLOURS: Final = {
@@ -75,7 +75,7 @@ def _areas(graph: Flow, placed: Layout) -> list[str]:
     return out
 
 
-def _box(box: Box) -> str:
+def _box(box: StepBox) -> str:
     node = box.node
     paper, ink = COLOURS[node.kind]
     middle = ROW / 2 + 4
@@ -106,7 +106,7 @@ def _route(route: Route, graph: Flow) -> str:
     return f'{line}<text class="l h" x="{x + 8:g}" y="{y + 4:g}">{said}</text>'
 
 
-def _outside(edge: Edge, graph: Flow) -> str:
+def _outside(edge: Way, graph: Flow) -> str:
     return "end" if edge.end is None else f"to {graph.outside[edge.end]}"
 
 

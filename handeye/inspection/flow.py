@@ -26,7 +26,7 @@ class Node:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Edge:
+class Way:
     """A way from one step to another."""
 
     start: int
@@ -45,7 +45,7 @@ class Flow:
     """Of the whole plan."""
     nodes: tuple[Node, ...]
     """In the order of the text."""
-    edges: tuple[Edge, ...]
+    edges: tuple[Way, ...]
     outside: dict[int, str]
     """Steps that ways lead to and that are not shown, with their stages."""
 
@@ -91,11 +91,11 @@ def _node(plan: Plan, number: int) -> Node:
     )  # fmt: skip
 
 
-def _ways(number: int, step: Step) -> list[Edge]:
+def _ways(number: int, step: Step) -> list[Way]:
     branch = step.operation.branch
     if branch is None or branch.error is None:
-        return [Edge(start=number, end=end) for end in dict.fromkeys(step.ways)]
-    return [Edge(start=number, end=step.next), Edge(start=number, end=branch.target, error=branch.error)]
+        return [Way(start=number, end=end) for end in dict.fromkeys(step.ways)]
+    return [Way(start=number, end=step.next), Way(start=number, end=branch.target, error=branch.error)]
 
 
 def _quoted(text: str) -> str:

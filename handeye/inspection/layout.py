@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import Final, Literal
 
 from handeye.inspection.columns import GAP, LANE, SIDE, WIDTH, Column, columns, height
-from handeye.inspection.flow import Edge, Flow, Node
+from handeye.inspection.flow import Flow, Node, Way
 
 TOP: Final = 76
 """Over the columns: names of the stages, and the ways round the top."""
@@ -26,7 +26,7 @@ Point = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Box:
+class StepBox:
     """A step in its place; x, y is the upper left corner."""
 
     node: Node
@@ -39,7 +39,7 @@ class Box:
 class Route:
     """The line of a way, from corner to corner."""
 
-    edge: Edge
+    edge: Way
     points: tuple[Point, ...]
     kind: Literal["down", "back", "skip", "over", "out"]
     """Down to the next, back, past some steps, to another column, or out of what is drawn."""
@@ -62,7 +62,7 @@ class Area:
 class Layout:
     """A flow graph in its place."""
 
-    boxes: tuple[Box, ...]
+    boxes: tuple[StepBox, ...]
     routes: tuple[Route, ...]
     areas: tuple[Area, ...]
     width: float
@@ -73,8 +73,8 @@ class Layout:
 class _Shelves:
     """Stages side by side, and below those before when there is no room."""
 
-    edges: tuple[Edge, ...]
-    boxes: dict[int, Box] = field(default_factory=dict)
+    edges: tuple[Way, ...]
+    boxes: dict[int, StepBox] = field(default_factory=dict)
     areas: list[Area] = field(default_factory=list)
     routes: list[Route] = field(default_factory=list)
     borders: dict[int, tuple[float, float, float]] = field(default_factory=dict)
@@ -105,7 +105,7 @@ class _Shelves:
     def _fill(self, column: Column) -> None:
         y = self.y + TOP
         for node in column.nodes:
-            self.boxes[node.step] = Box(node=node, x=self.x + column.before, y=y, height=height(node))
+            self.boxes[node.step] = StepBox(node=node, x=self.x + column.before, y=y, height=height(node))
             self.borders[node.step] = (self.x, self.x + column.width, self.y)
             y += height(node) + GAP
         self.routes += [_beside(edge, lane, "back", self.boxes) for edge, lane in column.back.items()]
@@ -125,7 +125,7 @@ def layout(graph: Flow) -> Layout:
     )  # fmt: skip
 
 
-def _beside(edge: Edge, lane: int, side: str, boxes: dict[int, Box]) -> Route:
+def _beside(edge: Way, lane: int, side: str, boxes: dict[int, StepBox]) -> Route:
     assert edge.end is not None
     one, other = boxes[edge.start], boxes[edge.end]
     start, end = one.y + one.height * 0.62, other.y + other.height * 0.38
@@ -137,7 +137,7 @@ def _beside(edge: Edge, lane: int, side: str, boxes: dict[int, Box]) -> Route:
     return Route(edge=edge, points=points, kind="back" if side == "back" else "skip")
 
 
-def _plain(edge: Edge, boxes: dict[int, Box], borders: dict[int, tuple[float, float, float]]) -> Route:
+def _plain(edge: Way, boxes: dict[int, StepBox], borders: dict[int, tuple[float, float, float]]) -> Route:
     """The way down, to another column, or out."""
     one, other = boxes[edge.start], None if edge.end is None else boxes.get(edge.end)
     middle, bottom, y = one.x + WIDTH / 2, one.y + one.height, one.y + one.height * 0.62

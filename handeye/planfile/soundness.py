@@ -13,7 +13,7 @@ from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.guards import AnyGuard
 from handeye.program.operation import Use
 from handeye.program.operations import AnyOperation
-from handeye.program.program import Program, Step, Words
+from handeye.program.program import Program, SourcePlace, Step
 
 _NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 """Names that become file names."""
@@ -93,7 +93,7 @@ def _references(plan: Plan, step: Step) -> Iterator[str]:
 
 def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """Places of a step and its modifiers that the source does not have."""
-    parts: tuple[Step | Words, ...] = (step, *step.modifiers)
+    parts: tuple[Step | SourcePlace, ...] = (step, *step.modifiers)
     for words in parts:
         there = lines.get(words.file, ())
         start, end = words.span

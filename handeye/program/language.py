@@ -11,7 +11,7 @@ from pathlib import Path, PurePath
 from handeye.diagnostics import Diagnostic
 from handeye.program.findings import PlanningFinding
 from handeye.program.program import Program
-from handeye.program.reason_text import Arm
+from handeye.program.reason_text import NamedArm
 from handeye.program.taught import Taught
 from handeye.source import Source
 
@@ -27,7 +27,7 @@ class Language:
     read: Callable[[Path], Source]
     """The script in a file with all that belongs to it; raises InvalidInput if it cannot be read."""
     compile: Callable[[Source, Taught], Compiled]
-    phrase: Callable[[Program, Arm, Iterable[PlanningFinding]], list[Diagnostic]]
+    phrase: Callable[[Program, NamedArm, Iterable[PlanningFinding]], list[Diagnostic]]
     """What a planner found against a program for an arm, at its places in the text."""
 
 

@@ -11,6 +11,7 @@ Kind = Literal["position", "part", "target", "picture", "difference", "counter",
 """Kinds of what a run keeps: where things are (a target is a position or a part), pictures taken, differences saved,
 counters; the search that is set up, the goal of the last Move, and how far the last Change went."""
 Family = Literal["motion", "hand", "sight", "test", "search", "other"]
+Device = Literal["hand", "screwdriver", "camera"]
 Fields = Mapping[Kind, tuple[str, ...]]
 """Fields of an operation that hold names of some kinds; no field: there is only one of that kind, without a name."""
 
@@ -47,6 +48,8 @@ class Operation(
     moves: ClassVar[bool] = False
     """The arm, or its hand, stands otherwise afterwards."""
     takes_time: ClassVar[bool] = False
+    needs: ClassVar[Device | None] = None
+    """The device besides the arm that it is carried out with."""
     planned: ClassVar[bool] = False
     """It cannot be carried out without a planned motion."""
     only_checks: ClassVar[bool] = False

@@ -134,6 +134,7 @@ class Open(Operation, frozen=True, kw_only=True):
     """Drive the fingers to a gap."""
 
     family: ClassVar = "hand"
+    needs: ClassVar = "hand"
     moves: ClassVar = True
     takes_time: ClassVar = True
     raising: ClassVar = action()
@@ -146,6 +147,7 @@ class Close(Operation, frozen=True, kw_only=True):
     """Close until both switches fire; error 2 below `minimum`, error 7 above `maximum` (m)."""
 
     family: ClassVar = "hand"
+    needs: ClassVar = "hand"
     moves: ClassVar = True
     takes_time: ClassVar = True
     raising: ClassVar = action(errors.NOTHING_HELD)
@@ -164,6 +166,7 @@ class Center(Operation, frozen=True, kw_only=True):
     """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m)."""
 
     family: ClassVar = "hand"
+    needs: ClassVar = "hand"
     moves: ClassVar = True
     takes_time: ClassVar = True
     raising: ClassVar = action(errors.NOTHING_HELD, errors.JOINT_LIMIT, errors.SERVO_LAG)
@@ -300,6 +303,7 @@ class Tool(Operation, frozen=True, kw_only=True):
     """Set the screwdriver's spindle speed, rad/s; 0 is off."""
 
     family: ClassVar = "hand"
+    needs: ClassVar = "screwdriver"
     bounds: ClassVar = {"speed": (-1e3, 1e3)}
 
     speed: float
@@ -322,6 +326,7 @@ class Lens(Operation, frozen=True, kw_only=True):
     """Turn the lens turret; focal length in m."""
 
     family: ClassVar = "sight"
+    needs: ClassVar = "camera"
     takes_time: ClassVar = True
     raising: ClassVar = action()
     choices: ClassVar = {"focal_length": LENSES}
@@ -333,6 +338,7 @@ class Aim(Operation, frozen=True, kw_only=True):
     """Point the camera at a position or part and focus there."""
 
     family: ClassVar = "sight"
+    needs: ClassVar = "camera"
     takes_time: ClassVar = True
     raising: ClassVar = action()
     reading: ClassVar = {"target": ("target",)}
@@ -344,6 +350,7 @@ class Look(Operation, frozen=True, kw_only=True):
     """Take a picture under a name."""
 
     family: ClassVar = "sight"
+    needs: ClassVar = "camera"
     takes_time: ClassVar = True
     raising: ClassVar = action()
     writing: ClassVar = {"picture": ("picture",)}

@@ -19,7 +19,7 @@ Columns = tuple[int, int]
 one line of a script leaves what the others have become as it was."""
 
 
-class Words(Record, frozen=True, kw_only=True, omit_defaults=True):
+class SourcePlace(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Where some words of the source stand."""
 
     file: str = ""
@@ -47,7 +47,7 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Where on that line its statement stands."""
     text: str
     """That statement, for people."""
-    modifiers: tuple[Words, ...] = ()
+    modifiers: tuple[SourcePlace, ...] = ()
     """The statements that say more of its operation."""
     next: int | None
     """Step that follows; None ends the program."""

@@ -7,7 +7,7 @@ from handeye.program.reasons import (
     BelowTable,
     FixedDirection,
     FixedOrientation,
-    Held,
+    HeldJoint,
     InLine,
     InnerCylinder,
     JointLimit,
@@ -19,7 +19,7 @@ from handeye.program.reasons import (
 from handeye.units import DEGREE, INCH
 
 
-class Joint(Protocol):
+class NamedJoint(Protocol):
     """A joint, as people are told of it."""
 
     @property
@@ -33,7 +33,7 @@ class Joint(Protocol):
         ...
 
 
-class Arm(Protocol):
+class NamedArm(Protocol):
     """An arm, as people are told of it."""
 
     @property
@@ -42,12 +42,12 @@ class Arm(Protocol):
         ...
 
     @property
-    def joints(self) -> Sequence[Joint]:
+    def joints(self) -> Sequence[NamedJoint]:
         """From the base to the hand."""
         ...
 
 
-def sentence(arm: Arm, reason: Reason) -> str:
+def sentence(arm: NamedArm, reason: Reason) -> str:
     """A reason for people: inches and degrees, joints by number and name."""
     match reason:
         case OutOfReach() | TooNear() | JointLimit():
@@ -64,7 +64,7 @@ def sentence(arm: Arm, reason: Reason) -> str:
             )
         case FixedDirection():
             return _off_its_way(arm, reason)
-        case Held():
+        case HeldJoint():
             at = _shown(arm, reason.joint, reason.at, 1)
             return f"{named(arm, reason.joint)} is held at {at} and cannot be moved"
         case InLine():
@@ -81,21 +81,21 @@ def sentence(arm: Arm, reason: Reason) -> str:
     assert_never(reason)
 
 
-def named(arm: Arm, joint: int) -> str:
+def named(arm: NamedArm, joint: int) -> str:
     """A joint by number and name."""
     return f"joint {joint + 1} ({arm.joints[joint].name})"
 
 
-def _shown(arm: Arm, joint: int, value: float, digits: int) -> str:
+def _shown(arm: NamedArm, joint: int, value: float, digits: int) -> str:
     scale, unit = _unit(arm, joint)
     return f"{value / scale:.{digits}f} {unit}"
 
 
-def _unit(arm: Arm, joint: int) -> tuple[float, str]:
+def _unit(arm: NamedArm, joint: int) -> tuple[float, str]:
     return (INCH, "in") if arm.joints[joint].kind == "prismatic" else (DEGREE, "degrees")
 
 
-def _beyond(arm: Arm, reason: OutOfReach | TooNear | JointLimit) -> str:
+def _beyond(arm: NamedArm, reason: OutOfReach | TooNear | JointLimit) -> str:
     begins = "ends" if reason.amount > reason.limit else "begins"
     digits = 1 if reason.excess > 0.05 * _unit(arm, reason.joint)[0] else 3
     amount, limit = (
@@ -105,7 +105,7 @@ def _beyond(arm: Arm, reason: OutOfReach | TooNear | JointLimit) -> str:
     return f"{named(arm, reason.joint)} would have to be {amount}; it {begins} at {limit}"
 
 
-def _off_its_way(arm: Arm, reason: FixedDirection) -> str:
+def _off_its_way(arm: NamedArm, reason: FixedDirection) -> str:
     off, movers = f"{reason.off / INCH:.2f} in", [named(arm, joint) for joint in reason.joints]
     if len(movers) == 1:
         return f"the hand would have to be {off} off the line on which {movers[0]} moves it"

@@ -88,7 +88,7 @@ class FixedDirection:
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class HeldJoint:
     """A joint would have to move that is held where it is."""
 
     joint: int
@@ -123,6 +123,6 @@ class BelowTable:
 
 Reason = (
     OutOfReach | TooNear | JointLimit | InnerCylinder | FixedOrientation | FixedDirection
-    | Held | InLine | TooFast | BelowTable
+    | HeldJoint | InLine | TooFast | BelowTable
 )  # fmt: skip
 """All there are: the first six of poses, the others of motions."""

@@ -31,11 +31,11 @@ from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.program.program import Fixture, Held, Part, Position
 from handeye.program.taught_tables import (
-    Fault,
     FixtureTable,
     HeldTable,
     PartTable,
     PositionTable,
+    UnfitEntry,
     read_tables,
     unfit,
 )
@@ -81,7 +81,7 @@ def load_taught(path: str | Path) -> Taught:
         raise InvalidInput(f"{path}: {unfit(error)}") from None
     except ValueError:  # of a whole number that Python does not read
         raise InvalidInput(f"{path}: a number has too many digits") from None
-    except Fault as fault:
+    except UnfitEntry as fault:
         line = _line(source, fault.key)
         raise InvalidInput(f"{path}{'' if line is None else f':{line}'}: {fault.key}: {fault}") from None
 
@@ -112,23 +112,25 @@ def _line(source: Source, key: str) -> int | None:
     return None if found is None else source.position(found.end())[0]
 
 
-def _faults(taught: Taught) -> Iterator[Fault]:
+def _faults(taught: Taught) -> Iterator[UnfitEntry]:
     """What is wrong between the entries of a file."""
     for name, position in taught.positions.items():
         if position.of is not None and position.of not in taught.parts:
             meant = suggestion(position.of, taught.parts)
             said = f"there is no part {quoted(position.of)}"
-            yield Fault(f"positions.{name}", said if meant is None else f"{said}; {meant}")
+            yield UnfitEntry(f"positions.{name}", said if meant is None else f"{said}; {meant}")
     where: dict[str, str] = {}
     for name, held in taught.held.items():
         for at in held.positions:
             if at not in taught.positions:
-                yield Fault(f"held.{name}", f"there is no position {quoted(at)} in this file")
+                yield UnfitEntry(f"held.{name}", f"there is no position {quoted(at)} in this file")
             if where.setdefault(at, name) != name:
-                yield Fault(f"held.{name}", f"at {at} the hand already holds {where[at]}")
+                yield UnfitEntry(f"held.{name}", f"at {at} the hand already holds {where[at]}")
     count = 0
     for key, solids in (("fixtures", taught.fixtures), ("held", taught.held)):
         for name, solid in solids.items():
             count += len(solid.boxes)
             if count > MOST_BOXES:
-                yield Fault(f"{key}.{name}", f"more than {MOST_BOXES} boxes; no more can be looked after")
+                yield UnfitEntry(
+                    f"{key}.{name}", f"more than {MOST_BOXES} boxes; no more can be looked after"
+                )

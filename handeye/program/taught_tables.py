@@ -73,7 +73,7 @@ class HeldTable(msgspec.Struct, forbid_unknown_fields=True):
 Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
 
 
-class Fault(Exception):
+class UnfitEntry(Exception):
     """What is wrong with an entry; `key` is `positions.NAME`."""
 
     def __init__(self, key: str, said: str) -> None:
@@ -87,12 +87,12 @@ def read_tables(
     """The tables of a kind by name, as they are written.
 
     Raises:
-        Fault: what is in one cannot be used.
+        UnfitEntry: what is in one cannot be used.
     """
     for name, table in tables.items():
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             said = "a name consists of letters, digits and _, and starts with no digit"
-            raise Fault(f"{kind}.{name}", said)
+            raise UnfitEntry(f"{kind}.{name}", said)
         yield name, _read(f"{kind}.{name}", table, type)
 
 
@@ -100,19 +100,19 @@ def _read(key: str, table: dict[str, object], kind: type[Entry]) -> Entry:
     try:
         entry: Entry = msgspec.convert(table, kind)
     except msgspec.ValidationError as error:
-        raise Fault(key, unfit(error)) from None
+        raise UnfitEntry(key, unfit(error)) from None
     for name in kind.__struct_fields__:
         if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, name))):
-            raise Fault(key, f"{name} has a number that is not below a million")
+            raise UnfitEntry(key, f"{name} has a number that is not below a million")
     if isinstance(entry, PartTable):
         for x, y, diameter in (*entry.holes, *entry.screw_holes):
             if diameter <= 0:
-                raise Fault(key, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
+                raise UnfitEntry(key, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
     if isinstance(entry, FixtureTable | HeldTable):
         for box in entry.boxes:
             if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
                 corners = " to ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in (box[:3], box[3:]))
-                raise Fault(key, f"the box from {corners} has no inside")
+                raise UnfitEntry(key, f"the box from {corners} has no inside")
     return entry
 
 
@@ -139,7 +139,10 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """What does not fit, and where, as the rest of a sentence."""
+    """What does not fit, and where, as the rest of a sentence.
+
+    It is read off the sentence of `msgspec`, which tells it in no other way.
+    """
     said, _, where = str(error).partition(" - at `$")
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""
@@ -148,8 +151,8 @@ def unfit(error: msgspec.ValidationError) -> str:
     if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
         wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
         return f"{about}{got} stands where {wanted} is wanted"
-    if key := re.fullmatch(r"Object (contains unknown|missing required) field `(.*)`", said, re.DOTALL):
-        return (
-            f"{about}{quoted(key[2])} {'is missing' if key[1].startswith('missing') else 'is no key of it'}"
-        )
+    if key := re.fullmatch(r"Object missing required field `(.*)`", said, re.DOTALL):
+        return f"{about}{quoted(key[1])} is missing"
+    if key := re.fullmatch(r"Object contains unknown field `(.*)`", said, re.DOTALL):
+        return f"{about}{quoted(key[1])} is no key of it"
     return f"{about}{said[:1].lower()}{said[1:]}"

@@ -16,7 +16,7 @@ Placeholder."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class CentringStep:
     """What to do in one servo period."""
 
     gap: float = 0.0
@@ -41,7 +41,7 @@ class Centring:
     """When done: 0, or the error that nothing is held."""
     _left: float | None = field(default=None, init=False)
 
-    def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> Step:
+    def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
         """What to do in the next period.
 
         Args:
@@ -55,7 +55,7 @@ class Centring:
         elif gap <= max(self.minimum, NEARLY_ZERO) or left <= 0:
             self.done, self.error = True, NOTHING_HELD
         if self.done:
-            return Step()
+            return CentringStep()
         close = self.speed * period
         self._left = left - close
-        return Step(gap=-close, hand=(touch[0] - touch[1]) * close / 2)
+        return CentringStep(gap=-close, hand=(touch[0] - touch[1]) * close / 2)

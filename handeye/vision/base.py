@@ -16,13 +16,13 @@ from handeye.pose import Array
 from handeye.program.program import Part
 from handeye.units import DEGREE, INCH
 from handeye.vision.beam import Scan
-from handeye.vision.blob import Box, localise
+from handeye.vision.blob import BoundingBox, localise
 from handeye.vision.camera import View
 from handeye.vision.holes import (
     SEARCHES,
+    HoleSearch,
     Levels,
     Pair,
-    Search,
     candidates,
     classify,
     dark_screw_holes,
@@ -59,7 +59,7 @@ class Failure:
 class GeneralLocation:
     """Where a part is, roughly: within an inch or two."""
 
-    box: Box
+    box: BoundingBox
     """Around it in the picture."""
     x: float
     """Of its reference point in W, m, if it lies as planned but for x and y."""
@@ -72,7 +72,7 @@ class GeneralLocation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Hole:
+class SeenHole:
     """A large hole in the picture and in the world."""
 
     u: float
@@ -93,7 +93,7 @@ class SpecificLocation:
     """x, y (m) of the reference point and yaw (rad) in W, by circles fitted to the borders of the holes."""
     bounce_pose: tuple[float, float, float]
     """The same by the bouncing characteriser alone, the way of 1973."""
-    holes: tuple[Hole, Hole]
+    holes: tuple[SeenHole, SeenHole]
     """The largest first; centres by the fitted circles. The line of centres joins them."""
     screw_holes: int
     """How many were seen where they should be."""
@@ -114,7 +114,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
     smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
     largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])
 
-    def fits(box: Box) -> bool:
+    def fits(box: BoundingBox) -> bool:
         size = (box.width, box.height)
         return bool(np.all(size >= smallest) and np.all(size <= largest))
 
@@ -153,7 +153,7 @@ def _silhouette(view: View, part: Part, x: float, y: float, turn: float = 0.0) -
     return view.project(np.column_stack([np.vstack([corners, corners]), z]))
 
 
-def _general(scan: Scan, view: View, part: Part, box: Box) -> GeneralLocation:
+def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLocation:
     middle_z = part.at[2] + part.face / 2
     seen = view.back_project(box.corners().mean(axis=0), middle_z)[0, :2]
     xy = np.array(part.at[:2])
@@ -206,17 +206,17 @@ def _explain(holes: int) -> str:
     return f"{holes} dark blobs are found, but no two are the part's largest holes: is the picture in focus?"
 
 
-def _close_box(view: View, general: GeneralLocation) -> Box | None:
+def _close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
     """The box of general location, as this view sees it."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))
     right, bottom = (int(n) for n in np.ceil(uv.max(axis=0)))
-    box = Box(max(left, 4), max(top, 4), min(right, COLUMNS - 5), min(bottom, ROWS - 5))
+    box = BoundingBox(max(left, 4), max(top, 4), min(right, COLUMNS - 5), min(bottom, ROWS - 5))
     return box if box.width > 40 and box.height > 40 else None
 
 
 def _confirm(
-    scan: Scan, view: View, part: Part, pair: Pair, levels: Levels, search: Search
+    scan: Scan, view: View, part: Part, pair: Pair, levels: Levels, search: HoleSearch
 ) -> SpecificLocation | None:
     """The location, unless the borders are not round or the screw holes are not where they should be."""
     centres = refine(scan, view, pair, part, levels, search)
@@ -229,7 +229,7 @@ def _confirm(
     z = part.at[2] + part.face
     uv = view.project(np.column_stack([centres, [z, z]]))
     first, second = (
-        Hole(u=float(u), v=float(v), width=c.blob.width, height=c.blob.height, x=float(x), y=float(y))
+        SeenHole(u=float(u), v=float(v), width=c.blob.width, height=c.blob.height, x=float(x), y=float(y))
         for (u, v), (x, y), c in zip(uv, centres, pair, strict=True)
     )
     return SpecificLocation(

@@ -15,7 +15,7 @@ LOOK_AHEAD: Final = 4
 """Points a side of the box looks outwards, so that a dark wall between two bright faces does not stop it."""
 
 
-class Box(NamedTuple):
+class BoundingBox(NamedTuple):
     """Columns and rows, all four inside the box."""
 
     left: int
@@ -44,9 +44,9 @@ def localise(
     scan: Scan,
     window: Array,
     step: float,
-    fits: Callable[[Box], bool] = lambda box: True,
+    fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
-) -> Box | None:
+) -> BoundingBox | None:
     """The box around the first blob that fits, or None.
 
     Beams go inwards from the four sides of the window until one meets something brighter that is more than
@@ -64,7 +64,7 @@ def localise(
         return None
     background = float(np.median([scan.patch(*start, 1).mean() for start, _ in starts]))
     reach = 0.6 * math.hypot(*(window.max(axis=0) - window.min(axis=0)))
-    seen: list[Box] = []
+    seen: list[BoundingBox] = []
     for start, (du, dv) in starts:
         edge = beam(scan, start, (du, dv), BRIGHTER, step, reach, wide=True)
         if edge is None or len(seen) == tries:
@@ -100,7 +100,7 @@ def _inside(scan: Scan, place: tuple[float, float]) -> bool:
     return 0 <= u < columns and 0 <= v < rows and bool(scan.window[v, u])
 
 
-def _grow(scan: Scan, u: int, v: int, threshold: float) -> Box:
+def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
     """A side moves outwards as long as a line a little further out still crosses the blob."""
     rows, columns = scan.image.shape
     box = [u - SPAN, v - SPAN, u + SPAN, v + SPAN]  # left, top, right, bottom
@@ -115,7 +115,7 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> Box:
                     box[side] = place
                     growing = True
                     break
-    return Box(left=box[0], top=box[1], right=box[2], bottom=box[3])
+    return BoundingBox(left=box[0], top=box[1], right=box[2], bottom=box[3])
 
 
 def _crosses(scan: Scan, box: list[int], side: int, place: int, threshold: float) -> bool:

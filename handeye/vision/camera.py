@@ -19,7 +19,7 @@ CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lens:
+class LensModel:
     """One lens of the turret."""
 
     focal_length: float
@@ -47,9 +47,9 @@ class CameraModel:
     tilt0: float = 0.0
     roll: float = 0.0
     """Turn of the raster about the line of sight, rad, clockwise seen from behind the camera."""
-    lenses: tuple[Lens, ...]
+    lenses: tuple[LensModel, ...]
 
-    def lens(self, focal_length: float) -> Lens:
+    def lens(self, focal_length: float) -> LensModel:
         """The lens of that engraved focal length.
 
         Raises:
@@ -89,7 +89,7 @@ class View:
     """A camera at one setting: where points of the world fall in the picture, and back."""
 
     model: CameraModel
-    lens: Lens
+    lens: LensModel
     pan: float
     """Pot reading, rad."""
     tilt: float

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from handeye.ports.camera import Picture
 from handeye.vision.base import GeneralLocation, SpecificLocation
-from handeye.vision.gasket import Inspection
+from handeye.vision.gasket import GasketInspection
 
 Image = NDArray[np.uint8]
 """Blue, green, red of every pixel, shape (height, width, 3)."""
@@ -26,7 +26,7 @@ def annotate(
     *,
     general: GeneralLocation | None = None,
     specific: SpecificLocation | None = None,
-    inspection: Inspection | None = None,
+    inspection: GasketInspection | None = None,
     spots: Sequence[tuple[float, float]] = (),
     scale: int = SCALE,
 ) -> Image:

@@ -42,7 +42,7 @@ CLEAR: Final = 0.06 * INCH
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Inspection:
+class GasketInspection:
     """What was found of the gasket. Centres are (u, v) in the picture, largest hole first."""
 
     ok: bool
@@ -63,7 +63,7 @@ def difference(before: Picture, after: Picture) -> Picture:
 
 def inspect(
     before: Picture, after: Picture, view: View, part: Part, pose: tuple[float, float, float]
-) -> Inspection:
+) -> GasketInspection:
     """Compare pictures of a part at `pose` (x, y m, yaw rad) before and after a gasket was put on it.
 
     Both must be taken with one aim and one target voltage, and with the arm in one place: its shadow is the
@@ -79,7 +79,7 @@ def inspect(
     expected = tuple((float(u), float(v)) for u, v in view.project(places))
     pairs = list(zip(places, part.holes, strict=False))
     if np.median([_around(new, view, place, hole) for place, hole in pairs]) < ABSENT:
-        return Inspection(
+        return GasketInspection(
             ok=False,
             sentence="no gasket: the picture after shows nothing new where it should be",
             expected=expected,
@@ -88,7 +88,7 @@ def inspect(
         )
     checks = [_check(new, old, view, place, hole) for place, hole in pairs]
     faults = [f"{name} {check.fault}" for name, check in zip(_NAMES, checks, strict=True) if check.fault]
-    return Inspection(
+    return GasketInspection(
         ok=not faults,
         sentence="; ".join(faults) or "the gasket is on properly",
         expected=expected,

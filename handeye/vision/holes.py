@@ -11,7 +11,7 @@ from handeye.pose import Array
 from handeye.program.program import Part
 from handeye.units import DEGREE
 from handeye.vision.beam import DARKER, Edge, Scan, beam
-from handeye.vision.blob import Box
+from handeye.vision.blob import BoundingBox
 from handeye.vision.camera import View
 from handeye.vision.characteriser import Blob, characterise, fit_circle, rim
 
@@ -30,7 +30,7 @@ SEED: Final = 4
 # All figures above: vision study, sections 1.2 and 1.3.
 
 
-class Search(NamedTuple):
+class HoleSearch(NamedTuple):
     """How hard to look."""
 
     spacing: int
@@ -44,11 +44,11 @@ class Search(NamedTuple):
 
 
 SEARCHES: Final = (
-    Search(7, False, 0.38),
-    Search(7, True, 0.38),
-    Search(5, True, 0.28),
-    Search(5, True, 0.20),
-    Search(5, True, 0.20, face=0.4),
+    HoleSearch(7, False, 0.38),
+    HoleSearch(7, True, 0.38),
+    HoleSearch(5, True, 0.28),
+    HoleSearch(5, True, 0.20),
+    HoleSearch(5, True, 0.20, face=0.4),
 )
 """Tried in this order: starting with a small step finds more that is not a hole. The last is for the shadow
 of the arm across the face, which the vision study did not have."""
@@ -61,14 +61,14 @@ class Levels(NamedTuple):
     dark: float
 
     @classmethod
-    def measure(cls, scan: Scan, box: Box) -> "Levels":
+    def measure(cls, scan: Scan, box: BoundingBox) -> "Levels":
         """From every fourth point of every fourth line."""
         where = np.s_[box.top : box.bottom : 4, box.left : box.right : 4]
         scan.read[where] = True
         dark, face = np.percentile(scan.image[where], [12, 92])
         return cls(face=float(face), dark=float(dark))
 
-    def step(self, search: Search) -> float:
+    def step(self, search: HoleSearch) -> float:
         """Least difference of intensity for an edge; two levels are a few times the noise."""
         return max(2.0, search.contrast * (self.face - self.dark))
 
@@ -91,7 +91,7 @@ class Pair(NamedTuple):
 
 
 def candidates(
-    scan: Scan, view: View, box: Box, part: Part, levels: Levels, search: Search
+    scan: Scan, view: View, box: BoundingBox, part: Part, levels: Levels, search: HoleSearch
 ) -> list[Candidate]:
     """Send beams through the box; at every step from the bright face to dark try the characteriser."""
     z = part.at[2] + part.face
@@ -116,7 +116,7 @@ def candidates(
 
 
 def _dark_edges(
-    scan: Scan, box: Box, step: float, search: Search
+    scan: Scan, box: BoundingBox, step: float, search: HoleSearch
 ) -> Iterator[tuple[Edge, tuple[float, float]]]:
     """Every edge from bright to dark on beams through the box, with the direction of the beam."""
     for u, v, du, dv, length in _lines(box, search.spacing):
@@ -138,7 +138,7 @@ def _size(width: float, height: float, part: Part) -> float | None:
     return size if is_round and fits else None
 
 
-def _lines(box: Box, spacing: int) -> Iterator[tuple[int, int, float, float, int]]:
+def _lines(box: BoundingBox, spacing: int) -> Iterator[tuple[int, int, float, float, int]]:
     """Start, direction and length of beams in rows and, half as dense, in columns."""
     for v in range(box.top + spacing, box.bottom, spacing):
         yield box.left, v, 1.0, 0.0, box.right - box.left
@@ -170,7 +170,9 @@ def classify(found: list[Candidate], part: Part) -> Pair | None:
     return best[1] if best else None
 
 
-def refine(scan: Scan, view: View, pair: Pair, part: Part, levels: Levels, search: Search) -> Array | None:
+def refine(
+    scan: Scan, view: View, pair: Pair, part: Part, levels: Levels, search: HoleSearch
+) -> Array | None:
     """Centres of the two holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
     z = part.at[2] + part.face
     step, bright = levels.step(search), 0.9 * search.face * levels.face

@@ -11,7 +11,7 @@ from handeye.arm.line import arc, pivot, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.pose import hand, rotation, rotation_z
-from handeye.program.reasons import FixedDirection, FixedOrientation, Held, InLine, TooFast
+from handeye.program.reasons import FixedDirection, FixedOrientation, HeldJoint, InLine, TooFast
 from handeye.units import INCH
 
 ANY = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
@@ -105,7 +105,7 @@ def test_a_rail_stays_where_it_stands_during_a_straight_motion() -> None:
 def test_a_rail_that_is_held_is_not_jogged() -> None:
     found = jog(GANTRY, at(GANTRY, 25, 4), 0, 0.5, speed=0.4)
     assert isinstance(found, IKResult)
-    assert found.reason == Held(0, 0.25)
+    assert found.reason == HeldJoint(0, 0.25)
     assert found.message(GANTRY) == "joint 1 (rail) is held at 9.8 in and cannot be moved"
 
 

@@ -21,7 +21,7 @@ from handeye.program.findings import (
 )
 from handeye.program.language import language_of
 from handeye.program.program import Program
-from handeye.program.reason_text import Arm
+from handeye.program.reason_text import NamedArm
 from handeye.program.reasons import OutOfReach
 from handeye.program.taught import Taught
 from handeye.source import Source, Span
@@ -74,7 +74,7 @@ def test_a_wrong_position_is_found_once_however_often_it_is_gone_to() -> None:
     assert len(found("TRANS T [25 38 -1 90 90 0]\nMOVE T\nMOVE T")) == 1
 
 
-def tersely(program: Program, arm: Arm, findings: Iterable[PlanningFinding]) -> list[Diagnostic]:
+def tersely(program: Program, arm: NamedArm, findings: Iterable[PlanningFinding]) -> list[Diagnostic]:
     at = Label(span=Span(start=0, end=1))
     return [Diagnostic(code=f.code, message=f"{arm.name}: step {f.step}", primary=at) for f in findings]
 

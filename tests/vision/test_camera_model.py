@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from handeye.errors import InvalidInput
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import CENTRE, CameraModel, Lens
+from handeye.vision.camera import CENTRE, CameraModel, LensModel
 
 TILTED = CameraModel(
     mount=(0.9, 1.7, 1.4),
     pan0=0.01,
     tilt0=-0.02,
     roll=0.03,
-    lenses=(Lens(focal_length=0.025, scale=1.01, forward=0.05, up=0.02),),
+    lenses=(LensModel(focal_length=0.025, scale=1.01, forward=0.05, up=0.02),),
 )
 
 table = st.tuples(st.floats(0.2, 1.3), st.floats(0.2, 1.2), st.floats(0.0, 0.3))

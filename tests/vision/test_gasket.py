@@ -8,7 +8,7 @@ from synthetic import FACE, GASKET, Canvas, draw_base, part, view
 
 from handeye.units import DEGREE, INCH
 from handeye.vision.drawing import RED, annotate
-from handeye.vision.gasket import Inspection, difference, inspect
+from handeye.vision.gasket import GasketInspection, difference, inspect
 from handeye.vision.holes import hole_places
 
 PART = part(180 * DEGREE)
@@ -36,7 +36,7 @@ def pictures(
     return before.picture(rng, noise), after.picture(rng, noise)
 
 
-def inspected(shift: tuple[float, float] | None, **how: float) -> Inspection:
+def inspected(shift: tuple[float, float] | None, **how: float) -> GasketInspection:
     return inspect(*pictures(shift, **how), WHERE, PART, POSE)
 
 

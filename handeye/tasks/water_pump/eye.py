@@ -7,11 +7,11 @@ from handeye.execution.calibration_look import CalibrationLook
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE
 from handeye.record import Vector3
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import CameraModel, Lens
+from handeye.vision.camera import CameraModel, LensModel
 
 DRAWING: Final = CameraModel(
     mount=(34 * INCH, 68 * INCH, 54 * INCH),
-    lenses=tuple(Lens(focal_length=focal, forward=2 * INCH, up=1 * INCH) for focal in LENSES),
+    lenses=tuple(LensModel(focal_length=focal, forward=2 * INCH, up=1 * INCH) for focal in LENSES),
 )
 """The camera as drawn: on a tripod 14 in beyond the far edge of the table, opposite the arm.
 
