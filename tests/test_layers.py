@@ -25,12 +25,12 @@ FOUNDATIONS = {
     "mutable_records",
 }
 LAYERS = [
-    {"__init__", *FOUNDATIONS},
+    {*FOUNDATIONS},
     {"program", "planfile", "events", "system_state", "ports"},
     {"arm", "vision", "touch", "al"},
     {"planning", "inspection", "execution"},
     {"cell", "tasks", "judge"},
-    {"runs", "debugger", "teaching", "report", "trace", "trials", "editor", "cli", "__main__"},
+    {"runs", "debugger", "teaching", "report", "trace", "trials", "editor", "cli", "__init__", "__main__"},
 ]
 """Downwards only: a folder may import from its own layer and those above it in this list."""
 

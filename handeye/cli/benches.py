@@ -7,9 +7,10 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, default_script, notes, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
+from handeye.runs.scripts import default_script
 
 
 def register(app: App) -> None:

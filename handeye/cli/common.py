@@ -1,24 +1,18 @@
 """What the commands share: consoles, options, scripts and their diagnostics."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Literal
 
 from cyclopts import Parameter, Token
 from rich.console import Console
 
-from handeye.al import AL
 from handeye.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
-from handeye.files import beside
 from handeye.planfile.plan import Plan
-from handeye.program.language import language_of
-from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
+from handeye.runs.scripts import plan_script
 from handeye.source import Source
-from handeye.tasks import task
 
 Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
 PlanFile = Annotated[Path, Parameter(help="A plan, as `handeye plan` makes one (.plan.json).")]
@@ -79,34 +73,13 @@ def compiled(file: Path) -> Plan:
     Raises:
         InvalidInput: the script has errors; they have been shown.
     """
-    from handeye.planning.scripts import plan_source
-
-    language = language_of(file, LANGUAGES)
-    made = plan_source(language.read(file), taught(file), task().arm, language)
+    made = plan_script(file)
     show(made.diagnostics, made.source, json=False)
     if made.plan is not None:
         return made.plan
     errors = sum(d.severity == "error" for d in made.diagnostics)
     count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
     raise InvalidInput(f"{file} has {count}; there is no plan")
-
-
-LANGUAGES: Final = {".al": AL}
-"""Languages of scripts by the endings of their files; a file with another ending is taken for the first."""
-
-
-def default_script() -> Path:
-    """The script of the task that is meant where none is named."""
-    script = task().script
-    assert script is not None
-    return plans() / script
-
-
-def taught(file: Path) -> Taught:
-    """Positions and parts taught for a script, from the file beside it; a script may do without."""
-    path = beside(file, ".toml")
-    known = load_taught(path) if path.exists() else Taught()
-    return replace(known, fixtures={**task().fixtures(), **known.fixtures})
 
 
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:

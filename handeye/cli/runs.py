@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, default_script, note
+from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, note
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.planfile.store import read_plan
+from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     from handeye.runs.snapshot import Checkpoint

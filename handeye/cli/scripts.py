@@ -11,7 +11,6 @@ from cyclopts import App, Parameter
 
 from handeye.al import extensions
 from handeye.cli.common import (
-    LANGUAGES,
     PlanFile,
     Script,
     compiled,
@@ -21,13 +20,13 @@ from handeye.cli.common import (
     screen,
     show,
     show_unreadable,
-    taught,
 )
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
 from handeye.planfile.store import read_plan, write_plan
 from handeye.program.language import language_of
+from handeye.runs.scripts import LANGUAGES, taught
 from handeye.tasks import task
 
 Version = tuple[int, int, int] | None

@@ -6,14 +6,15 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, default_script, note, notes, screen
-from handeye.cli.common import taught as taught_for
+from handeye.cli.common import Camera, Json, note, notes, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import beside, check_place
 from handeye.program.taught import Taught, load_taught
+from handeye.runs.scripts import default_script
+from handeye.runs.scripts import taught as taught_for
 from handeye.source import read_source
 
 if TYPE_CHECKING:

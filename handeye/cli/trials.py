@@ -6,10 +6,11 @@ from typing import Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, WholeNumber, compiled, default_script, say, screen
+from handeye.cli.common import Camera, WholeNumber, compiled, say, screen
 from handeye.cli.world_options import ANY_ERRORS, ANY_WORLD, ErrorOptions, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import Kind, check_place, write_over
+from handeye.runs.scripts import default_script
 from handeye.tasks import task
 from handeye.variation import WorldSpec
 

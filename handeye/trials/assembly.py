@@ -3,12 +3,14 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from handeye.planfile.plan import Plan
 from handeye.report.judging import findings
 from handeye.report.result import Result
 from handeye.report.summary import summary
 from handeye.runs.advance import advance
+from handeye.runs.folder import open_new
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
@@ -32,17 +34,31 @@ def run_plan(
     planning_wall_s: float = 0.0,
     referee: bool = True,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
+    folder: Path | None = None,
 ) -> Finished:
     """Carry out a plan in a world, with no operator there, and have it judged.
 
+    Args:
+        folder: a new folder that keeps plan, events, trace and checkpoints.
+
     Raises:
-        InvalidInput: the plan is for another arm, or the camera cannot work as asked.
+        InvalidInput: the plan is for another arm, the camera cannot work as asked, or the folder cannot be had.
     """
     begun = time.perf_counter()
     start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
-    runner = Runner(start, observers=observers)
-    pause = advance(runner)
-    runner.finish()
+    keeping = None if folder is None else open_new(folder, start)
+
+    def looking(runner: Runner) -> Sequence[Observer]:
+        kept = [] if keeping is None else [keeping.watch(runner, start, again=False)]
+        return [*observers(runner), *kept]
+
+    try:
+        runner = Runner(start, observers=looking)
+        pause = advance(runner)
+        runner.finish()
+    finally:
+        if keeping is not None:
+            keeping.close()
     found = findings(runner, pause) if referee else None
     wall = time.perf_counter() - begun
     result = summary(runner, pause, findings=found, wall=wall, planning=planning_wall_s)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from handeye.al import compile_text
-from handeye.cli.common import taught
 from handeye.errors import InvalidInput
 from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught
 from handeye.resources import plans, scenes
+from handeye.runs.scripts import taught
 from handeye.source import Source
 from handeye.tasks import task
 from handeye.tasks.water_pump import stations, variation
