@@ -26,8 +26,8 @@ from handeye.pose import Array, Pose, displaced, translated
 from handeye.touch.guards import Monitor, Reading, Trip
 from handeye.units import INCH
 
-PRESS_TICKS = 600
-"""Periods after which a pressing motion ends that neither gets on nor meets its guard: ten seconds."""
+PRESS_TIME = 10.0
+"""s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
 
 
 class Halted(Exception):
@@ -140,7 +140,7 @@ class ServoLoop:
         yield from self.zeroing()
         X_start = forward(self.arm, self.state.q)
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
-        for tick in range(course.patience(PRESS_TICKS, self.period)):
+        for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
             if gone >= course.distance:
                 return REACHED if guard is not None else self._arrived()
             gone += course.advance(self.state.wrench, tick) * self.period
