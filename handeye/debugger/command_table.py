@@ -1,48 +1,21 @@
 """The commands of the stepper as a table, from which reading and help derive."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final
 
 from handeye.debugger import commands as acts
 from handeye.debugger.breakpoints import meant
+from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.reply import CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.views import TOPICS
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Command:
-    """Something that can be said."""
-
-    usage: str
-    group: str
-    act: Callable[[DebugSession, str], CommandResult]
-    help: str
-    short: str = ""
-    """Another word for it."""
-    repeats: bool = False
-    """An empty line behind it says it again."""
-
-    @property
-    def name(self) -> str:
-        """Its word."""
-        return self.usage.partition(" ")[0]
-
-    @property
-    def bare(self) -> bool:
-        """Nothing may stand behind it."""
-        return " " not in self.usage
-
-    @property
-    def shown(self) -> str:
-        """As help has it."""
-        return f"{self.usage}, {self.short}" if self.short else self.usage
+StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
 
-def find(line: str) -> tuple[Command, str]:
+def find(line: str) -> tuple[StepperCommand, str]:
     """The command that a line says, and what stands behind its word.
 
     Raises:
@@ -57,8 +30,7 @@ def find(line: str) -> tuple[Command, str]:
         if word.casefold() in _ELSEWHERE:
             near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
         raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` tells which there are'}")
-    if rest and all(command.bare for command in named):
-        raise InvalidInput(f"`{name}` takes nothing behind it; {quoted(rest)} is too much")
+    check_bare(named, rest)
     return named[0], rest
 
 
@@ -68,12 +40,7 @@ def manual() -> str:
         "The script is carried out a step at a time. A step is a line that does something, together with the",
         "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
     ]
-    width = max(len(command.shown) for command in COMMANDS)
-    for group in dict.fromkeys(command.group for command in COMMANDS):
-        out += ["", group]
-        out += [
-            f"  {command.shown:{width}}  {command.help}" for command in COMMANDS if command.group == group
-        ]
+    out += rows(COMMANDS)
     return "\n".join(
         [
             *out,
@@ -99,7 +66,7 @@ def _help(_: DebugSession, rest: str) -> CommandResult:
 _GOING, _BACK, _BREAKS, _LOOKING = "Going on", "Going back in time", "Stopping", "Looking"
 _TRYING, _CALLED, _LEAVING = "Trying something else", "When the operator is called", "Keeping and leaving"
 
-COMMANDS: Final = (
+COMMANDS: Final[tuple[StepperCommand, ...]] = (
     Command(
         usage="step [N]", short="s", group=_GOING, act=acts.step, repeats=True,
         help="do the next step, or the next N",

@@ -10,14 +10,14 @@ from handeye.debugger.listing import excerpt_lines, one_line
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import (
-    Hand,
-    Joint,
+    HandView,
+    JointView,
     PartPose,
     PartShown,
     PictureShown,
-    Search,
+    PositionView,
+    SearchView,
     Shown,
-    Taught,
 )
 from handeye.report.pauses import pause_sentence, stop_name
 from handeye.source import line_name
@@ -105,12 +105,12 @@ def _vector(values: Sequence[float], places: int) -> str:
     return "(" + ", ".join(f"{round(x, places) + 0.0:.{places}f}" for x in values) + ")"
 
 
-def _joints(joints: tuple[Joint, ...]) -> list[str]:
+def _joints(joints: tuple[JointView, ...]) -> list[str]:
     told = [f"{joint.name} {joint.value:.2f} {joint.unit}" for joint in joints]
     return [", ".join(told[i : i + _ROW]) for i in range(0, len(told), _ROW)]
 
 
-def _hand(hand: Hand) -> list[str]:
+def _hand(hand: HandView) -> list[str]:
     return [f"at {_vector(hand.at_in, 3)} in, O A T {_vector(hand.angles_deg, 2)} deg"]
 
 
@@ -122,7 +122,7 @@ def _switches(switches: tuple[bool, bool]) -> list[str]:
     return [", ".join("closed" if switch else "open" for switch in switches)]
 
 
-def _search(search: Search) -> list[str]:
+def _search(search: SearchView) -> list[str]:
     return [f"place {search.place} of {search.places}, {_vector(search.offset_in, 2)} in from the first"]
 
 
@@ -150,7 +150,7 @@ def _picture(picture: PictureShown) -> list[str]:
     return [picture.name if picture.file is None else f"{picture.name}, in {picture.file}"]
 
 
-def _positions(positions: dict[str, Taught]) -> list[str]:
+def _positions(positions: dict[str, PositionView]) -> list[str]:
     width = max(map(len, positions))
     lines = []
     for name, taught in positions.items():

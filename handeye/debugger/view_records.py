@@ -9,7 +9,7 @@ from handeye.record import Record, Vector3
 Six = tuple[float, float, float, float, float, float]
 
 
-class Joint(Record, frozen=True, kw_only=True):
+class JointView(Record, frozen=True, kw_only=True):
     """Where a joint is."""
 
     name: str
@@ -18,21 +18,21 @@ class Joint(Record, frozen=True, kw_only=True):
     """`deg` or `in`."""
 
 
-class Hand(Record, frozen=True, kw_only=True):
+class HandView(Record, frozen=True, kw_only=True):
     """Where the hand is, in W; the angles are O, A, T."""
 
     at_in: Vector3
     angles_deg: Vector3
 
 
-class Error(Record, frozen=True, kw_only=True):
+class ErrorView(Record, frozen=True, kw_only=True):
     """An error that the next step tests."""
 
     number: int
     sentence: str
 
 
-class Search(Record, frozen=True, kw_only=True):
+class SearchView(Record, frozen=True, kw_only=True):
     """A search under way; places count from 1."""
 
     place: int
@@ -55,7 +55,7 @@ class PartShown(Record, frozen=True, kw_only=True):
     difference: PartPose | None
 
 
-class Taught(Record, frozen=True, kw_only=True):
+class PositionView(Record, frozen=True, kw_only=True):
     """A position in the frame it was taught in: x, y, z (in), O, A, T (deg)."""
 
     at: Six
@@ -75,19 +75,19 @@ class Shown(Record, frozen=True, kw_only=True):
     """What somebody asked to see; the rest is left out."""
 
     time_s: float | UnsetType = UNSET
-    joints: tuple[Joint, ...] | UnsetType = UNSET
-    hand: Hand | UnsetType = UNSET
+    joints: tuple[JointView, ...] | UnsetType = UNSET
+    hand: HandView | UnsetType = UNSET
     force_oz: Vector3 | UnsetType = UNSET
     """What the hand exerts on the world, as estimated when it was last asked for, in W."""
     gap_in: float | UnsetType = UNSET
     switches: tuple[bool, bool] | UnsetType = UNSET
     """Of the fingers on the +y and the -y side of the hand."""
-    error: Error | UnsetType | None = UNSET
+    error: ErrorView | UnsetType | None = UNSET
     saved_in: dict[str, Vector3] | UnsetType = UNSET
     restored_in: dict[str, Vector3] | UnsetType = UNSET
-    search: Search | UnsetType | None = UNSET
+    search: SearchView | UnsetType | None = UNSET
     parts: dict[str, PartShown] | UnsetType = UNSET
     picture: PictureShown | UnsetType | None = UNSET
-    positions: dict[str, Taught] | UnsetType = UNSET
+    positions: dict[str, PositionView] | UnsetType = UNSET
     state: dict[str, Any] | UnsetType = UNSET
     """All that a system remembers of which nobody has made a view."""

@@ -10,15 +10,15 @@ import numpy as np
 
 from handeye.debugger.breakpoints import meant
 from handeye.debugger.view_records import (
-    Error,
-    Hand,
-    Joint,
+    ErrorView,
+    HandView,
+    JointView,
     PartPose,
     PartShown,
     PictureShown,
-    Search,
+    PositionView,
+    SearchView,
     Shown,
-    Taught,
 )
 from handeye.diagnostics import quoted
 from handeye.errors import ERRORS, InvalidInput
@@ -79,17 +79,17 @@ def _topic(what: str, topics: Collection[str]) -> str:
 # -- by the sensors -------------------------------------------------------------------------------------
 
 
-def _joints(runner: Runner) -> tuple[Joint, ...]:
+def _joints(runner: Runner) -> tuple[JointView, ...]:
     unit = {"revolute": ("deg", DEGREE), "prismatic": ("in", INCH)}
     return tuple(
-        Joint(name=joint.name, value=_round(q / unit[joint.kind][1]), unit=unit[joint.kind][0])
+        JointView(name=joint.name, value=_round(q / unit[joint.kind][1]), unit=unit[joint.kind][0])
         for joint, q in zip(runner.run.arm.joints, runner.run.drive.sensed.q, strict=True)
     )
 
 
-def _hand(runner: Runner) -> Hand:
+def _hand(runner: Runner) -> HandView:
     X_WT = runner.run.drive.hand()
-    return Hand(at_in=_inches(X_WT[:3, 3]), angles_deg=_three(np.array(hand_angles(X_WT)) / DEGREE))
+    return HandView(at_in=_inches(X_WT[:3, 3]), angles_deg=_three(np.array(hand_angles(X_WT)) / DEGREE))
 
 
 def _force(runner: Runner) -> Vector3:
@@ -99,20 +99,22 @@ def _force(runner: Runner) -> Vector3:
 # -- remembered -----------------------------------------------------------------------------------------
 
 
-def _error(runner: Runner) -> Error | None:
+def _error(runner: Runner) -> ErrorView | None:
     fault = runner.run.state.pending
     if fault is None:
         return None
     sentence = ERRORS.get(fault.number, "unknown")
-    return Error(number=fault.number, sentence=sentence + (f" ({fault.detail})" if fault.detail else ""))
+    return ErrorView(number=fault.number, sentence=sentence + (f" ({fault.detail})" if fault.detail else ""))
 
 
-def _search(runner: Runner) -> Search | None:
+def _search(runner: Runner) -> SearchView | None:
     search = runner.run.state.search
     if search is None:
         return None
     x, y = search.offset()
-    return Search(place=search.count + 1, places=search.limit, offset_in=(_round(x / INCH), _round(y / INCH)))
+    return SearchView(
+        place=search.count + 1, places=search.limit, offset_in=(_round(x / INCH), _round(y / INCH))
+    )
 
 
 def _parts(runner: Runner) -> dict[str, PartShown]:
@@ -137,14 +139,14 @@ def _difference(measured: Pose, planned: Pose) -> PartPose:
     return PartPose(at_in=_inches(measured[:3, 3] - planned[:3, 3]), yaw_deg=_round(turn / DEGREE))
 
 
-def _positions(runner: Runner) -> dict[str, Taught]:
+def _positions(runner: Runner) -> dict[str, PositionView]:
     world = runner.run.world
     shown = {}
     for name, taught in world.positions.items():
         position = world.state.moved.get(name, taught)
         x, y, z = _inches(np.array(position.at[:3]))
         o, a, t = _three(np.array(position.at[3:]) / DEGREE)
-        shown[name] = Taught(at=(x, y, z, o, a, t), of=position.of, moved=name in world.state.moved)
+        shown[name] = PositionView(at=(x, y, z, o, a, t), of=position.of, moved=name in world.state.moved)
     return shown
 
 

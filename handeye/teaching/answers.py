@@ -17,7 +17,7 @@ from handeye.runs.advance import Pause
 from handeye.source import Source
 
 
-class CommandResult(Record, frozen=True, kw_only=True):
+class LineResult(Record, frozen=True, kw_only=True):
     """What a line came to; what there is nothing to say of is left out."""
 
     said: str | UnsetType = UNSET
@@ -35,7 +35,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
     """Why the line was not carried out."""
 
 
-NOTHING: Final = CommandResult()
+NOTHING: Final = LineResult()
 NO_TEXT: Final = Source(name="", text="")
 
 
@@ -46,7 +46,7 @@ class Answer:
     time: float
     """s on the cell's clock."""
     typed: str = ""
-    said: CommandResult = NOTHING
+    said: LineResult = NOTHING
     source: Source = NO_TEXT
     diagnostics: Sequence[Diagnostic] = ()
     """Of the source."""

@@ -11,29 +11,16 @@ from msgspec import UNSET
 from handeye.al.includes import read_script
 from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
+from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.views import show
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.events import Choice
 from handeye.files import beside, write_whole
-from handeye.teaching.answers import Answer, CommandResult
+from handeye.teaching.answers import Answer, LineResult
 from handeye.teaching.functions import lasting
 from handeye.teaching.plan_and_run import answer
 from handeye.teaching.repl import Repl
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Command:
-    """Something that can be said."""
-
-    usage: str
-    act: Callable[[Repl, str], Answer]
-    help: str
-
-    @property
-    def name(self) -> str:
-        """Its word."""
-        return self.usage.partition(" ")[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +39,7 @@ class ReplSession:
         try:
             given = self._given(line)
         except HandeyeError as error:
-            given = answer(self.repl.workplace, CommandResult(error=str(error)))
+            given = answer(self.repl.workplace, LineResult(error=str(error)))
         return replace(given, typed=line.strip())
 
     def _given(self, line: str) -> Answer:
@@ -60,8 +47,7 @@ class ReplSession:
         command = COMMANDS.get(word.upper())
         if command is None:
             return self.repl.collect(line)
-        if rest and command.usage == command.name:
-            raise InvalidInput(f"`{command.name}` takes nothing behind it; {quoted(rest)} is too much")
+        check_bare([command], rest)
         return command.act(self.repl, rest.strip())
 
 
@@ -93,18 +79,18 @@ def _programs(folder: Path) -> list[str]:
 
 def _list(repl: Repl, _: str) -> Answer:
     lines = tuple(f"{number:3}  {line}" for number, line in enumerate(repl.functions, 1))
-    return answer(repl.workplace, CommandResult(lines=lines, said=UNSET if lines else "nothing is collected"))
+    return answer(repl.workplace, LineResult(lines=lines, said=UNSET if lines else "nothing is collected"))
 
 
 def _drop(repl: Repl, _: str) -> Answer:
     if not repl.functions:
         raise InvalidInput("nothing is collected")
-    return answer(repl.workplace, CommandResult(said=f"dropped: {repl.functions.pop().strip()}"))
+    return answer(repl.workplace, LineResult(said=f"dropped: {repl.functions.pop().strip()}"))
 
 
 def _clear(repl: Repl, _: str) -> Answer:
     repl.functions.clear()
-    return answer(repl.workplace, CommandResult(said="nothing is collected"))
+    return answer(repl.workplace, LineResult(said="nothing is collected"))
 
 
 def _write(repl: Repl, rest: str) -> Answer:
@@ -114,16 +100,16 @@ def _write(repl: Repl, rest: str) -> Answer:
     if path.exists():
         raise InvalidInput(f"{path} is there already; it is left alone")
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())
-    return answer(repl.workplace, CommandResult(file=str(path), said=f"written to {path}"))
+    return answer(repl.workplace, LineResult(file=str(path), said=f"written to {path}"))
 
 
 def _show(repl: Repl, rest: str) -> Answer:
-    return answer(repl.workplace, CommandResult(show=show(repl.workplace.runner, rest)))
+    return answer(repl.workplace, LineResult(show=show(repl.workplace.runner, rest)))
 
 
 def _back(repl: Repl, _: str) -> Answer:
     repl.workplace.back()
-    return answer(repl.workplace, CommandResult(said="the last `DO` is undone"))
+    return answer(repl.workplace, LineResult(said="the last `DO` is undone"))
 
 
 def _answer(choice: Choice) -> Callable[[Repl, str], Answer]:
@@ -141,17 +127,16 @@ def _help(repl: Repl, rest: str) -> Answer:
         if definition is None:
             known = suggestion(rest, EXPLAINED)
             raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
-        return answer(repl.workplace, CommandResult(said=f"{definition.usage}: {definition.help}"))
-    width = max(len(command.usage) for command in _TABLE)
+        return answer(repl.workplace, LineResult(said=f"{definition.usage}: {definition.help}"))
     lines = (
         "A line is a function of the arm language, and is collected, or one of",
-        *(f"  {command.usage:{width}}  {command.help}" for command in _TABLE),
+        *rows(_TABLE),
         "What is collected stays until CLEAR. `HELP MOVE` says what an instruction does.",
     )
-    return answer(repl.workplace, CommandResult(lines=lines))
+    return answer(repl.workplace, LineResult(lines=lines))
 
 
-_TABLE: Final = (
+_TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="DO", act=_do, help="carry out what is collected"),
     Command(usage="DO FUNCTION", act=_do, help="plan one function and carry it out now: DO OPEN 3"),
     Command(usage="DO NAME", act=_do, help="carry out a macro, or the program in the file NAME.al"),

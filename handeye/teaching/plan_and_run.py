@@ -10,7 +10,7 @@ from handeye.planning.scripts import PlannedScript
 from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.source import Source
-from handeye.teaching.answers import NOTHING, Answer, CommandResult
+from handeye.teaching.answers import NOTHING, Answer, LineResult
 from handeye.teaching.workplace import Workplace
 
 
@@ -28,21 +28,21 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
     return about(workplace, checked, checked.diagnostics, said)
 
 
-def done(workplace: Workplace, pause: Pause, happened: int = 0) -> CommandResult:
+def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
     """What was done behind the first `happened` events of the plan under way."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing)
     did = tuple(deed for deed in told if deed.line is not None)
-    return CommandResult(did=did, pause=pause, said=UNSET if did else pause_sentence(pause))
+    return LineResult(did=did, pause=pause, said=UNSET if did else pause_sentence(pause))
 
 
 def about(
-    workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: CommandResult = NOTHING
+    workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: LineResult = NOTHING
 ) -> Answer:
     """An answer with what was found in a text."""
     return Answer(time=workplace.runner.run.time, said=said, source=checked.source, diagnostics=tuple(found))
 
 
-def answer(workplace: Workplace, said: CommandResult = NOTHING) -> Answer:
+def answer(workplace: Workplace, said: LineResult = NOTHING) -> Answer:
     """An answer that says so much."""
     return Answer(time=workplace.runner.run.time, said=said)

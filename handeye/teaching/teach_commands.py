@@ -7,13 +7,14 @@ from typing import Final
 
 import numpy as np
 
+from handeye.debugger.command import Command, rows
 from handeye.debugger.views import show
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.pose import Array
 from handeye.program.program import Position
 from handeye.record import Vector3
-from handeye.teaching.answers import Answer, CommandResult
+from handeye.teaching.answers import Answer, LineResult
 from handeye.teaching.plan_and_run import answer
 from handeye.teaching.teacher import Teacher
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
@@ -22,20 +23,6 @@ AXES: Final = ("x", "y", "z")
 NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 LONGEST: Final = 60.0
 """s that somebody pushes at most."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TeachCommand:
-    """Something that can be said to the teacher."""
-
-    usage: str
-    act: Callable[[Teacher, list[str]], Answer]
-    help: str
-
-    @property
-    def name(self) -> str:
-        """Its word."""
-        return self.usage.partition(" ")[0]
 
 
 @dataclass(slots=True)
@@ -52,7 +39,7 @@ class TeachSession:
         try:
             given = self._given(line.split())
         except HandeyeError as error:
-            given = answer(self.teacher.workplace, CommandResult(error=str(error)))
+            given = answer(self.teacher.workplace, LineResult(error=str(error)))
         return replace(given, typed=line.strip())
 
     def _given(self, words: list[str]) -> Answer:
@@ -132,7 +119,7 @@ def _push(teacher: Teacher, words: list[str]) -> Answer:
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
     return answer(
-        teacher.workplace, CommandResult(show=told, said="that was a push from outside: no program can do it")
+        teacher.workplace, LineResult(show=told, said="that was a push from outside: no program can do it")
     )
 
 
@@ -150,7 +137,7 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
     if again and part is None and name in teacher.workplace.taught.positions:
         part = teacher.workplace.taught.positions[name].of
     return answer(
-        teacher.workplace, CommandResult(said=f"{name} is {_written(teacher.name(name, part, again=again))}")
+        teacher.workplace, LineResult(said=f"{name} is {_written(teacher.name(name, part, again=again))}")
     )
 
 
@@ -166,21 +153,21 @@ def _list(teacher: Teacher, words: list[str]) -> Answer:
     known, unsaved = teacher.workplace.taught.positions, teacher.unsaved
     width = max(map(len, known), default=0)
     lines = [f"{n:{width}}  {_written(p)}{', not saved' if n in unsaved else ''}" for n, p in known.items()]
-    return answer(teacher.workplace, CommandResult(lines=tuple(lines or ["nothing is taught"])))
+    return answer(teacher.workplace, LineResult(lines=tuple(lines or ["nothing is taught"])))
 
 
 def _save(teacher: Teacher, words: list[str]) -> Answer:
     _exactly(words, 0, "save")
     names = teacher.save()
     if not names:
-        return answer(teacher.workplace, CommandResult(said="there is nothing new to save"))
+        return answer(teacher.workplace, LineResult(said="there is nothing new to save"))
     said = f"{', '.join(names)} written to {teacher.file}"
-    return answer(teacher.workplace, CommandResult(said=said, file=str(teacher.file)))
+    return answer(teacher.workplace, LineResult(said=said, file=str(teacher.file)))
 
 
 def _undo(teacher: Teacher, words: list[str]) -> Answer:
     _exactly(words, 0, "undo")
-    return answer(teacher.workplace, CommandResult(said=teacher.undo()))
+    return answer(teacher.workplace, LineResult(said=teacher.undo()))
 
 
 def _look(teacher: Teacher, words: list[str]) -> Answer:
@@ -189,14 +176,12 @@ def _look(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _where(teacher: Teacher, what: str = "hand") -> Answer:
-    return answer(teacher.workplace, CommandResult(show=show(teacher.workplace.runner, what)))
+    return answer(teacher.workplace, LineResult(show=show(teacher.workplace.runner, what)))
 
 
 def _help(teacher: Teacher, _: list[str]) -> Answer:
-    width = max(len(lesson.usage) for lesson in TABLE)
-    lines = [f"  {lesson.usage:{width}}  {lesson.help}" for lesson in TABLE]
     tail = "Inches and degrees, forces in ounces. `quit` leaves."
-    return answer(teacher.workplace, CommandResult(lines=(*lines, tail)))
+    return answer(teacher.workplace, LineResult(lines=(*rows(TABLE), tail)))
 
 
 # -- reading --------------------------------------------------------------------------------------------
@@ -221,36 +206,30 @@ def _along(axis: str, size: float) -> Vector3:
     return x, y, z
 
 
-TABLE: Final = (
-    TeachCommand(usage="j3 +1", act=_joint, help="move a joint by so much; without a sign, to there"),
-    TeachCommand(
+TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
+    Command(usage="j3 +1", act=_joint, help="move a joint by so much; without a sign, to there"),
+    Command(
         usage="table x +.5",
         act=_table,
         help="move the hand along an axis of the table; or `table turn z 10`",
     ),
-    TeachCommand(
+    Command(
         usage="hand z -.2",
         act=_hand,
         help="move it along an axis of its own, z is where it points; or `hand turn y 5`",
     ),
-    TeachCommand(usage="move NAME", act=_function("MOVE"), help="go to a position"),
-    TeachCommand(usage="open GAP", act=_function("OPEN"), help="open the hand"),
-    TeachCommand(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
-    TeachCommand(
-        usage="center [MIN]", act=_function("CENTER"), help="close it, the arm giving way to the thing"
-    ),
-    TeachCommand(usage="float", act=_float, help="take the brakes off; the arm goes where it is pushed"),
-    TeachCommand(usage="push x 5 2", act=_push, help="be the one who pushes it: along x with 5 oz for 2 s"),
-    TeachCommand(
-        usage="here NAME [of PART]", act=_here, help="name where the hand is; `here NAME again` anew"
-    ),
-    TeachCommand(usage="where", act=_look, help="tell where the arm is"),
-    TeachCommand(usage="list", act=_list, help="tell what is taught"),
-    TeachCommand(usage="undo", act=_undo, help="undo the last motion, or the last name"),
-    TeachCommand(
-        usage="save", act=_save, help="write what was named to the file; nothing else in it changes"
-    ),
-    TeachCommand(usage="help", act=_help, help="say this"),
+    Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),
+    Command(usage="open GAP", act=_function("OPEN"), help="open the hand"),
+    Command(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
+    Command(usage="center [MIN]", act=_function("CENTER"), help="close it, the arm giving way to the thing"),
+    Command(usage="float", act=_float, help="take the brakes off; the arm goes where it is pushed"),
+    Command(usage="push x 5 2", act=_push, help="be the one who pushes it: along x with 5 oz for 2 s"),
+    Command(usage="here NAME [of PART]", act=_here, help="name where the hand is; `here NAME again` anew"),
+    Command(usage="where", act=_look, help="tell where the arm is"),
+    Command(usage="list", act=_list, help="tell what is taught"),
+    Command(usage="undo", act=_undo, help="undo the last motion, or the last name"),
+    Command(usage="save", act=_save, help="write what was named to the file; nothing else in it changes"),
+    Command(usage="help", act=_help, help="say this"),
 )
 TEACH_COMMANDS: Final = {lesson.name: lesson for lesson in TABLE[1:]}
 """By their words; joints are read by themselves."""

@@ -1,0 +1,65 @@
+"""Command: one thing that can be said at a prompt, and the table of them as help."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+
+Act = TypeVar("Act", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command(Generic[Act]):
+    """Something that can be said, and what is done then."""
+
+    usage: str
+    act: Act
+    help: str
+    group: str = ""
+    """Heading that it stands under."""
+    short: str = ""
+    """Another word for it."""
+    repeats: bool = False
+    """An empty line behind it says it again."""
+
+    @property
+    def name(self) -> str:
+        """Its word."""
+        return self.usage.partition(" ")[0]
+
+    @property
+    def bare(self) -> bool:
+        """Nothing may stand behind it."""
+        return " " not in self.usage
+
+    @property
+    def shown(self) -> str:
+        """As help has it."""
+        return f"{self.usage}, {self.short}" if self.short else self.usage
+
+
+def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
+    """See that nothing stands behind a command that takes nothing.
+
+    Args:
+        named: the commands of one name.
+
+    Raises:
+        InvalidInput: something does.
+    """
+    commands = list(named)
+    if rest and all(command.bare for command in commands):
+        raise InvalidInput(f"`{commands[0].name}` takes nothing behind it; {quoted(rest)} is too much")
+
+
+def rows(commands: Iterable[Command[Any]]) -> list[str]:
+    """The commands as lines of help, group by group."""
+    table = list(commands)
+    width = max(len(command.shown) for command in table)
+    lines: list[str] = []
+    for group in dict.fromkeys(command.group for command in table):
+        lines += ["", group] if group else []
+        lines += [f"  {each.shown:{width}}  {each.help}" for each in table if each.group == group]
+    return lines
