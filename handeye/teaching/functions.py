@@ -1,10 +1,12 @@
 """Functions typed in: text to a plan that begins where the arm stands."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import Final
 
 from handeye.al import AL
+from handeye.al.parser import parse
+from handeye.al.syntax import Macro
 from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic
 from handeye.planning.scripts import PlannedScript, plan_source
@@ -72,27 +74,17 @@ def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
 
 def lasting(lines: Sequence[str]) -> list[str]:
     """The definitions among lines: macros, positions, vectors. They hold for functions done alone, too."""
-    found: list[str] = []
-    for line, inside in _in_macros(lines):
-        if inside or _word(line) in _LASTING:
-            found.append(line)
-        elif not line.strip():
-            found.append("")  # the end of a macro
-    return [*found, "", ""]
+    script, _ = parse("\n".join(lines))
+    written = [lines[s.line - 1] for s in script.statements if s.word is not None and s.word.text in _LASTING]
+    macros = [_macro_lines(macro, lines) for macro in script.macros.values()]
+    return [*written, *(line for macro in macros for line in macro), ""]
+
+
+def _macro_lines(macro: Macro, lines: Sequence[str]) -> list[str]:
+    """A macro as it is written, and the blank line that ends it."""
+    return [f"DEFINE {macro.name.text}", *(lines[statement.line - 1] for statement in macro.body), ""]
 
 
 def is_open(lines: Sequence[str]) -> bool:
     """Whether a macro is being defined, which a blank line ends."""
-    return any(inside for _, inside in list(_in_macros(lines))[-1:])
-
-
-def _in_macros(lines: Sequence[str]) -> Iterator[tuple[str, bool]]:
-    """Lines, and whether each belongs to a macro."""
-    inside = False
-    for line in lines:
-        inside = (inside or _word(line) == "DEFINE") and bool(line.strip())
-        yield line, inside
-
-
-def _word(line: str) -> str:
-    return (line.split(maxsplit=1) or [""])[0].upper()
+    return any(found.code == "unterminated-macro" for found in parse("\n".join(lines))[1])
