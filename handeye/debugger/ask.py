@@ -76,7 +76,7 @@ def _begun(runner: Runner, text: str) -> int:
 
 
 def _question(runner: Runner, sentence: str) -> list[str]:
-    """What happened, where, and what can be said to it."""
+    """Tell what happened, where, and what can be said to it."""
     program, stage = runner.listing, runner.stage
     assert stage is not None
     step = next(event for event in reversed(runner.events) if isinstance(event, StepStarted))
@@ -89,7 +89,7 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 
 
 def _choices(runner: Runner) -> list[str]:
-    """What can be said, and what it does here."""
+    """Tell what can be said, and what it does here."""
     program, onward = runner.listing, runner.onward
     first = next(step.place for step in program.steps if step.stage == runner.stage)
     where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"

@@ -138,6 +138,6 @@ _SHORT: Final = {
     "exit": "quit",
     **{c.short: " ".join(filter(str.islower, c.usage.split())) for c in COMMANDS if c.short},
 }
-"""What short words stand for."""
+"""Meanings of short words."""
 _ELSEWHERE: Final = {"run": "continue", "go": "continue", "next": "step", "print": "show", "info": "show"}
-"""What other debuggers call the commands."""
+"""Names of the commands in other debuggers."""

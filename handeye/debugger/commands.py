@@ -1,4 +1,4 @@
-"""What the commands of the stepper do to a run in hand; each is given what stands behind its word."""
+"""Commands of the stepper, as they act on a run in hand; each is given what stands behind its word."""
 
 import re
 from collections.abc import Callable

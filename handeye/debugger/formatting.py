@@ -74,7 +74,7 @@ def _standing(reply: Reply) -> str:
 
 
 def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[str]:
-    """What was done, as lines of text; of a long way the last `most`."""
+    """Tell what was done, as lines of text; of a long way the last `most`."""
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
     return head + [_deed(deed) for deed in did[left_out:]]
@@ -90,7 +90,7 @@ def _deed(deed: StepSummary) -> str:
 
 
 def shown_lines(shown: Shown) -> list[str]:
-    """What was asked to be seen, as lines of text."""
+    """Show what was asked for, as lines of text."""
     lines: list[str] = []
     for field, (title, tell) in _TITLES.items():
         value = getattr(shown, field)

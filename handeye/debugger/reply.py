@@ -1,4 +1,4 @@
-"""What the stepper answers to a command, as one plain record: programs read it as JSON, people as text."""
+"""Answer of the stepper to a command, as one plain record: programs read it as JSON, people as text."""
 
 from msgspec import UNSET, UnsetType
 
@@ -19,7 +19,7 @@ class Break(Record, frozen=True, kw_only=True):
 
 
 class CommandResult(Record, frozen=True, kw_only=True):
-    """What a command came to; what it has nothing to say of is left out."""
+    """Result of a command; fields with nothing to say are left out."""
 
     said: str | UnsetType = UNSET
     """A sentence or more."""
@@ -30,7 +30,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
     show: Shown | UnsetType = UNSET
     breaks: tuple[Break, ...] | UnsetType = UNSET
     file: str | UnsetType = UNSET
-    """What was written."""
+    """File that was written."""
 
 
 class Reply(CommandResult, frozen=True, kw_only=True):
@@ -53,8 +53,8 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     script: str = ""
     """The required file its line is in; empty: the script itself."""
     did: tuple[StepSummary, ...] = ()
-    """What was done, in words."""
+    """Steps that were done, in words."""
     events: tuple[AnyEvent, ...] = ()
-    """What has happened, in full."""
+    """Events that have happened, in full."""
     error: str | None = None
     """Why the command was not carried out."""

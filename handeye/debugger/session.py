@@ -23,7 +23,7 @@ AROUND: Final = 2
 
 
 class DebugSession:
-    """What the commands of the stepper act on."""
+    """Session that the commands of the stepper act on."""
 
     def __init__(
         self,
@@ -55,7 +55,7 @@ class DebugSession:
 
     @property
     def program(self) -> Listing:
-        """What is carried out."""
+        """Stages and steps of what is carried out."""
         return self.runner.listing
 
     @property

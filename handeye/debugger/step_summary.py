@@ -1,4 +1,4 @@
-"""What was done: a line for each step, with its place in the source and what came of it."""
+"""Summary of what was done: a line for each step, with its place in the source and what came of it."""
 
 from collections.abc import Iterable, Sequence
 from typing import Final
@@ -13,9 +13,9 @@ from handeye.trace.sentences import inches, sentence
 from handeye.units import INCH
 
 _BETWEEN: Final = (happened.StageStarted, happened.OperatorAnswered, happened.ExperimentMade)
-"""What happens between two steps."""
+"""Events between two steps."""
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
-"""What happens in a step and is told otherwise, or not at all."""
+"""Events in a step that are told otherwise, or not at all."""
 """Operations that come to a gap; other actions come to a place."""
 
 
@@ -31,7 +31,7 @@ class StepSummary(Record, frozen=True, kw_only=True):
 
 
 def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSummary, ...]:
-    """What was done in the course of some events, whole steps."""
+    """Summarize some events, whole steps."""
     groups: list[list[AnyEvent]] = [[]]
     for event in events:
         if isinstance(event, (happened.StepStarted, *_BETWEEN)):
@@ -50,7 +50,7 @@ def _deed(group: Sequence[AnyEvent], program: Listing) -> StepSummary:
 
 
 def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing) -> str:
-    """What came of a step."""
+    """Tell what came of a step."""
     said = []
     for event in group:
         if isinstance(event, happened.ErrorTested):

@@ -45,7 +45,7 @@ class Stepper:
         for text in breaks:
             self.hands.add_break(text)
         self.repeated: str | None = None
-        """What an empty line on a terminal says again."""
+        """Line that an empty one on a terminal says again."""
         self.refused = False
         """A command was not carried out; those said at the end, of which nobody knows when it comes, do not count."""
 

@@ -1,4 +1,4 @@
-"""What can be seen of a run that stands still, as plain records in inches, degrees and ounces."""
+"""Views of a paused run, as plain records in inches, degrees and ounces."""
 
 from typing import Any
 
@@ -72,13 +72,13 @@ class PictureShown(Record, frozen=True, kw_only=True):
 
 
 class Shown(Record, frozen=True, kw_only=True):
-    """What somebody asked to see; the rest is left out."""
+    """Views that somebody asked for; the rest is left out."""
 
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET
     hand: HandView | UnsetType = UNSET
     force_oz: Vector3 | UnsetType = UNSET
-    """What the hand exerts on the world, as estimated when it was last asked for, in W."""
+    """Force that the hand exerts on the world, as estimated when it was last asked for, in W."""
     gap_in: float | UnsetType = UNSET
     switches: tuple[bool, bool] | UnsetType = UNSET
     """Of the fingers on the +y and the -y side of the hand."""

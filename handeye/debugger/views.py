@@ -34,7 +34,7 @@ from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
-    """What there is to see.
+    """Look at a run.
 
     Args:
         what: topics, or their beginnings, one behind the other; all but `positions` if empty.
@@ -191,7 +191,7 @@ PLAIN: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "time": ("time_s", lambda runner: runner.time),
     "state": ("state", lambda runner: msgspec.to_builtins(runner.system.state, enc_hook=np.ndarray.tolist)),
 }
-"""What can be asked for of any system."""
+"""Topics of any system."""
 TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "time": ("time_s", lambda runner: runner.time),
     "joints": ("joints", _joints),
@@ -207,4 +207,4 @@ TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "picture": ("picture", _picture),
     "positions": ("positions", _positions),
 }
-"""What can be asked for: the field of the answer, and how to look."""
+"""Topics: the field of the answer, and how to look."""

@@ -6,5 +6,5 @@ from handeye.runs.runner import Runner
 
 
 def findings(runner: Runner, pause: Pause) -> Findings:
-    """What the referee of the task finds; nothing of a program that did not come to its end."""
+    """Ask the referee of the task; nothing of a program that did not come to its end."""
     return runner.task.judge(runner.cell.truth) if pause.kind == "end" else {}

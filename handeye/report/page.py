@@ -90,7 +90,7 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """What the referee measured on the finished work."""
+    """Tell what the referee measured on the finished work."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")

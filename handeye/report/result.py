@@ -56,7 +56,7 @@ class CameraReport(Record, frozen=True, kw_only=True):
 
 
 class Result(Record, frozen=True, kw_only=True):
-    """What a run came to."""
+    """Result of a run."""
 
     assembled: bool | None
     """The referee's word; None if nobody was asked."""
@@ -68,7 +68,7 @@ class Result(Record, frozen=True, kw_only=True):
     error: int | None
     message: str
     interventions: tuple[str, ...]
-    """What somebody did to the run, a sentence each."""
+    """Interventions in the run, a sentence each."""
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]

@@ -24,7 +24,7 @@ from handeye.versions import versions
 def summary(
     runner: Runner, pause: Pause, *, findings: Findings | None, wall: float, planning: float
 ) -> Result:
-    """What a run has come to.
+    """Summarize a run.
 
     Args:
         findings: the referee's; None if nobody was asked.
@@ -68,7 +68,7 @@ def _check(found: Finding) -> Check:
 
 
 def interventions(events: Iterable[AnyEvent]) -> Iterable[str]:
-    """What somebody did to the run, a sentence each."""
+    """Tell what somebody did to the run, a sentence each."""
     for event in events:
         if isinstance(event, OperatorAnswered):
             yield f"at {event.time:.1f} s the operator chose: {event.choice}"

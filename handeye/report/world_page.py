@@ -14,7 +14,7 @@ from handeye.variation import SPREADS, Quantity, Variation, World, WorldSpec
 
 
 class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
-    """What a quantity is in one world. Figures are in its unit, but for `si`."""
+    """Value of a quantity in one world. Figures are in its unit, but for `si`."""
 
     name: str
     value: float

@@ -38,7 +38,7 @@ _KINDS: Final = ("<f8", "|u1")
 
 
 class Head(Record, frozen=True, kw_only=True):
-    """What a checkpoint is of, for people and for finding the right one."""
+    """Summary of a checkpoint, for people and for finding the right one."""
 
     system: str = "program"
     """The kind of system that carries the run out."""
@@ -81,7 +81,7 @@ class _Body(Record, frozen=True, kw_only=True):
 
 
 def head_of(checkpoint: Checkpoint) -> Head:
-    """What there is to say about a checkpoint in a line."""
+    """Summarize a checkpoint in a line."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     arm, arm_digest = kind_of(setup).machine(setup.plan)
     return Head(
@@ -199,7 +199,7 @@ def _time(snapshot: Snapshot, events: Sequence[AnyEvent]) -> float:
 
 
 def decode_head(data: bytes, name: str) -> Head:
-    """What a checkpoint is of; all of it is checked for damage.
+    """Read the summary of a checkpoint; all of it is checked for damage.
 
     Raises:
         InvalidInput: as `decode`.
@@ -217,7 +217,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
 
 def read_head(path: Path) -> Head:
-    """What the checkpoint in a file is of.
+    """Read the summary of the checkpoint in a file.
 
     Raises:
         InvalidInput: as `decode`, or the file cannot be read.

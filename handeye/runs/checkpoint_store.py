@@ -52,7 +52,7 @@ class CheckpointStore:
         return (path for path in self.folder.glob(f"*{ENDING}") if _position(path) >= 0)
 
     def damaged(self) -> list[str]:
-        """What is wrong with those that are not sound, a sentence each."""
+        """Faults of those that are not sound, a sentence each."""
         faults = []
         for path in sorted(self.folder.glob(f"*{ENDING}")):
             try:

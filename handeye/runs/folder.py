@@ -210,7 +210,7 @@ def _digest(beside: Path, setup: Setup) -> str:
 
 
 def _holds_run(path: Path) -> bool:
-    """Whether a run has left a record in a folder: it has moved, and not only been set up."""
+    """See whether a run has left a record in a folder: it has moved, and not only been set up."""
     records = any((path / name).exists() for name in (EVENTS, TRACE, f"{TRACE}.part", RESULT))
     return records or any(CheckpointStore(path / CHECKPOINTS).moved())
 

@@ -1,4 +1,4 @@
-"""What may look on while a run goes on. No observer can change a run."""
+"""Observers that look on while a run goes on. No observer can change a run."""
 
 from handeye.events import AnyEvent
 from handeye.ports.workcell import Sensed

@@ -108,7 +108,7 @@ class Runner:
 
     @property
     def task(self) -> Task:
-        """What is done in its cell, and by what it is judged."""
+        """Task that is done in its cell."""
         return task(self.setup.task)
 
     @property

@@ -8,12 +8,12 @@ from handeye.variation import WorldSpec
 
 
 class Setup(Record, frozen=True, kw_only=True):
-    """What decides a run, as long as nobody interferes."""
+    """Everything that decides a run, as long as nobody interferes."""
 
     system: str = "program"
     """The kind of system that carries it out."""
     plan: Record
-    """What is carried out: a `Plan` for the executor of programs."""
+    """Plan that is carried out: a `Plan` for the executor of programs."""
     world: WorldSpec
     camera: str
     """How to make pictures: `auto`, `gl` or `ray`."""

@@ -23,7 +23,7 @@ class Snapshot(Record, frozen=True, kw_only=True):
     cell: CellState | None
     """None: the system acts on no simulated cell."""
     state: SystemState
-    """What the system remembers."""
+    """State of the system."""
     vision_s: float = 0.0
     """Processor time that vision has taken until then: beside the state, since no two runs take the same."""
 
@@ -67,5 +67,5 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
 
 def interfered(events: Iterable[AnyEvent]) -> bool:
-    """Whether somebody has taken a hand in what happened."""
+    """See whether somebody has taken a hand in what happened."""
     return any(isinstance(event, ExperimentMade | OperatorAnswered) for event in events)

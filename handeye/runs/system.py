@@ -58,7 +58,7 @@ class Listing(Protocol):
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Its name."""
 
     @property
     def source(self) -> str:
@@ -87,7 +87,7 @@ class Settable:
 
     noun: str
     usage: str
-    """What stands behind its kind: `NAME x y z`."""
+    """Form of the words behind its kind: `NAME x y z`."""
     names: tuple[str, ...]
     units: tuple[float, ...]
     """SI units in one of the units that people give each number in."""
@@ -145,7 +145,7 @@ class System(Protocol):
         """
 
     def settables(self) -> Mapping[str, Settable]:
-        """What a person can set, by kind."""
+        """Things that a person can set, by kind."""
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
         """Set something; SI.
@@ -157,7 +157,7 @@ class System(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Surroundings:
-    """What a system is given by the run that drives it."""
+    """Callbacks that a system is given by the run that drives it."""
 
     emit: Callable[[AnyEvent], None]
     watch: Callable[[Sensed, Array], None]

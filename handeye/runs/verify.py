@@ -1,4 +1,4 @@
-"""Whether a recorded run comes out the same when it is carried out again."""
+"""Verifies a recorded run: it is carried out again and compared."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,7 +19,7 @@ from handeye.trace.reading import Trace, read_trace
 
 
 def setup_of(trace: Trace) -> Setup:
-    """What a recorded run began with; its pictures are made in the way they were.
+    """Setup that a recorded run began with; its pictures are made in the way they were.
 
     Raises:
         InvalidInput: there is no such system here, or its plan is not sound.

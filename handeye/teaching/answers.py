@@ -1,4 +1,4 @@
-"""What is answered to a line that somebody typed, and its two faces: text for people, JSON for programs."""
+"""Answers to typed lines, and their two faces: text for people, JSON for programs."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -18,19 +18,19 @@ from handeye.source import Source
 
 
 class LineResult(Record, frozen=True, kw_only=True):
-    """What a line came to; what there is nothing to say of is left out."""
+    """Result of a line; fields with nothing to say are left out."""
 
     said: str | UnsetType = UNSET
     """A sentence or more."""
     did: tuple[StepSummary, ...] | UnsetType = UNSET
-    """What was done, in words."""
+    """Steps that were done, in words."""
     pause: Pause | UnsetType = UNSET
     """Why the arm stands still, if it went."""
     show: Shown | UnsetType = UNSET
     lines: tuple[str, ...] | UnsetType = UNSET
-    """What is collected, or listed."""
+    """Lines that are collected, or listed."""
     file: str | UnsetType = UNSET
-    """What was written."""
+    """File that was written."""
     error: str | UnsetType = UNSET
     """Why the line was not carried out."""
 

@@ -1,4 +1,4 @@
-"""What can be said to the arm program besides functions, as a table from which reading and help derive."""
+"""Commands of the arm program besides functions, as a table from which reading and help derive."""
 
 import re
 from collections.abc import Callable

@@ -15,7 +15,7 @@ from handeye.program.taught import Taught
 from handeye.source import Source
 
 TYPED: Final = "typed"
-"""What typed functions are called where a file would have a name."""
+"""Name of typed functions where a file would have a name."""
 OPEN: Final = frozenset(
     {"modifier-without-motion", "unknown-label", "skip-at-end", "unterminated-macro", "empty-program"}
 )
@@ -54,7 +54,7 @@ def planned(
 
 
 def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bool:
-    """Whether it misses a saved difference that there is."""
+    """See whether it misses a saved difference that there is."""
     span = diagnostic.primary.span
     text, start = source.find(span.start)
     name = text.text[start : start + span.end - span.start]
@@ -62,7 +62,7 @@ def _known(diagnostic: Diagnostic, source: Source, saved: Collection[str]) -> bo
 
 
 def mistakes(checked: PlannedScript, line: int) -> list[Diagnostic]:
-    """What is wrong with a line of a text that is still being typed, or with what it requires, as far as the next
+    """Find what is wrong with a line of a text that is still being typed, or with what it requires, as far as the next
     line cannot put it right."""
     found = []
     for diagnostic in checked.diagnostics:
@@ -86,5 +86,5 @@ def _macro_lines(macro: Macro, lines: Sequence[str]) -> list[str]:
 
 
 def is_open(lines: Sequence[str]) -> bool:
-    """Whether a macro is being defined, which a blank line ends."""
+    """See whether a macro is being defined, which a blank line ends."""
     return any(found.code == "unterminated-macro" for found in parse("\n".join(lines))[1])

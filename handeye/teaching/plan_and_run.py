@@ -29,7 +29,7 @@ def carry_out(workplace: Workplace, source: Source, *, alone: bool = False) -> A
 
 
 def done(workplace: Workplace, pause: Pause, happened: int = 0) -> LineResult:
-    """What was done behind the first `happened` events of the plan under way."""
+    """Tell what was done behind the first `happened` events of the plan under way."""
     runner = workplace.runner
     told = step_summaries(runner.events[happened:], runner.listing)
     did = tuple(deed for deed in told if deed.line is not None)

@@ -29,7 +29,7 @@ class Repl:
     folder: Path
     """Where programs are looked for by name."""
     called: str = _ANSWERS
-    """What is said when the operator was called."""
+    """Words that are said when the operator was called."""
     functions: list[str] = field(default_factory=list)
     """The lines collected."""
     over: bool = False
@@ -52,7 +52,7 @@ class Repl:
         return about(self.workplace, checked, found)
 
     def typed(self, text: str) -> Source:
-        """What was typed, with the files it requires."""
+        """Make a source of what was typed, with the files it requires."""
         return sewn(Source(name=TYPED, text=text), lambda key: read_source(self.folder / key).text)
 
     def carry_out(self, source: Source, *, alone: bool = False) -> Answer:

@@ -1,4 +1,4 @@
-"""What can be said to the teacher, as a table from which reading and help derive."""
+"""Commands of teaching, as a table from which reading and help derive."""
 
 import re
 from collections.abc import Callable

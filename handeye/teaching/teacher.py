@@ -35,7 +35,7 @@ REST = 0.5
 
 @dataclass(frozen=True, slots=True)
 class _Named:
-    """What was taught before something was named."""
+    """Positions and text before something was named."""
 
     taught: Taught
     text: str
@@ -54,7 +54,7 @@ class Teacher:
     afloat: bool = False
     """The brakes are off, and gravity is borne."""
     _before: list[_Named | None] = field(default_factory=list)
-    """What `undo` puts back: names, or (None) the cell."""
+    """Things that `undo` puts back: names, or (None) the cell."""
 
     def __post_init__(self) -> None:
         self.text = self.saved

@@ -34,7 +34,7 @@ _PICTURE: Final = "LOOK SETUP"
 _FORGOTTEN: Final = (
     "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found"
 )  # fmt: skip
-"""What of a state is of one plan alone: where it is, and its pictures."""
+"""Fields of a state that belong to one plan alone: where it is, and its pictures."""
 
 
 class Workplace:
@@ -99,7 +99,7 @@ class Workplace:
         return self.runner.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
-        """What the planning phase makes of a text here and now; `alone` as for `planned`."""
+        """Plan a text here and now; `alone` as for `planned`."""
         return planned(
             source, self.known, self.runner.run.arm, self.q, saved=self.runner.run.state.saved, alone=alone
         )
@@ -189,7 +189,7 @@ def _plan(text: str, taught: Taught, task: Task) -> Plan:
 
 
 def _onward(state: ExecutionState, plan: Plan) -> ExecutionState:
-    """What is remembered when another plan begins: all but where the last one was, and its pictures."""
+    """Carry a state over to another plan: all but where the last one was, and its pictures."""
     program, kept = plan.program, copied(state)
     fresh = ExecutionState(drive=kept.drive, world=kept.world)
     for name in _FORGOTTEN:

@@ -39,7 +39,7 @@ class _Teller:
     _begun: float = 0.0
     """When that stage began, s."""
     _camera: float = 0.0
-    """What the camera's mechanism took of it, s."""
+    """Seconds of it that the camera's mechanism took."""
     _shift: Array | None = None
     """By how much the goal of the step under way is off its planned place."""
     _off: Array = field(default_factory=lambda: np.zeros(3))

@@ -32,7 +32,7 @@ LOG: Final = "/log"
 SCENE: Final = "/scene"
 EVENTS: Final = "/events"
 MOMENTS: Final = (JOINTS, FRAMES, PICTURE)
-"""What is recorded beside the events: how it was at a moment."""
+"""Channels recorded beside the events: how it was at a moment."""
 
 WORLD: Final = "world"
 """Name of the frame W, parent of all others."""

@@ -39,7 +39,7 @@ def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMess
 
 
 def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, events: int) -> str:
-    """What differs in the first two messages that do, with so many equal events before them."""
+    """Tell what differs in the first two messages that do, with so many equal events before them."""
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"
     if here is None or there is None:

@@ -35,7 +35,7 @@ class Frames:
         return there
 
     def scene(self, time: int) -> bytes:
-        """What the bodies look like, as a message; `time` in ns."""
+        """Looks of the bodies, as a message; `time` in ns."""
         return scene(self._truth, time)
 
 

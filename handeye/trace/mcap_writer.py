@@ -21,7 +21,7 @@ CHUNK: Final = 1 << 20
 
 @dataclass(slots=True)
 class _Sink:
-    """What the MCAP writer writes to: every byte at once, or an OSError; nothing is held back for later."""
+    """Sink of the MCAP writer: every byte at once, or an OSError; nothing is held back for later."""
 
     handle: int
     count: int = 0

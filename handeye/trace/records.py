@@ -1,4 +1,4 @@
-"""What stands in an MCAP file, and whether it is all there and as it was written.
+"""Records of an MCAP file, and whether it is all there and as it was written.
 
 The MCAP reader checks some of a file's check sums. Here all of them are, so that no bit can change unnoticed.
 """
@@ -25,7 +25,7 @@ _HEAD: Final = struct.Struct("<BQ")
 _DATA_END: Final = _HEAD.size + 4
 _FOOTER: Final = _HEAD.size + 20
 _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, MemoryError, OverflowError)
-"""What the MCAP library makes of records that are not as they should be."""
+"""Errors that the MCAP library makes of records that are not as they should be."""
 
 LARGEST: Final = 1 << 26
 """Bytes of a chunk, unpacked: fifty times what a trace's are."""
@@ -48,14 +48,14 @@ class RawMessage:
 
 @dataclass(frozen=True, slots=True)
 class Front:
-    """What stands in a trace before all messages."""
+    """Head of a trace, before all messages."""
 
     metadata: dict[str, str]
     plan: bytes | None
 
 
 def is_mcap(data: bytes) -> bool:
-    """Whether a file begins as an MCAP file does."""
+    """See whether a file begins as an MCAP file does."""
     return data.startswith(MCAP0_MAGIC)
 
 

@@ -34,7 +34,7 @@ class State:
 
 @dataclass(slots=True)
 class _Telling:
-    """What was true from a time on."""
+    """Stage and step from a time on."""
 
     time: float
     stage: str | None

@@ -1,4 +1,4 @@
-"""What of a trace that was broken off is worth going on with."""
+"""Finds what of an interrupted trace is worth going on with."""
 
 from collections.abc import Iterable, Iterator, Sequence
 

@@ -1,4 +1,4 @@
-"""What the bodies of the cell look like, for views that show shapes and not only axes."""
+"""Looks of the bodies of the cell, for views that show shapes and not only axes."""
 
 import numpy as np
 from foxglove_schemas_protobuf.Color_pb2 import Color

@@ -1,4 +1,4 @@
-"""What an event says, in the units of the arm language: inches, ounces, degrees."""
+"""Sentences about events, in the units of the arm language: inches, ounces, degrees."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -32,7 +32,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.PanicStopped: Log.ERROR,
     happened.RunFinished: Log.INFO,
 }
-"""What a person would log, and how much it matters."""
+"""Events that a person would log, and how much they matter."""
 
 _CAMERA: Final = {
     "lens": "turned its lenses",
@@ -63,7 +63,7 @@ def renderer_name(renderer: Renderer) -> str:
 
 
 def sentence(event: Event) -> str:
-    """What happened, without the time."""
+    """Tell what happened, without the time."""
     match event:
         case happened.RunStarted():
             world = f"the world of {event.world}, pictures by {renderer_name(event.camera)}"

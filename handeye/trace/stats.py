@@ -16,7 +16,7 @@ BROKEN_OFF = "broken off"
 
 
 class Figures(msgspec.Struct, kw_only=True):
-    """What a part of a run came to."""
+    """Figures of a part of a run."""
 
     seconds: float = 0.0
     """Simulated, s."""
@@ -53,7 +53,7 @@ class Figures(msgspec.Struct, kw_only=True):
 
 
 class StageFigures(Figures, kw_only=True):
-    """What a stage came to; one that was done more than once is counted together."""
+    """Figures of a stage; one that was done more than once is counted together."""
 
     stage: str
     status: str = BROKEN_OFF
