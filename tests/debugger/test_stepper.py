@@ -469,7 +469,7 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
 
 def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> None:
     say("s 2")
-    runner.trouble = "the simulation lost its footing"
+    runner._broken = "the simulation lost its footing"
     assert say("s")[0].error == "the run cannot go on from here, only back: the simulation lost its footing"
     assert say("set saved H 0 0 0")[0].error == "nothing can be tried from here; go back first"
     assert [answer.position for answer in say("b", "s")] == [1, 2]
