@@ -1,4 +1,4 @@
-"""What goes to disk: frozen values whose every field has a type that is checked when they are read."""
+"""Records that go to disk: frozen values whose every field has a type that is checked when they are read."""
 
 import msgspec
 

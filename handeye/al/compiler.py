@@ -88,7 +88,7 @@ def _without_lost_labels(source: Source, found: list[Diagnostic]) -> list[Diagno
 
 
 def _word(source: Source, diagnostic: Diagnostic) -> str:
-    """What a diagnostic marks."""
+    """The text that a diagnostic marks."""
     span = diagnostic.primary.span
     text, start = source.find(span.start)
     return text.text[start : start + span.end - span.start]

@@ -1,4 +1,4 @@
-"""What an instruction of the language is: its operands, their units, and its part in the flow."""
+"""Definition of an instruction: its operands, their units, and its part in the flow."""
 
 from dataclasses import dataclass
 from enum import Enum, StrEnum
@@ -36,7 +36,7 @@ REV_PER_MIN = OperandUnit(name="rpm", si=units.RPM)
 
 
 class Refers(StrEnum):
-    """What a name must be the name of."""
+    """Kinds of things that a name must be the name of."""
 
     POSITION = "position"
     PART = "part"
@@ -79,7 +79,7 @@ class Operand:
 
     @property
     def is_vector(self) -> bool:
-        """Whether nothing but a vector, or the name of one, may stand here."""
+        """True if nothing but a vector, or the name of one, may stand here."""
         return bool(self.components)
 
     @property

@@ -1,4 +1,4 @@
-"""What of a program nobody could have written in the seventies: words and operands that are ours."""
+"""Words and operands of a program that are ours: nobody could have written them in the seventies."""
 
 from collections.abc import Iterator
 

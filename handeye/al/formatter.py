@@ -47,7 +47,7 @@ def _operands(tokens: Sequence[Token]) -> str:
 
 
 def _is_tight(tokens: Sequence[Token]) -> bool:
-    """Whether the last token stands against its neighbour: behind a bracket, or a comma with no blanks.
+    """True if the last token stands against its neighbour: behind a bracket, or a comma with no blanks.
 
     A blank at a comma is kept, on its right: `0, 5` are two numbers, `0,5` is a wrongly written one. So is `O.5`.
     """

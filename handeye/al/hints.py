@@ -1,4 +1,4 @@
-"""What people write by a slip, or because another language has it, and the word that helps them on."""
+"""Words that people write by a slip, or because another language has them, and the word that helps them on."""
 
 import re
 from typing import Final
@@ -52,7 +52,7 @@ def elsewhere(word: str) -> str | None:
 
 
 def alone(word: str) -> str | None:
-    """What to say of an instruction that stands there without an operand, as another language has it."""
+    """Help for an instruction that stands there without an operand, as another language has it."""
     return f"it modifies the motion after it; {_ENDS}" if word == "STOP" else None
 
 
@@ -63,7 +63,7 @@ def with_digits(text: str) -> str | None:
 
 
 def letters_for_digits(text: str) -> str | None:
-    """What to say of a text in which letters stand for digits; None if they do not."""
+    """Help for a text in which letters stand for digits; None if they do not."""
     right = with_digits(text)
     return None if right is None else f"a digit is wanted, not a letter that looks like it: `{right}`"
 
@@ -76,7 +76,7 @@ def with_unit(text: str) -> tuple[str, str] | None:
 
 
 def strange(text: str) -> str | None:
-    """What to say of characters that are no part of the language; None if nothing helps."""
+    """Help for characters that are no part of the language; None if nothing helps."""
     first = text[0]
     if first == ":":
         return "a colon stands behind a label, where a line begins"

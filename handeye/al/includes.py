@@ -69,12 +69,12 @@ def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
 
 
 def own_key(source: Source) -> str:
-    """What the text itself is called from its own folder."""
+    """Name of the text itself from its own folder."""
     return PurePath(source.name).name
 
 
 def key_of(file: str, by: str) -> str:
-    """What a file is called from the folder of the whole, when it is required by the text `by`."""
+    """Name of a file from the folder of the whole, when it is required by the text `by`."""
     return posixpath.normpath(posixpath.join(posixpath.dirname(by), file))
 
 
@@ -86,7 +86,7 @@ def _piece(name: str, key: str, read: Read) -> Source:
 
 
 def required_by(text: str) -> Iterator[Text]:
-    """What a text itself requires, in its order."""
+    """Files that a text itself requires, in its order."""
     for found in _LINE.finditer(text):
         for line in scan(found[0], found.start()):
             tokens = line.split()[1]

@@ -29,7 +29,7 @@ from handeye.program.operations import VIAS
 AXES: Final = ("X", "Y", "Z")
 """Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
 MOST: Final = 1000
-"""What a counter can be set to."""
+"""The most that a counter can be set to."""
 LARGEST_STEP: Final = 1.0
 """in, of a search."""
 LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]

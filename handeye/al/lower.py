@@ -20,12 +20,12 @@ from handeye.source import Source, Span
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"
 _WAY = {"FORCE": "press", "FREE": "give way", "SPIN": "be turned", "VIA": "pass"}
-"""What a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
+"""Verbs for what a modifier is about, if not about how a motion ends; a motion has one modifier of each kind."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lowered:
-    """What an expanded program has become."""
+    """Stages and steps of an expanded program."""
 
     stages: tuple[str, ...]
     steps: tuple[Step, ...]
@@ -60,15 +60,16 @@ def _step(source: Source, draft: "_Draft") -> Step:
     assert draft.operation is not None
     statement = draft.statement
     text, start = source.find(statement.start)
-    column, length = text.column(start), statement.end - statement.start
+    length, column = statement.end - statement.start, text.column(start)
+    modifiers = tuple([_place(source, modifier) for modifier in draft.modifiers]) if draft.modifiers else ()
     return Step(
         operation=draft.operation, stage=draft.stage, labels=draft.labels, macro=draft.macro, file=text.key,
         line=statement.line, span=(column, column + length), text=text.text[start : start + length],
-        modifiers=tuple([_words(source, modifier) for modifier in draft.modifiers]), next=draft.next,
+        modifiers=modifiers, next=draft.next,
     )  # fmt: skip
 
 
-def _words(source: Source, statement: Statement) -> SourcePlace:
+def _place(source: Source, statement: Statement) -> SourcePlace:
     text, start = source.find(statement.start)
     column = text.column(start)
     span = (column, column + statement.end - statement.start)
@@ -209,7 +210,7 @@ class _Lowering:
         )
 
     def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
-        """Whether it modifies such a motion, and is the first of its kind."""
+        """True if it modifies such a motion, and is the first of its kind."""
         word = _word(modifier)
         assert motion.word is not None
         fits = INSTRUCTIONS[word.text].fits

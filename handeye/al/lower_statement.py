@@ -18,8 +18,8 @@ from handeye.units import INCH, OUNCE_FORCE
 PLACE_DEPTH: Final = 3.0 * INCH
 """How far PLACE lowers the hand at most: the height of an approach."""
 PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
-"""What PLACE stops on. The least with which the pump script stops a motion; friction is felt as up to 0.2 N, and
-an arm that moves as some ten times that."""
+"""Force that PLACE stops on, N. The least with which the pump script stops a motion; friction is felt as up to 0.2 N,
+and an arm that moves as some ten times that."""
 PLACES: Final = 49
 """Of a search: three steps to each side."""
 _PLACES: Final = {
@@ -38,7 +38,7 @@ class Operands(msgspec.Struct, frozen=True, gc=False):
     places: dict[str, tuple[int, tuple[float, ...]]]
 
     def has(self, key: str) -> bool:
-        """Whether an optional operand or word is there."""
+        """True if an optional operand or word is there."""
         return self.values[self.places[key][0]] is not None
 
     def number(self, key: str) -> float:
@@ -79,7 +79,7 @@ def _operands(statement: Statement) -> Operands:
 
 
 class _How(msgspec.Struct, frozen=True, kw_only=True):
-    """What the modifiers say of a motion."""
+    """All that the modifiers say of a motion."""
 
     guards: g.Guards = ()
     press: Vector3 | None = None
@@ -115,7 +115,7 @@ def position(statement: Statement) -> tuple[str, Position]:
 
 
 def restore(statement: Statement) -> p.Restore:
-    """What a `RESTORE` adds to its `MOVE`."""
+    """The shift that a `RESTORE` adds to its `MOVE`."""
     operands = _operands(statement)
     return p.Restore(name=operands.name("name"), level=operands.has("LEVEL"))
 

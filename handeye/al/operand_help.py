@@ -1,4 +1,4 @@
-"""What may stand at an operand, in words: for the manual, and for those who ask."""
+"""Say what may stand at an operand: for the manual, and for those who ask."""
 
 from typing import Final
 
@@ -14,7 +14,7 @@ _CALLED: Final = {
 
 
 def takes(definition: Instruction, operand: Operand) -> str:
-    """What may stand at an operand of an instruction."""
+    """Say what may stand at an operand of an instruction."""
     kinds = {
         Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
         Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
@@ -33,7 +33,7 @@ def origin(definition: Instruction, operand: Operand) -> str:
 
 
 def part(definition: Instruction) -> str:
-    """What an instruction is, and of whom."""
+    """Say what an instruction is, and of whom."""
     said = f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}."
     return (
         f"{said} Modifies {', '.join(f'`{word}`' for word in definition.fits)}." if definition.fits else said

@@ -72,7 +72,7 @@ def _without_commas(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _meant(tokens: Sequence[Token]) -> Mistake | None:
-    """What is at the bottom of a mistake in these operands, where their marks tell it."""
+    """Find what is at the bottom of a mistake in these operands, where their marks tell it."""
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:
@@ -108,7 +108,7 @@ def _is_decimal(tokens: Sequence[Token]) -> bool:
 
 
 def is_unterminated(token: Token) -> bool:
-    """Whether it is a string without its closing quote."""
+    """True if it is a string without its closing quote."""
     return token.kind is STRING and (len(token.text) == 1 or token.text[-1] != '"')
 
 
@@ -150,7 +150,7 @@ class _Reader(msgspec.Struct, gc=False):
         return value
 
     def takes(self, word: str) -> bool:
-        """Whether a word of the language stands here; it is read."""
+        """Read a word of the language, if one stands here."""
         token = self.tokens[self.at]
         found = token.kind is NAME and token.text.upper() == word
         self.at += found
@@ -230,7 +230,7 @@ class _Reader(msgspec.Struct, gc=False):
         return Mistake("wrong-operand", message, value.span, help=self.cure(value, operand) or self.usage())
 
     def cure(self, value: Value, operand: Operand) -> str | None:
-        """What helps where a value of a wrong kind stands."""
+        """Help where a value of a wrong kind stands."""
         if isinstance(value, Name) and value.text.upper() in INSTRUCTIONS:
             return _begins_a_line(value.text)
         if isinstance(value, Name) and Number in operand.takes:
@@ -277,7 +277,7 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("number-out-of-range", message, value.span)
 
     def check_nils(self) -> None:
-        """What can all be left out, one by one, cannot be left out together."""
+        """Refuse operands that can all be left out, one by one, and not together."""
         nils = [o.plain for o in self.definition.operands if o.nil]
         if nils and not any(v for o, v in zip(self.definition.operands, self.values, strict=True) if o.nil):
             message = f"`{self.definition.op}` has no {' and no '.join(nils)}"
@@ -307,7 +307,7 @@ class _Reader(msgspec.Struct, gc=False):
         raise Mistake("too-many-operands", message, span, help=help)
 
     def is_too_early(self, token: Token) -> bool:
-        """Whether a word of the language was read as a name, in the place before its own."""
+        """True if a word of the language was read as a name, in the place before its own."""
         words = {
             o.word for o, v in zip(self.definition.operands, self.values, strict=True) if o.word and v is None
         }

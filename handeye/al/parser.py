@@ -217,7 +217,7 @@ class _Parser:
         return False
 
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> str | None:
-        """What helps where a line begins with a word that is neither an instruction nor a macro."""
+        """Help where a line begins with a word that is neither an instruction nor a macro."""
         label = f"a label ends with a colon: `{written}:`"
         behind = rest[0].text.upper() if rest else ""
         if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):
@@ -262,7 +262,7 @@ def _name(token: Token) -> Name:
 
 
 def _alone(rest: tuple[Token, ...]) -> str:
-    """What to write instead of having these words done."""
+    """Help to write something instead of having these words done."""
     help = "a script is carried out as a whole"
     if not rest or rest[0].text.upper() not in INSTRUCTIONS:
         return help

@@ -1,5 +1,5 @@
-"""What the planner found, in the words of the language: inches, degrees, ounces, joints by name, at the place in the
-script that it is about.
+"""Findings of the planner in the words of the language: inches, degrees, ounces, joints by name, at the place in the
+script that each is about.
 """
 
 import math
@@ -47,7 +47,7 @@ _FORCE_WORDS: Final = ("STOP", "FORCE")
 def planning_diagnostics(
     program: Program, arm: NamedArm, findings: Iterable[PlanningFinding]
 ) -> list[Diagnostic]:
-    """What was found against a program on an arm, by position; spans are of the whole."""
+    """Diagnostics for the findings against a program on an arm, by position; spans are of the whole."""
     phrases = _Phrases(program, arm)
     return arranged(_PHRASES[type(finding)](phrases, finding) for finding in findings)
 
@@ -115,7 +115,7 @@ class _Phrases:
         return self.at_position(found, message, help=help, notes=(f"it comes to its limit {place}",))
 
     def radians(self, name: str | None) -> str | None:
-        """What was mistaken in the angles of a position, if they are written in radians."""
+        """Help for the angles of a position, if they are written in radians."""
         position = None if name is None else self.program.positions.get(name)
         for angle in () if position is None else position.at[3:]:
             parts = angle / DEGREE / (math.pi / 4)
@@ -126,7 +126,7 @@ class _Phrases:
         return None
 
     def counted(self, name: str) -> str:
-        """What a position is counted from, if not from the table."""
+        """The part that a position is counted from, if not from the table, as the rest of a sentence."""
         position = self.program.positions.get(name)
         of = None if position is None else position.of
         return "" if of is None else f"; it is counted from {quoted(of)}"

@@ -13,11 +13,11 @@ _SHOWN = 6
 
 @dataclass(slots=True)
 class Requirements:
-    """What a text requires, as one REQUIRE after the other is met."""
+    """Files that a text requires, as one REQUIRE after the other is met."""
 
     source: Source
     texts: dict[str, Source] = field(init=False)
-    """What can be read, by its key."""
+    """Texts that can be read, by their keys."""
     reading: list[str] = field(init=False)
     """Keys of the texts that are being read, each required by the one before."""
     first: dict[str, Span] = field(default_factory=dict)

@@ -9,7 +9,7 @@ from handeye.source import Located
 
 
 class TokenKind(Enum):
-    """What a token is."""
+    """Kinds of tokens."""
 
     NAME = "name"
     NUMBER = "number"  # or what starts like one

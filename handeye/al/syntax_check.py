@@ -1,4 +1,4 @@
-"""What is wrong with the form of a text itself, whatever its names mean and whatever it requires."""
+"""Check the form of a text itself, whatever its names mean and whatever it requires."""
 
 from handeye.al.parser import parse_whole
 from handeye.diagnostics import Diagnostic

@@ -17,10 +17,10 @@ UNIT_WORDS: Final = {
     **dict.fromkeys(("deg", "degree", "degrees", "rad"), _ANGLE),
     **dict.fromkeys(("ips", "rpm"), _SPEED),
 }
-"""What to say of each, in small letters."""
+"""Help for each, in small letters."""
 
 
 def no_units(word: str) -> str | None:
-    """What to say where a word stands that may be meant for a unit; None if it may not."""
+    """Help where a word stands that may be meant for a unit; None if it may not."""
     said = UNIT_WORDS.get(word.lower())
     return None if said is None else f"numbers are written without a unit: {said}"

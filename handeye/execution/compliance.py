@@ -78,5 +78,5 @@ class Course:
 
 
 def _beyond(felt: Array, noise: float) -> Array:
-    """What is felt, less the noise."""
+    """The force that is felt, less the noise."""
     return np.asarray(np.sign(felt) * np.maximum(np.abs(felt) - noise, 0.0))

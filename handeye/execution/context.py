@@ -62,4 +62,4 @@ class ExecutionContext:
 Action = Callable[[ExecutionContext, Any], Fault | None]
 """Carries an operation out, and comes back with the error that it raises."""
 Decision = Callable[[ExecutionContext, Any], bool]
-"""Whether a step leads to where its operation branches."""
+"""True if the step leads to where its operation branches."""

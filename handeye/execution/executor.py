@@ -30,7 +30,7 @@ IDLE_LIMIT: Final = 10_000
 """Steps without time passing after which a program is taken to run in a circle."""
 
 ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | VISION_ACTIONS | FLOW_ACTIONS
-"""What carries out each operation that does not branch."""
+"""Actions of all operations that do not branch."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -41,7 +41,7 @@ class Executor:
 
     @property
     def state(self) -> ExecutionState:
-        """What it remembers, shared with the actions."""
+        """All that it remembers, shared with the actions."""
         return self.run.state
 
     def step(self) -> None:
@@ -107,7 +107,7 @@ class Executor:
             self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, detail=fault.detail))
 
     def _tests(self, number: int | None) -> bool:
-        """Whether a step tests for an error."""
+        """True if a step tests for an error."""
         branch = None if number is None else self.run.plan.program.steps[number].operation.branch
         return branch is not None and branch.error is not None
 

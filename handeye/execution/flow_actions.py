@@ -12,7 +12,7 @@ from handeye.program.world_model import place
 
 
 def test_error(run: ExecutionContext, operation: op.Test) -> bool:
-    """Whether the last action raised an error, which is then cleared."""
+    """Test for an error of the last action, and clear it."""
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
     run.emit(ErrorTested(time=run.time, number=operation.number, occurred=occurred))
@@ -27,7 +27,7 @@ def assign(run: ExecutionContext, operation: op.Assign) -> None:
 
 
 def count_down(run: ExecutionContext, operation: op.Countdown) -> bool:
-    """Whether a counter is still positive when one has been subtracted from it."""
+    """Subtract one from a counter; true while it is still positive."""
     left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
     return left > 0
 

@@ -56,7 +56,7 @@ class Shot:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:
-    """What vision found in a picture."""
+    """Findings of vision in a picture."""
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
@@ -64,7 +64,7 @@ class Found:
 
 
 class DriveState(MutableRecord, kw_only=True):
-    """What the servo loop holds and feels."""
+    """Set-points and senses of the servo loop."""
 
     q: Array
     """Set-point the arm holds, shape (n,), rad and m."""
@@ -99,7 +99,7 @@ class ExecutionState(SystemState, kw_only=True):
     counters: dict[str, int] = msgspec.field(default_factory=dict)
     search: SearchState | None = None
     restored: dict[str, Array] = msgspec.field(default_factory=dict)
-    """What RESTOREs added to the goal of the last Move."""
+    """Differences that RESTOREs added to the goal of the last Move."""
     goal: Array = msgspec.field(default_factory=lambda: np.zeros(3))
     """Goal of the last Move without its search offset, in W (m)."""
     travel: float = 0.0
@@ -114,7 +114,7 @@ class ExecutionState(SystemState, kw_only=True):
     shots: dict[str, Shot] = msgspec.field(default_factory=dict)
     general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
     found: dict[str, Found] = msgspec.field(default_factory=dict)
-    """What vision made of each picture."""
+    """Findings of vision in each picture."""
     world: WorldState = msgspec.field(default_factory=WorldState)
     drive: DriveState
 

@@ -1,1 +1,1 @@
-"""What lays a plan open: its stages and times, its flow, what a change in a script did to it."""
+"""Laying a plan open: its stages and times, its flow, what a change in a script did to it."""

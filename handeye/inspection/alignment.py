@@ -41,7 +41,7 @@ def _matched(
 
 
 def leads_alike(pairs: Sequence[Pair], old: int | None, new: int | None) -> bool:
-    """Whether a way that led to step `old` and now leads to `new` still goes to the same place.
+    """True if a way that led to step `old` and now leads to `new` still goes to the same place.
 
     A way to a step that was removed goes on to what stood behind it, or to what has come in its place; None is
     the end of the program.
@@ -63,7 +63,7 @@ def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
 
 
 def does(step: Step) -> dict[str, Any]:
-    """What a step does, but for where it leads."""
+    """The operation of a step as data, but for where it leads."""
     operation: dict[str, Any] = msgspec.to_builtins(step.operation)
     return {key: value for key, value in operation.items() if key not in ("raised", "positive")}
 

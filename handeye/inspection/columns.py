@@ -11,7 +11,7 @@ WIDTH: Final = 264
 ROW: Final = 24
 """Height of a step without notes."""
 NOTE: Final = 14
-"""What each note adds to it."""
+"""Height that each note adds to it."""
 GAP: Final = 18
 """Between a step and the one below."""
 TALL: Final = 1150

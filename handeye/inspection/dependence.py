@@ -1,4 +1,4 @@
-"""What a step depends on that only the working phase knows: parts seen, positions and differences kept, a search.
+"""Find what a step depends on that only the working phase knows: parts seen, positions and differences kept, a search.
 
 For each step it is worked out which measurements can be the newest when it is reached, over every way through the
 graph, loops and error edges included.
@@ -34,7 +34,7 @@ class Dependence(Record, frozen=True, kw_only=True):
 
 
 def dependences(program: Program) -> tuple[tuple[Dependence, ...], ...]:
-    """What each step of a program depends on, in the order of the steps."""
+    """Dependences of each step of a program, in the order of the steps."""
     newest = _newest(program)
     kept = program.written("position")
     return tuple(
@@ -53,12 +53,12 @@ def _dependence(program: Program, key: Key, level: bool, steps: frozenset[int]) 
 
 
 def _measures(operation: Operation) -> list[Key]:
-    """What an operation measures."""
+    """Everything that an operation measures."""
     return [(kind, use.name) for use in operation.writes for kind in _MEASURED if kind == use.kind]
 
 
 def _uses(program: Program, kept: set[str], operation: Operation) -> list[tuple[Key, bool]]:
-    """What a motion or a look is carried out by, and whether only its horizontal components count.
+    """Everything a motion or a look is carried out by, and whether only its horizontal components count.
 
     Args:
         kept: positions that a HERE keeps.

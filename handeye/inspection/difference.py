@@ -1,4 +1,4 @@
-"""What a change in a script did: to its stages and steps, to positions and parts, to the motions of the arm."""
+"""Compare two plans: what a change did to stages and steps, to positions and parts, to the motions of the arm."""
 
 from collections.abc import Iterator
 from typing import Literal
@@ -49,7 +49,7 @@ class StepChange(Record, frozen=True, kw_only=True):
     line: int
     text: str
     changes: tuple[tuple[str, str, str], ...] = ()
-    """What, as it was, as it is."""
+    """Each change: of what, as it was, as it is."""
     motion: MotionChange | None = None
 
 
@@ -72,7 +72,7 @@ class Difference(Record, frozen=True, kw_only=True):
 
 
 def difference(before: Plan, after: Plan) -> Difference:
-    """What differs between two plans."""
+    """Compare two plans."""
     pairs = aligned(before.program.steps, after.program.steps)
     steps = (_step(before, after, pair, pairs) for pair in pairs)
     old, new = before.program.stages, after.program.stages

@@ -1,4 +1,4 @@
-"""What a change in a script did, told in lines."""
+"""The difference between two plans, told in lines."""
 
 from typing import Final
 
@@ -12,7 +12,7 @@ _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}
 
 
 def difference_text(found: Difference) -> list[str]:
-    """What differs between two plans, as lines of text."""
+    """The difference between two plans as lines of text."""
     if found.same:
         return ["no difference: both do the same"]
     out = [f"~ {what}: {was} -> {now}" for what, was, now in found.heads]

@@ -20,7 +20,7 @@ class Node:
     """As people are told: `12`, or `pins.al:12`."""
     text: str
     notes: tuple[str, ...]
-    """What guards it."""
+    """Its guards, in words."""
     seconds: float | None
     kind: Family
 

@@ -18,7 +18,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     line: int
     text: str
     operation: str
-    """What it is called on disk."""
+    """Its name on disk."""
     seconds: float | None
     """Planned duration of its motion; None if it has none."""
     guards: Guards
@@ -26,7 +26,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     press: Vector3 | None
     """Force it exerts, N, table coordinates."""
     conditions: tuple[str, ...]
-    """What guards it, in words and units of the language."""
+    """Its guards, in words and units of the language."""
     depends: tuple[Dependence, ...]
     error: int | None
     """The error it tests for."""
@@ -95,7 +95,7 @@ def inspection_text(found: Inspection, stage: int | None = None) -> list[str]:
 
 
 def depends_text(one: Dependence) -> str:
-    """What a step depends on, in words."""
+    """Say what a step depends on."""
     lines = f"line{'' if len(one.lines) == 1 else 's'} {', '.join(map(str, one.lines))}"
     if one.kind == "search":
         return f"search of {lines}" if one.lines else "no search"

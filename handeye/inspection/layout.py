@@ -47,7 +47,7 @@ class Route:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Area:
-    """What a stage takes up; x, y is the upper left corner."""
+    """The area that a stage takes up; x, y is the upper left corner."""
 
     stage: int
     x: float

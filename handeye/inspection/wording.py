@@ -62,12 +62,12 @@ _MET: Final[dict[type[g.Guard], Callable[[Any], str]]] = {
 
 
 def stops(guards: g.Guards) -> str:
-    """What ends a guarded motion, and the error there is if nothing does."""
+    """Say what ends a guarded motion, and which error there is if nothing does."""
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 
 def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
-    """What guards an operation, and what it does with force; nothing for most."""
+    """Say what guards an operation, and what it does with force; nothing for most."""
     guarded = (stops(operation.guards),) if operation.guards else ()
     said = _CONDITIONS.get(type(operation))
     return guarded if said is None else (*guarded, *said(operation))
@@ -112,7 +112,7 @@ _CONDITIONS: Final[dict[type[op.AnyOperation], Callable[[Any], list[str]]]] = {
     op.Center: lambda operation: [_held(operation)],
     op.Travel: _gone,
 }
-"""What is to be said of an operation besides its guards."""
+"""More that is to be said of an operation than its guards."""
 
 
 def _axes(axes: Vector3) -> str:

@@ -1,4 +1,4 @@
-"""What the types of a plan cannot say: every reference leads somewhere, and every number can be carried out.
+"""Check what the types of a plan cannot say: every reference leads somewhere, and every number can be carried out.
 
 A plan may have been cut, edited or made by another program; whatever passes here can be run without a surprise.
 """
@@ -21,7 +21,7 @@ _SHORTEST: Final = 1e-5  # s, segment of a polynomial
 
 
 def faults(plan: Plan) -> Iterator[str]:
-    """What is wrong with a plan, a sentence each; nothing if it is sound."""
+    """Faults of a plan, a sentence each; none if it is sound."""
     program = plan.program
     if not program.steps:
         yield "it has no steps"
@@ -103,7 +103,7 @@ def _places(step: Step, lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
 
 def _use(program: Program, use: Use) -> Iterator[str]:
-    """What is wrong with a name that a step uses."""
+    """Faults of a name that a step uses."""
     match use.kind:
         case "position" if use.name not in program.positions:
             yield f"uses position {use.name}, which the plan does not have"

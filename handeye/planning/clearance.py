@@ -1,4 +1,4 @@
-"""What the hand, and what it holds, would run into on a planned motion: the fixtures of the program, and the table.
+"""Obstacles of the hand, and of what it holds, on a planned motion: the fixtures of the program, and the table.
 
 All are boxes. A motion may begin inside something, for a guarded one before it is planned to go on where in truth it
 stops; then it may come out, by half the margin at least, and what counts is what it goes into afterwards. Where a goal
@@ -32,7 +32,7 @@ class Crossing:
     along: float
     """How far the hand has gone when it is deepest, m."""
     at_end: bool
-    """Whether it is deepest at the end of the motion."""
+    """It is deepest at the end of the motion."""
 
 
 class Surroundings:

@@ -1,4 +1,4 @@
-"""What the hand does, as far as the text tells: how wide it is open, and what it holds."""
+"""The state of the hand, as far as the text tells: how wide it is open, and what it holds."""
 
 from dataclasses import dataclass, field
 
@@ -26,7 +26,7 @@ class GraspState:
         self._holds = {at: name for name, held in self.program.held.items() for at in held.positions}
 
     def follow(self, number: int, step: Step) -> None:
-        """What a step does to the hand, and to what is in it."""
+        """Take over what a step does to the hand, and to what is in it."""
         match step.operation:
             case Move(goal=goal):
                 self._goal = goal
@@ -44,5 +44,5 @@ class GraspState:
 
     @property
     def load(self) -> tuple[Box, ...]:
-        """What it holds, as boxes in T."""
+        """The thing it holds, as boxes in T."""
         return () if self.held is None else self.program.held[self.held].boxes

@@ -25,7 +25,7 @@ SPARSE: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """What the hand is to exert on a motion."""
+    """A force or moment that the hand is to exert on a motion."""
 
     exerted: Exerted
     guard: bool
@@ -39,7 +39,7 @@ def to_stop(guards: Guards, along: Vector3 | None = None) -> list[Demand]:
 
 
 def to_press(operation: Change) -> list[Demand]:
-    """What a straight motion is to press and turn with."""
+    """Force and moment that a straight motion is to press and turn with."""
     both = ((operation.press, False), (operation.moment, True))
     exerted = (Exerted(wanted, turning) for wanted, turning in both if wanted is not None)
     return [Demand(one, guard=False) for one in exerted]
@@ -66,14 +66,14 @@ class Checks:
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:
-        """What a step does to the hand, and to what is in it."""
+        """Take over what a step does to the hand, and to what is in it."""
         self._grip.follow(number, step)
         match step.operation:
             case Load(weight=weight):
                 self._load = (weight, number) if weight > 0 else None
 
     def clear(self, number: int, step: Step, q: Array) -> None:
-        """Whether the hand and its load are clear of everything over configurations `q`, shape (N, n)."""
+        """Check that the hand and its load are clear of everything over configurations `q`, shape (N, n)."""
         X_WT, grip, goal = forward(self.arm, q), self._grip, step.operation.goal_position
         for boxes, held in ((grip.fingers, None), (grip.load, grip.held)):
             judged = held is None and goal is not None
@@ -91,7 +91,7 @@ class Checks:
                 return  # the worst of a motion is enough
 
     def strong(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Whether the arm holds its load up over configurations `q`, and can exert what is asked at both ends."""
+        """Check that the arm holds its load up over configurations `q`, and can exert what is asked at both ends."""
         weight = 0.0
         if self._load is not None:
             weight, declared = self._load

@@ -76,7 +76,7 @@ class _Walk:
     checks: Checks
     q: Array = field(init=False)
     known: bool = True
-    """Whether the arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
+    """The arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
     motions: dict[int, PlannedMotion] = field(default_factory=dict)
 
     def go(self, start: Array | None) -> None:
@@ -186,7 +186,7 @@ _PLANNED: Final[dict[type[Operation], Callable[[_Walk, int, Step, Any], None]]] 
     Turn: _Walk.turn,
     Here: _Walk.define,
 }
-"""What the planner does at steps that move the arm, or that ask where it is."""
+"""Deeds of the planner at steps that move the arm, or that ask where it is."""
 
 
 def _joints(q: Array) -> Joints:

@@ -15,7 +15,7 @@ from handeye.source import Source
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlannedScript:
-    """What the planning phase has made of a text."""
+    """The plan that the planning phase has made of a text, and its diagnostics."""
 
     source: Source
     plan: Plan | None

@@ -1,4 +1,4 @@
-"""What the arm can hold up and press with, standing still: by the greatest torques of its joints, gravity included."""
+"""Loads and forces that the arm can bear and exert, standing still: by the greatest torques of its joints."""
 
 from dataclasses import dataclass
 
@@ -23,7 +23,7 @@ class Weakness:
 def weakness(
     arm: ArmModel, q: Array, wanted: Array, *, turning: bool = False, weight: float = 0.0
 ) -> Weakness | None:
-    """Whether the hand cannot exert a force in any of the configurations `q`, shape (N, n).
+    """Find where the hand cannot exert a force in any of the configurations `q`, shape (N, n).
 
     Args:
         wanted: N, table axes, shape (3,); a moment (N m) if `turning`.

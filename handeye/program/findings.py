@@ -1,4 +1,4 @@
-"""What the planner finds against a program: facts in SI units, each at a step. A language puts them into its words."""
+"""Findings of the planner against a program: facts in SI units, each at a step. A language puts them into its words."""
 
 from dataclasses import dataclass
 
@@ -66,7 +66,7 @@ class RunsInto:
     at_end: bool
     """It is deepest at the end of the motion."""
     held: str | None
-    """What the hand holds and leads there; None: the hand itself."""
+    """Name of what the hand holds and leads there; None: the hand itself."""
     grasp: int | None
     """The step that took it."""
 
@@ -89,7 +89,7 @@ class TooHeavy:
     joint: int
     """The one that gives out first, from 0."""
     most: float
-    """What could be held up, N."""
+    """The most that could be held up, N."""
     position: None = None
     code: str = "load-beyond-arm"
 

@@ -93,7 +93,7 @@ class Graph:
         return found
 
     def leads(self, first: int | None, last: int, without: Container[int]) -> bool:
-        """Whether there is a way from one step to another that avoids some; near steps are tried first."""
+        """True if there is a way from one step to another that avoids some; near steps are tried first."""
         waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
         while waiting:

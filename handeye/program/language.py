@@ -28,7 +28,7 @@ class Language:
     """The script in a file with all that belongs to it; raises InvalidInput if it cannot be read."""
     compile: Callable[[Source, Taught], Compiled]
     phrase: Callable[[Program, NamedArm, Iterable[PlanningFinding]], list[Diagnostic]]
-    """What a planner found against a program for an arm, at its places in the text."""
+    """Diagnostics for what a planner found against a program for an arm, at their places in the text."""
 
 
 def language_of(file: PurePath, languages: Mapping[str, Language]) -> Language:

@@ -110,7 +110,7 @@ class Operation(
         return None
 
     def used(self, fields: Fields) -> tuple[Use, ...]:
-        """What some of its fields name."""
+        """Everything that some of its fields name."""
         found: list[Use] = []
         for kind, names in fields.items():
             if not names:

@@ -99,12 +99,12 @@ class Change(ArmMotion, frozen=True, kw_only=True):
 
     @property
     def meets(self) -> bool:
-        """Whether it is meant to meet something: to stop on it, or to press on it or turn it."""
+        """True if it is meant to meet something: to stop on it, or to press on it or turn it."""
         return bool(self.guards) or self.press is not None or self.moment is not None
 
     @property
     def complies(self) -> bool:
-        """Whether force or moment moves the hand on the way."""
+        """True if force or moment moves the hand on the way."""
         return any(way is not None for way in (self.press, self.free, self.moment, self.spin))
 
     @property

@@ -86,7 +86,7 @@ class Hole(Record, frozen=True, kw_only=True):
 
 
 class Part(Record, frozen=True, kw_only=True):
-    """What the program knows of a part: where it is planned to be, and what it looks like from above."""
+    """A part as the program knows it: where it is planned to be, and what it looks like from above."""
 
     at: tuple[float, float, float, float]
     """Planned x, y, z (m) and yaw (rad) of its reference point and reference direction."""
@@ -103,7 +103,7 @@ class Part(Record, frozen=True, kw_only=True):
 
 
 class Fixture(Record, frozen=True, kw_only=True):
-    """What stands fast in the cell, as boxes."""
+    """A thing that stands fast in the cell, as boxes."""
 
     at: tuple[float, float, float, float]
     """x, y, z (m) and yaw (rad) of its frame on the table."""
@@ -111,7 +111,7 @@ class Fixture(Record, frozen=True, kw_only=True):
 
 
 class Held(Record, frozen=True, kw_only=True):
-    """What the hand holds when it has closed at one of some positions, as boxes in the hand's frame T."""
+    """A thing that the hand holds when it has closed at one of some positions, as boxes in the hand's frame T."""
 
     positions: tuple[str, ...]
     boxes: tuple[Box, ...]
@@ -131,9 +131,9 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     positions: dict[str, Position]
     parts: dict[str, Part]
     fixtures: dict[str, Fixture] = field(default_factory=dict)
-    """What no motion may lead through."""
+    """Things that no motion may lead through."""
     held: dict[str, Held] = field(default_factory=dict)
-    """What is carried, by name."""
+    """Things that are carried, by name."""
 
     @property
     def whole(self) -> Source:

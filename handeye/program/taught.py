@@ -1,4 +1,4 @@
-"""What is given from outside a program: what the teacher stored by moving the arm, and the cell around it, as TOML.
+"""Given from outside a program: what the teacher stored by moving the arm, and the cell around it, as TOML.
 
 [positions.PIN]
 at = [18, 44, 3, 0, 90, 0]         # x, y, z in inches, angles O, A, T in degrees
@@ -44,7 +44,7 @@ from handeye.source import Source, read_source
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Taught:
-    """What is taught, by name, in SI units. Parts and positions that are referred to are there."""
+    """Positions, parts and fixtures by name, in SI units. Parts and positions that are referred to are there."""
 
     positions: dict[str, Position] = field(default_factory=dict)
     parts: dict[str, Part] = field(default_factory=dict)
@@ -99,7 +99,7 @@ def _taught(tables: _File) -> Taught:
 
 
 def _spoilt(error: tomllib.TOMLDecodeError) -> str:
-    """What a TOML reader says, as the rest of a sentence."""
+    """The words of a TOML reader, as the rest of a sentence."""
     said = str(error).replace("Cannot overwrite a value", "a name stands twice")
     return said[:1].lower() + said[1:]
 
@@ -113,7 +113,7 @@ def _line(source: Source, key: str) -> int | None:
 
 
 def _faults(taught: Taught) -> Iterator[UnfitEntry]:
-    """What is wrong between the entries of a file."""
+    """Faults between the entries of a file."""
     for name, position in taught.positions.items():
         if position.of is not None and position.of not in taught.parts:
             meant = suggestion(position.of, taught.parts)

@@ -74,7 +74,7 @@ Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
 
 
 class UnfitEntry(Exception):
-    """What is wrong with an entry; `key` is `positions.NAME`."""
+    """A fault of an entry; `key` is `positions.NAME`."""
 
     def __init__(self, key: str, said: str) -> None:
         super().__init__(said)
@@ -139,7 +139,7 @@ _KINDS: Final = {
 
 
 def unfit(error: msgspec.ValidationError) -> str:
-    """What does not fit, and where, as the rest of a sentence.
+    """Say what does not fit, and where, as the rest of a sentence.
 
     It is read off the sentence of `msgspec`, which tells it in no other way.
     """

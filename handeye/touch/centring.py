@@ -17,7 +17,7 @@ Placeholder."""
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CentringStep:
-    """What to do in one servo period."""
+    """Shifts of fingers and hand in one servo period."""
 
     gap: float = 0.0
     """Change of the finger gap set-point, m."""
@@ -42,7 +42,7 @@ class Centring:
     _left: float | None = field(default=None, init=False)
 
     def step(self, *, touch: tuple[bool, bool], gap: float, period: float) -> CentringStep:
-        """What to do in the next period.
+        """Shifts of the next period.
 
         Args:
             touch: switches of the finger on the +y side of the hand and of the one on the -y side.

@@ -16,7 +16,7 @@ HELD: Final = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reading:
-    """What a monitor looks at in a servo period."""
+    """Forces and switches that a monitor looks at in a servo period."""
 
     force: Array
     """Force the hand exerts on the world, shape (3,), N, world axes."""
@@ -148,6 +148,6 @@ _MONITORS: Final[dict[type[g.Guard], Callable[[Any], Monitor]]] = {
 
 
 def monitor(guards: Guards) -> Monitor | None:
-    """What watches for all of some guards; None if there are none."""
+    """The monitor of all of some guards; None if there are none."""
     found = tuple(_MONITORS[type(guard)](guard) for guard in guards)
     return found[0] if len(found) == 1 else FirstOf(monitors=found) if found else None

@@ -1,1 +1,1 @@
-"""What is wrong with a program whose form is right."""
+"""Checks of a program whose form is right."""

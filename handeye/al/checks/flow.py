@@ -1,4 +1,4 @@
-"""What a program does that cannot be meant, seen on the graph of its steps: nothing has to move to find it.
+"""Check for what cannot be meant in the flow of a program, on the graph of its steps: nothing has to move to find it.
 
 A statement of a macro is several steps. It is at fault only if it is at fault in every call.
 """
@@ -25,7 +25,7 @@ _CURES = {
 
 
 def check_flow(graph: Graph, origins: Sequence[Statement]) -> list[Diagnostic]:
-    """What is wrong with the flow of a program whose statements are all right; `origins`: those of its steps."""
+    """Mistakes in the flow of a program whose statements are all right; `origins`: those of its steps."""
     flow = _Flow(graph, origins)
     found = [*flow.unreachable(), *flow.loops()]
     for check in (flow.tests, flow.rounds, flow.vain, *(_order(flow, order) for order in _ORDERS)):
@@ -43,7 +43,7 @@ class _Order:
     message: str
     help: str
     later: bool = False
-    """What it needs has to come after it."""
+    """The other one has to come after it."""
 
 
 _ORDERS = (
@@ -111,7 +111,7 @@ class _Flow:
         self.trapped = graph.trapped(graph.which(op.Wait, op.Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
-        """What a check finds at every step that a statement has become, unreachable ones left out."""
+        """Findings of a check at every step that a statement has become, unreachable ones left out."""
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return
@@ -230,7 +230,7 @@ class _Flow:
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: op.Test, number: int, raised: Mapping[int, set[int]]) -> bool:
-        """Whether a test leaves out nothing but the test of another error, which can be there, before a case."""
+        """True if a test leaves out nothing but the test of another error, which can be there, before a case."""
         steps, behind = self.graph.steps, self.graph.steps[number].next
         second = self.graph.at(behind, op.Test)
         if behind is None or second is None or second.number not in raised[behind]:

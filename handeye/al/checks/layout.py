@@ -1,4 +1,4 @@
-"""What the layout of a text seems to say and the language does not: blanks in front of a line, a line between lines."""
+"""Check the layout of a text for what it seems to say and the language does not: blanks before or between lines."""
 
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -10,7 +10,7 @@ from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Source
 
 _NO_STEP = frozenset(i.op for i in INSTRUCTIONS.values() if i.role in (DECLARATION, SHIFT))
-"""What a skip passes over, or takes with the step before."""
+"""Words that a skip passes over, or takes with the step before."""
 _LEADS_AWAY = frozenset(i.op for i in INSTRUCTIONS.values() if i.role is JUMP) | SKIPS | {"WAIT"}
 """Behind these the program need not go on with the next line."""
 _BEGINNINGS = ("MOVE", "PARK")

@@ -38,7 +38,7 @@ _DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 
 
 def check_names(script: Script, words: ByWord, used: Used, taught: Taught) -> list[Diagnostic]:
-    """What is named in a script, its macros included, and is not there, or is there twice."""
+    """Names in a script, its macros included, of what is not there, or is there twice."""
     declared = {op: _declared(words.get(op, ())) for op in _DECLARE}
     known = _known(declared, taught)
     unknown = [

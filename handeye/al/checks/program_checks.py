@@ -35,7 +35,7 @@ class CompiledScript:
 
 
 def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]) -> list[Diagnostic]:
-    """What cannot be meant, in a script and along every way through it; `positions` are those taught or written."""
+    """Everything that cannot be meant in a script or on a way through it; `positions` are those taught or written."""
     graph = Graph(whole.lowered.steps)
     found = check_flow(graph, whole.lowered.origins)
     found += faint(whole.words, whole.vectors)
@@ -48,7 +48,7 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
 
 
 def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """What is written for nothing; not what stands in lines that are never carried out."""
+    """Things written for nothing; not those in lines that are never carried out."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
     unused = check_unused(whole.script, whole.words, whole.used, whole.source)
     return [d for d in unused if _line(whole.source, d) not in lost and _is_for_us(whole.source, d)]

@@ -43,7 +43,7 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
 
 
 def _follows(graph: Graph, move: int, name: str) -> bool:
-    """Whether a difference is saved from the goal of a MOVE: on a way from it, before the next."""
+    """True if a difference is saved from the goal of a MOVE: on a way from it, before the next."""
     seen: set[int] = set()
     waiting = list(graph.onward[move])
     while waiting:

@@ -1,4 +1,4 @@
-"""What is written and never used: labels, positions, macros."""
+"""Check for what is written and never used: labels, positions, macros."""
 
 import re
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ _WRITTEN = {
     "TRANS": ("position", (Refers.POSITION, Refers.TARGET)),
     "VECT": ("vector", (Refers.VECTOR,)),
 }
-"""What an instruction declares, and as what it is used."""
+"""Kinds of things that an instruction declares, and as what they are used."""
 _COMMENTED = re.compile(
     r"""^ (?: [^\n;"] | "[^\n"]*" )* ; [ \t]* (\w+) [ \t]+ (\w+)""", re.ASCII | re.MULTILINE | re.VERBOSE
 )

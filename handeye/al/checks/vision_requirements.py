@@ -1,4 +1,4 @@
-"""What a program wants to see and cannot: parts of which too little is taught, pictures that cannot be compared."""
+"""Check that a program can see what it wants to: that enough is taught of parts, and pictures can be compared."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Final
@@ -11,7 +11,7 @@ from handeye.program.taught import Taught
 from handeye.source import Span
 
 Need = tuple[str, Callable[[Part], bool]]
-"""What has to be taught of a part, and whether it is."""
+"""Something that has to be taught of a part, and the question whether it is."""
 _REGION: Final[Need] = ("`region`", lambda part: part.region is not None)
 _OUTLINE: Final[Need] = ("`outline`", lambda part: part.outline is not None)
 _HOLES: Final[Need] = ("two `holes`", lambda part: len(part.holes) >= 2)
@@ -19,7 +19,7 @@ _NEEDS: Final = {"GENERAL": (_REGION, _OUTLINE), "SPECIFIC": (_HOLES,), "INSPECT
 
 
 def check_sights(words: ByWord, taught: Taught) -> Iterator[Diagnostic]:
-    """What is wrong with the looks of a script all of whose names are right."""
+    """Mistakes in the looks of a script all of whose names are right."""
     for op, needs in _NEEDS.items():
         for statement in words.get(op, ()):
             name = statement.operands[0] if statement.operands else None
