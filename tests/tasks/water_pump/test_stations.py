@@ -9,6 +9,7 @@ import pytest
 from handeye.al import compile_text
 from handeye.errors import InvalidInput
 from handeye.planning.planner import make_plan
+from handeye.program.findings import RunsInto
 from handeye.program.taught import Taught
 from handeye.resources import plans, scenes
 from handeye.runs.scripts import taught
@@ -72,8 +73,8 @@ def test_the_planner_keeps_clear_of_a_new_station() -> None:
     known: Taught = taught(plans() / "water_pump.al")
     program, _ = compile_text(Source(name="through.al", text=THROUGH), known)
     assert program is not None
-    _, problems = make_plan(program, task().arm)
-    assert any("`TOOL_TRAY`" in problem.message for problem in problems)
+    _, findings = make_plan(program, task().arm)
+    assert "TOOL_TRAY" in {finding.fixture for finding in findings if isinstance(finding, RunsInto)}
 
 
 def test_without_the_entry_nothing_is_in_the_way() -> None:
