@@ -1,6 +1,6 @@
 """The arm language: text to a checked program, and text to tidy text."""
 
-from handeye.al.compiler import compile_text
+from handeye.al.compiler import LANGUAGE, compile_text
 from handeye.al.extensions import extensions
 from handeye.al.formatter import format_text
 from handeye.al.includes import read_script, sewn, sewn_of
@@ -8,9 +8,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.planning_messages import planning_diagnostics
 from handeye.program.language import Language
 
-AL = Language(
-    name="Stanford arm language", read=read_script, compile=compile_text, phrase=planning_diagnostics
-)
+AL = Language(name=LANGUAGE, read=read_script, compile=compile_text, phrase=planning_diagnostics)
 
 __all__ = [
     "AL",

@@ -1,6 +1,7 @@
 """Text in, checked program out."""
 
 from pathlib import PurePath
+from typing import Final
 
 from handeye.al.checks.names import check_names
 from handeye.al.checks.program_checks import CompiledScript, check_whole
@@ -16,6 +17,9 @@ from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
 from handeye.program.program import Position, Program
 from handeye.program.taught import Taught
 from handeye.source import Source, Span
+
+LANGUAGE: Final = "wave"
+"""Name of the language in programs and plans: that of the arm program of 1973."""
 
 
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
@@ -53,7 +57,7 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
 def _program(source: Source, lowered: Lowered, positions: dict[str, Position], taught: Taught) -> Program:
     return Program(
         name=PurePath(source.name).stem,
-        language="wave",
+        language=LANGUAGE,
         source=source.text,
         stages=lowered.stages,
         steps=lowered.steps,

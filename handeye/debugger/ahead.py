@@ -1,5 +1,6 @@
 """Stop conditions that a run can still come to."""
 
+from handeye.program.graph import reachable
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop, AtStage, AtSteps
 from handeye.runs.system import Listing
@@ -18,13 +19,8 @@ def is_ahead(stop: AnyStop, start: Checkpoint) -> bool:
 
 def _ahead(listing: Listing, first: int) -> set[int]:
     """The steps that can come after one."""
-    found: set[int] = set()
-    left = [first]
-    while left:
-        new = {way for way in listing.steps[left.pop()].ways if way is not None} - found
-        found |= new
-        left += new
-    return found
+    ways = [step.ways for step in listing.steps]
+    return reachable(ways[first], ways)
 
 
 def _steps(stop: AnyStop, listing: Listing) -> frozenset[int] | None:

@@ -43,7 +43,7 @@ class Graph:
                     back[target].append(number)
         object.__setattr__(self, "onward", onward)
         object.__setattr__(self, "back", back)
-        object.__setattr__(self, "reached", _spread([0] if self.steps else [], onward))
+        object.__setattr__(self, "reached", reachable([0] if self.steps else [], onward))
 
     def which(self, *kinds: type[Operation]) -> list[int]:
         """The steps whose operation is of one of these kinds, in order."""
@@ -67,11 +67,11 @@ class Graph:
 
     def after(self, numbers: Iterable[int]) -> set[int]:
         """The steps that can come, sooner or later, after one of these."""
-        return _spread([target for number in numbers for target in self.onward[number]], self.onward)
+        return reachable([target for number in numbers for target in self.onward[number]], self.onward)
 
     def before(self, numbers: Iterable[int]) -> set[int]:
         """The steps after which, sooner or later, one of these can come."""
-        return _spread([before for number in numbers for before in self.back[number]], self.back)
+        return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
         """The steps of these kinds that can be the last before a step; none if it can come without one.
@@ -144,23 +144,23 @@ class Graph:
         if all(any(t is None or t > n for t in self.onward[n]) for n in turns):
             return set()  # the last of the trapped steps would have to turn back, whatever comes
         out.update(number for number, targets in enumerate(self.onward) if None in targets)
-        return set(range(len(self.steps))) - _spread(out, self.back)
+        return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
         """The steps that can be come to from `start`; none if any of those already known is among them.
 
         All of them are known from now on.
         """
-        found = _spread([start], self.onward, known)
+        found = reachable([start], self.onward, known)
         met = any(target in known for number in found for target in self.onward[number])
         known |= found
         return set() if met else found
 
 
-def _spread(
+def reachable(
     first: Iterable[int | None], edges: Sequence[Iterable[int | None]], without: Iterable[int] = ()
 ) -> set[int]:
-    """Everything that can be come to along edges, the beginning included."""
+    """Everything that can be come to along edges, by number, the beginning included."""
     found = set(without)
     waiting = list(first)
     while waiting:

@@ -24,6 +24,7 @@ class Language:
     """A language that scripts are written in."""
 
     name: str
+    """As programs and plans say it."""
     read: Callable[[Path], Source]
     """The script in a file with all that belongs to it; raises InvalidInput if it cannot be read."""
     compile: Callable[[Source, Taught], Compiled]

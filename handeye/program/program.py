@@ -4,8 +4,6 @@ This is the first waist of the system: every arm language ends here, and the pla
 operations, joined by planned motions, make the plan.
 """
 
-from typing import Literal
-
 from msgspec import field
 
 from handeye.boxes import Box
@@ -121,7 +119,8 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A checked program."""
 
     name: str
-    language: Literal["wave"]
+    language: str
+    """The language it was written in, by the name that this has (`program/language.py`)."""
     source: str
     """The text it was made from."""
     required: dict[str, str] = field(default_factory=dict)

@@ -1,11 +1,14 @@
 """What operations tell of themselves is enough to walk, check and carry out any program."""
 
+import ast
+from pathlib import Path
 from typing import get_args
 
 import pytest
 
 from handeye.execution.executor import ACTIONS
 from handeye.execution.flow_actions import DECISIONS
+from handeye.program import operations
 from handeye.program.guards import AnyGuard, GuardKind
 from handeye.program.operation import Operation
 from handeye.program.operations import AnyOperation, Change, Countdown, Jump, Move, Restore, Test
@@ -25,6 +28,24 @@ def test_what_an_operation_tells_of_its_fields_is_about_fields_it_has(operation:
         name for table in (operation.reading, operation.writing) for names in table.values() for name in names
     }
     assert named | {*operation.bounds} | {*operation.choices} <= fields
+
+
+def asked_for(path: Path) -> set[str]:
+    """The operations by whose class a module asks with `isinstance`."""
+    calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
+    asked = [
+        call.args[1] for call in calls if isinstance(call.func, ast.Name) and call.func.id == "isinstance"
+    ]
+    names = {node.id for node in asked if isinstance(node, ast.Name)}
+    names |= {node.attr for one in asked for node in ast.walk(one) if isinstance(node, ast.Attribute)}
+    imports = "handeye.program.operations" in path.read_text() or "import operations" in path.read_text()
+    return names & {operation.__name__ for operation in OPERATIONS} if imports else set()
+
+
+def test_nobody_but_the_lowering_asks_an_operation_for_its_class() -> None:
+    package = Path(operations.__file__).parents[1]
+    found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path)}
+    assert found == {"al/lower.py"}  # where a RESTORE finds its MOVE, and a search its own
 
 
 def test_every_guard_is_called_on_disk_as_its_kind() -> None:
