@@ -26,7 +26,7 @@ from handeye.tasks.water_pump.eye import DRAWING
 
 pytestmark = pytest.mark.slow
 
-PLANNERS = {("plan.planner", "*"), ("plan.motions", "move_trajectory"), ("arm.kinematics", "solve")}
+PLANNERS = {("planning.planner", "*"), ("planning.motions", "move_trajectory"), ("arm.ik.solvers", "solve")}
 """What makes motions to places: the planner, the path over the goal, the joints that reach it."""
 
 UNDISTURBED = "MOVE P\nMOVE T\nOPEN 1\nMOVE P DIRECT\nPARK"
@@ -95,4 +95,4 @@ def test_a_goal_that_was_shifted_gets_a_path_of_its_own_but_no_plan() -> None:
     plan = plan_of(SHIFTED)
     with planners_called() as called:
         carried_out(plan)
-    assert called == PLANNERS - {("plan.planner", "*")}
+    assert called == PLANNERS - {("planning.planner", "*")}
