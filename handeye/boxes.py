@@ -33,7 +33,7 @@ def lowest(X_WA: Pose, boxes: Sequence[Box]) -> Array:
 
 
 def depths(X_BA: Pose, boxes: Sequence[Box], others: Sequence[Box]) -> Array:
-    """How far the boxes of frame A would have to be moved to come clear of others, each in a frame B of its own.
+    """Penetration depths of the boxes of frame A in others, each in a frame B of its own.
 
     Args:
         X_BA: shape (N, m, 4, 4), for the m frames of the others.

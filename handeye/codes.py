@@ -9,7 +9,7 @@ Severity = Literal["error", "warning"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Code:
-    """What a kind of diagnostic means; `example` is a text that gets it."""
+    """A kind of diagnostic; `example` is a text that gets it."""
 
     severity: Severity
     meaning: str
@@ -32,8 +32,8 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 
 
 CODES: Final[dict[str, Code]] = {
-    "aoj-without-search": _warning("no SEARCH comes before an AOJ on any way to it", "L: MOVE T\nAOJ L"),
-    "axis-count": _error("a FREE or SPIN has not as many axes as it says", "FREE 2 X\nCHANGE X 1"),
+    "aoj-without-search": _warning("no SEARCH comes before an AOJ on any path to it", "L: MOVE T\nAOJ L"),
+    "axis-count": _error("a FREE or SPIN names more or fewer axes than its count", "FREE 2 X\nCHANGE X 1"),
     "carries-through-fixture": _planning(
         "what the hand holds would go through a fixture",
         "TRANS OVER [32 46 3 90 90 0]\nOPEN 1\nMOVE P\nCLOSE\nMOVE OVER",
@@ -51,20 +51,18 @@ CODES: Final[dict[str, Code]] = {
         "L: ASSIGN N 2\nMOVE T\nSOJG N L",
     ),
     "empty-program": _error("there is no instruction to carry out", "; nothing"),
-    "endless-loop": _warning(
-        "a loop moves the arm, and nothing but an untested error ends it", "L: MOVE T\nJUMP L"
-    ),
+    "endless-loop": _warning("a loop moves the arm, and only an untested error ends it", "L: MOVE T\nJUMP L"),
     "error-never-raised": _warning(
         "a test asks for an error that the action before it does not raise", "OPEN 1\nSKIPE 23\nPARK"
     ),
     "extension-used": Code(
         severity="error",
-        meaning="a word or an operand is ours, and the language was to be that of the seventies",
+        meaning="a word or an operand is ours, and only the language of the seventies is allowed",
         example="LOAD 4",
         phase="strict",
     ),
     "force-beyond-arm": _planning(
-        "a motion is to press or turn with more than the arm can exert",
+        "a motion should press or turn with more than the arm can exert",
         "MOVE T\nFORCE [0 0 -900]\nCHANGE [0 0 -1] 1",
     ),
     "hand-through-fixture": _planning(
@@ -72,8 +70,8 @@ CODES: Final[dict[str, Code]] = {
         "TRANS OVER [32 46 2 90 90 0]\nMOVE OVER\nCHANGE [0 0 -1] 1",
     ),
     "hand-through-table": _planning("part of the hand would be below the table top", "MOVE LOW"),
-    "idle-loop": _warning("nothing leads out of a loop, and nothing moves in it", "PARK\nL: JUMP L"),
-    "joint-limit": _planning("a joint would be turned beyond its limit", "MOVE T\nTURN P 330"),
+    "idle-loop": _warning("a loop has no exit, and nothing moves in it", "PARK\nL: JUMP L"),
+    "joint-limit": _planning("a joint would move beyond its limit", "MOVE T\nTURN P 330"),
     "joint-too-fast": _planning(
         "a joint would have to move faster than it can", "PARK\nCHANGE [1 0 0] 10 70"
     ),
@@ -82,35 +80,29 @@ CODES: Final[dict[str, Code]] = {
         "STOP 50\nL: MOVE T\nJUMP L",
     ),
     "label-twice": _error("two statements have the same label", "L: OPEN 1\nL: OPEN 2"),
-    "line-too-long": _error("a line has more characters than anybody reads", f"OPEN 1\n;{'-' * 1000}"),
+    "line-too-long": _error("a line is too long", f"OPEN 1\n;{'-' * 1000}"),
     "load-beyond-arm": _planning("a load is heavier than the arm can hold", "LOAD 900\nMOVE T"),
     "macro-ends-early": _warning(
-        "a blank line parts the modifier at the end of a macro from its motion",
+        "a blank line separates the modifier at the end of a macro from its motion",
         "DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK",
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
-    "faint-force": _warning(
-        "a force is less than what joint friction is felt as", "STOP [0 0 -.2]\nCHANGE Z -1"
-    ),
-    "faint-moment": _warning(
-        "a moment is less than what joint friction is felt as", "STOP NIL [5 0 0]\nCHANGE X 1"
-    ),
-    "malformed-number": _error("a number is not written as one", "OPEN 1.2.3"),
-    "misplaced-comma": _error("a comma does not stand between two operands", "CLOSE .1,"),
+    "faint-force": _warning("a force is below the noise of joint friction", "STOP [0 0 -.2]\nCHANGE Z -1"),
+    "faint-moment": _warning("a moment is below the noise of joint friction", "STOP NIL [5 0 0]\nCHANGE X 1"),
+    "malformed-number": _error("a number is malformed", "OPEN 1.2.3"),
+    "misplaced-comma": _error("a comma is not between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
     "modifier-misplaced": _error(
         "a modifier stands before a motion it cannot modify", "FORCE [0 0 -9]\nMOVE T"
     ),
-    "modifier-twice": _error("a motion has two modifiers where it can have one", "STOP 9\nTORQUE 9\nMOVE T"),
+    "modifier-twice": _error("a motion has two modifiers of one kind", "STOP 9\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
-    "never-saved": _warning(
-        "a difference is restored that no SAVE keeps on any way to it", "MOVE T\nRESTORE H"
-    ),
+    "never-saved": _warning("no SAVE saves a restored difference on any path to it", "MOVE T\nRESTORE H"),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "opened-too-little": _warning("a grasp asks for more than the hand is open", "OPEN .2\nCLOSE .25"),
     "part-not-described": _error(
-        "a part is to be found in a picture, and too little of it is taught",
+        "too little is taught of a part to find it in a picture",
         "LOOK V\nGENERAL GASKET V",
     ),
     "path-leaves-reach": _planning("a motion leaves the arm's reach on its way", "MOVE T\nCHANGE [0 1 0] 30"),
@@ -130,38 +122,38 @@ CODES: Final[dict[str, Code]] = {
     ),
     "require-in-macro": _error("a macro requires a file", "DEFINE PINS\nREQUIRE pins.al\n\nPARK\nPINS"),
     "required-twice": _warning(
-        "a file is required that has been read before",
+        "a file is required twice",
         "REQUIRE pins.al\nREQUIRE pins.al",
         {"pins.al": "PARK"},
     ),
     "restore-without-move": _error("a RESTORE does not follow a MOVE", "SAVE H\nOPEN 1\nRESTORE H"),
-    "save-without-move": _warning("no MOVE comes before a SAVE on any way to it", "CLOSE\nSAVE H"),
+    "save-without-move": _warning("no MOVE comes before a SAVE on any path to it", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
-        "a SEARCH begins anew in every round that was to go on with it",
+        "a SEARCH starts anew in every round of its own loop",
         "L: SEARCH .07\nMOVE T\nSTOP 9\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-stands-still": _warning(
         "a search has no MOVE between its label and its AOJ",
         "MOVE T\nSEARCH .07\nL: STOP 9\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
-    "search-without-aoj": _warning("no AOJ comes after a SEARCH on any way from it", "SEARCH .07\nMOVE T"),
+    "search-without-aoj": _warning("no AOJ comes after a SEARCH on any path from it", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),
     "skip-over-modifier": _error(
         "a skip would skip a modifier and not its motion", "SKIPE 23\nSTOP [0 0 -50]\nMOVE T"
     ),
     "skips-one-only": _warning(
-        "several lines stand farther in behind a skip, which skips the first of them",
+        "several indented lines follow a skip, which skips only the first",
         "        CLOSE   .1\n        SKIPN   2\n            OPEN    1\n            PARK\n        WHERE",
     ),
     "specific-without-general": _warning(
-        "no GENERAL comes before a SPECIFIC on any way to it", "LOOK V\nSPECIFIC BASE V"
+        "no GENERAL comes before a SPECIFIC on any path to it", "LOOK V\nSPECIFIC BASE V"
     ),
     "stage-twice": _error("two stages have the same name", 'STAGE "A"\nPARK\nSTAGE "A"\nPARK'),
     "stop-away-from-motion": _warning(
-        "a motion goes away from what its STOP is to press on", "STOP [0 0 -50]\nCHANGE Z 1"
+        "a motion goes away from what its STOP should press on", "STOP [0 0 -50]\nCHANGE Z 1"
     ),
     "stop-beyond-arm": _planning(
-        "a motion is to stop on a force or moment that the arm cannot exert",
+        "a motion should stop on a force or moment that the arm cannot exert",
         "MOVE T\nSTOP [0 0 -600]\nCHANGE [0 0 -1] 1",
         "warning",
     ),
@@ -169,9 +161,7 @@ CODES: Final[dict[str, Code]] = {
         "a test only skips the next one, so that its error changes nothing",
         "L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK",
     ),
-    "test-without-action": _warning(
-        "an error is tested where no action comes directly before", "SKIPE 23\nPARK"
-    ),
+    "test-without-action": _warning("a test does not directly follow an action", "SKIPE 23\nPARK"),
     "too-many-operands": _error("an instruction has more operands than it takes", "OPEN 1 2"),
     "too-much-required": _error(
         "too many files are required, or too large ones",
@@ -179,55 +169,55 @@ CODES: Final[dict[str, Code]] = {
         {f"{n}.al": f"REQUIRE {n + 1}.al" for n in range(1, 102)},
     ),
     "torque-without-tool": _warning(
-        "a torque is to end a motion, and no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
+        "a torque should end a motion, but no TOOL runs the screwdriver", "TORQUE 42\nCHANGE Z -.5"
     ),
     "touch-while-closed": _warning(
-        "a touch is to end a motion, and the fingers are closed already",
+        "a touch should end a motion, but the fingers are already closed",
         "CLOSE .1\nTOUCH 3\nCHANGE Z -1",
     ),
     "travel-too-long": _warning(
-        "a TRAVEL asks for a longer way than the motion before it goes", "CHANGE Z .6\nTRAVEL .7 .9"
+        "a TRAVEL asks for more than the motion before it can go", "CHANGE Z .6\nTRAVEL .7 .9"
     ),
     "travel-without-change": _warning(
-        "no CHANGE comes before a TRAVEL on any way to it", "PARK\nTRAVEL .1 .2"
+        "no CHANGE comes before a TRAVEL on any path to it", "PARK\nTRAVEL .1 .2"
     ),
-    "typed-word": _error(
-        "a word is typed to have something done, and is no instruction of a script", "OPEN 3\nDO PARK"
-    ),
-    "unexpected-character": _error("a character is no part of the language", "OPEN = 1"),
-    "unit-written": _error("a unit is written behind a number", "OPEN 1.5 in"),
+    "typed-word": _error("a console command is written in a script", "OPEN 3\nDO PARK"),
+    "unexpected-character": _error("a character is not part of the language", "OPEN = 1"),
+    "unit-written": _error("a unit follows a number", "OPEN 1.5 in"),
     "unknown-axis": _error("an axis is none of X, Y and Z", "FREE 1 W\nCHANGE X 1"),
     "unknown-counter": _error("no ASSIGN sets a counter of that name", "L: PARK\nSOJG N L"),
-    "unknown-error-number": _warning("an error is tested that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"),
+    "unknown-error-number": _warning(
+        "a test asks for an error that nothing raises", "PARK\nSKIPE 42\nPARK\nPARK"
+    ),
     "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
     "unknown-lens": _error("the turret has no such lens", "LENS 35"),
     "unknown-part": _error("a part is not known", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
     "unknown-picture": _error("no LOOK takes a picture of that name", "GENERAL BASE VIEW"),
-    "unknown-position": _error("a position is neither taught nor written with TRANS", "MOVE X9"),
-    "unknown-target": _error("what the camera shall aim at is neither a position nor a part", "AIM X9"),
-    "unknown-vector": _error("a vector is neither an axis nor written with VECT", "CHANGE DOWN 1"),
+    "unknown-position": _error("a position is neither taught nor defined by TRANS", "MOVE X9"),
+    "unknown-target": _error("the target of the camera is neither a position nor a part", "AIM X9"),
+    "unknown-vector": _error("a vector is neither an axis nor defined by VECT", "CHANGE DOWN 1"),
     "unopened-vector": _error("a vector has no opening bracket", "CHANGE 0 0 -1] 0.6"),
     "unreachable-code": _warning("a statement is never carried out", "JUMP L\nOPEN 1\nL: PARK"),
     "unreachable-position": _planning("a position is out of the arm's reach", "MOVE FAR"),
-    "unreadable-file": _error("a file that is required cannot be read", "REQUIRE pins.al\nPARK"),
+    "unreadable-file": _error("a required file cannot be read", "REQUIRE pins.al\nPARK"),
     "unterminated-macro": _error("a macro is not ended by a blank line", "PARK\nDEFINE A\nOPEN 1"),
     "unterminated-string": _error("a string has no closing quote", 'STAGE "one'),
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
-    "unused-label": _warning("no instruction goes to a label", "L: PARK"),
+    "unused-label": _warning("no instruction jumps to a label", "L: PARK"),
     "unused-macro": _warning("a macro is never used", "PARK\nDEFINE A\nOPEN 1\n\n"),
-    "unused-position": _warning("a position is written and never used", "TRANS A [1 2 3 0 0 0]\nPARK"),
-    "unused-vector": _warning("a vector is written and never used", "VECT D [0 0 1]\nPARK"),
+    "unused-position": _warning("a position is defined but never used", "TRANS A [1 2 3 0 0 0]\nPARK"),
+    "unused-vector": _warning("a vector is defined but never used", "VECT D [0 0 1]\nPARK"),
     "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),
     "vector-twice": _error(
         "two vectors have the same name, or one has the name of an axis", "VECT Z [0 0 1]\nCHANGE Z 1"
     ),
-    "wait-for-time": _warning("a WAIT is to let time pass, and calls the operator", "PARK\nWAIT 2"),
+    "wait-for-time": _warning("a WAIT should let time pass, but calls the operator", "PARK\nWAIT 2"),
     "wrist-in-line": _planning(
         "joints 4 and 6 come into line on a straight motion, where the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
-    "wrong-operand": _error("an operand is of another kind than its place needs", "OPEN T"),
+    "wrong-operand": _error("an operand has the wrong kind", "OPEN T"),
     "zero-vector": _error("a vector that gives a direction has no length", "CHANGE [0 0 0] 1"),
 }
 """Every kind of diagnostic there is, by code."""

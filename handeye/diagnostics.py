@@ -1,4 +1,4 @@
-"""What is wrong with a user's text, said once, with the place, and shown in a code frame.
+"""Diagnostics: one mistake of a user's text each, with its place, shown in a code frame.
 
 A wrong text is never an exception: checkers collect `Diagnostic`s, callers render or serialise them.
 """
@@ -43,7 +43,7 @@ class Diagnostic:
 
 
 def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
-    """Whether any of them is an error."""
+    """True if any of them is an error."""
     return any(d.severity == "error" for d in diagnostics)
 
 

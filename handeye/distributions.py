@@ -11,7 +11,7 @@ TURN: Final = 360.0
 
 
 class Distribution(ABC):
-    """How the values of a quantity lie."""
+    """Distribution of the values of a quantity."""
 
     __slots__ = ()
     name: ClassVar[str]

@@ -32,14 +32,14 @@ FEATURES_NOT_SEEN: Final = 31
 GASKET_WRONG: Final = 32
 
 ERRORS: Final[dict[int, str]] = {
-    JOINT_LIMIT: "a joint would have to go beyond its limit",
-    NOTHING_HELD: "the fingers closed beyond the minimum gap: nothing, or too thin a thing, is between them",
+    JOINT_LIMIT: "a joint would move beyond its limit",
+    NOTHING_HELD: "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them",
     NO_SOLUTION: "the position is out of the arm's reach",
     SERVO_LAG: "the arm did not follow its set-points: something is in the way",
     WATCHDOG: "the computer missed a servo period: drives cut, brakes set",
     SEARCH_EXHAUSTED: "the search has tried all its places",
-    WRONG_THICKNESS: "what is between the fingers is not as thick as it should be",
-    WRONG_TRAVEL: "the last CHANGE or PLACE went less far, or farther, than it should",
+    WRONG_THICKNESS: "the thing between the fingers is thicker than the maximum",
+    WRONG_TRAVEL: "the last CHANGE or PLACE went too far, or not far enough",
     NO_FORCE: "the motion ended without meeting the force it was to stop on",
     NO_TORQUE: "the motion ended without meeting the torque it was to stop on",
     NO_TOUCH: "the motion ended without a finger touching anything",

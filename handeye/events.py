@@ -1,4 +1,4 @@
-"""What happened, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
+"""Events of a run, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
 
 from typing import Literal
 
@@ -11,7 +11,7 @@ from handeye.source import line_name
 from handeye.variation import WorldSpec
 
 Choice = Literal["proceed", "retry", "skip"]
-"""What an operator can do about a stop: go on after it, do the stage again, or leave out the rest of the stage."""
+"""Choices of an operator after a stop: proceed after it, retry the stage, or skip the rest of the stage."""
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
@@ -181,7 +181,7 @@ class OperatorCalled(Event, frozen=True, kw_only=True):
 
 
 class OperatorAnswered(Event, frozen=True, kw_only=True):
-    """What the operator chose after a stop, and the step the program goes on with (None: it ends)."""
+    """Choice of the operator after a stop, and the step the program continues with (None: it ends)."""
 
     choice: Choice
     step: int | None

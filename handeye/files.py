@@ -25,11 +25,11 @@ class Kind:
     begins: bytes
     """How each of them begins: a regular expression."""
     ending: str = ""
-    """What its name has to end with, if other programs go by that."""
+    """Ending that its name must have, if other programs go by that."""
 
 
 def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
-    """What is in a file.
+    """Content of a file.
 
     Raises:
         InvalidInput: no such file, a directory, a device, larger than `largest`, or unreadable.
@@ -44,7 +44,7 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
             raise InvalidInput(f"{path} is a device or a pipe, not a file")
         size = file.stat().st_size
         if size > largest:
-            raise InvalidInput(f"{path} has {size} bytes; {largest} are the most that is read")
+            raise InvalidInput(f"{path} has {size} bytes; the limit is {largest}")
         return file.read_bytes()
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         reason = error.strerror if isinstance(error, OSError) else str(error)
@@ -69,13 +69,13 @@ def check_place(path: Path, kind: Kind) -> None:
         InvalidInput: it may not, or cannot.
     """
     if not path.name.lower().endswith(kind.ending):
-        raise InvalidInput(f"{path}: the name of the {kind.name} has to end in {kind.ending}")
+        raise InvalidInput(f"{path}: the name of the {kind.name} must end in {kind.ending}")
     try:
         if path.is_file():
             with path.open("rb") as file:
                 front = file.read(_FRONT)
             if front and not re.match(kind.begins, front):
-                raise InvalidInput(f"{path} is there already and is no {kind.name}; it is left alone")
+                raise InvalidInput(f"{path} exists and is no {kind.name}; nothing was written")
         with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
             pass
     except OSError as error:
@@ -103,7 +103,7 @@ def write_whole(path: Path, data: bytes) -> None:
     place = Path(os.path.realpath(path))
     try:
         if place.exists() and not place.is_file():
-            raise InvalidInput(f"{path} cannot be written: it is no file")
+            raise InvalidInput(f"{path} cannot be written: it is not a file")
         mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~_umask()
         handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=f".{place.name}.")
         with os.fdopen(handle, "wb") as file:

@@ -43,7 +43,7 @@ class Source:
     name: str
     text: str
     key: str = ""
-    """What a required text is called from the folder of the text that all are required by; empty: that text."""
+    """Path of a required text from the folder of the main text; empty: the main text."""
     problem: str = ""
     """Why a required text could not be read."""
     required: "tuple[Source, ...]" = ()

@@ -25,7 +25,7 @@ DRAWING: Final = 1
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}
-"""What the spread of every error is multiplied by."""
+"""Factors of the spread of every error."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,9 +39,9 @@ class Quantity:
     nominal: float = 0.0
     """Its value where it is switched off."""
     limits: tuple[float, float] = (-np.inf, np.inf)
-    """What it can be set to."""
+    """Range it can be set to."""
     source: str
-    """What it is, and where its figures come from."""
+    """Meaning, and source of its figures."""
 
     @property
     def measure(self) -> Unit:
@@ -50,7 +50,7 @@ class Quantity:
 
 
 class Overrides(Record, frozen=True, kw_only=True):
-    """What of a world is not as drawn."""
+    """Overrides of a drawn world."""
 
     without: tuple[str, ...] = ()
     """Quantities and groups at their nominal values, in the order of their names."""
@@ -130,7 +130,7 @@ class Variation:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
             near = suggestion(name, {*self.quantities, *self.groups})
             known = near or f"there are {', '.join(map(quoted, first))}"
-            raise InvalidInput(f"no quantity of the world is called {quoted(name)}; {known}")
+            raise InvalidInput(f"the world has no quantity {quoted(name)}; {known}")
         return found
 
     def draw(self, spec: WorldSpec) -> World:
@@ -169,7 +169,7 @@ class Variation:
                 raise InvalidInput(f"{quoted(name)} is a group of quantities, which cannot have one value")
 
     def drawn(self, seed: int) -> Mapping[str, float]:
-        """What every quantity is in the world of a seed at the nominal level, SI."""
+        """Values of all quantities in the world of a seed at the nominal level, SI."""
         return {
             name: q.distribution.draw(random_numbers(seed, name), q.nominal) * q.measure.size
             for name, q in self.quantities.items()
@@ -182,7 +182,7 @@ def within(name: str, group: str) -> bool:
 
 
 def at_level(quantity: Quantity, value: float, level: Level) -> float:
-    """What a quantity is at a level, given what it is at the nominal one, SI."""
+    """Value of a quantity at a level, from its value at the nominal one, SI."""
     if level == "nominal" or not quantity.distribution.is_error:
         return value
     nominal = quantity.nominal * quantity.measure.size

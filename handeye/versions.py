@@ -1,4 +1,4 @@
-"""What a result depends on besides its plan and its seed."""
+"""Versions that a result depends on besides its plan and its seed."""
 
 import platform
 from importlib.metadata import version as installed

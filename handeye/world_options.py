@@ -1,4 +1,4 @@
-"""What a user wants to be otherwise in a world, from the words typed."""
+"""Parsing of world options from the words typed."""
 
 from collections.abc import Iterable
 
@@ -11,7 +11,7 @@ from handeye.variation import Overrides, Quantity, Variation, within
 
 
 def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
-    """What of a world is not to be as drawn.
+    """Overrides of a world from its options.
 
     Args:
         without: names of quantities and groups that are to have their nominal values.

@@ -32,7 +32,7 @@ def test_a_file_of_another_kind_is_left_alone(command: Command, planned: Planned
     code, out, err = command(*WRITERS[what])
     kind = what.removesuffix(" of a run")
     assert (code, out) == (2, "")
-    assert err == f"handeye: {kept} is there already and is no {kind}; it is left alone\n"
+    assert err == f"handeye: {kept} exists and is no {kind}; nothing was written\n"
     assert kept.read_text(encoding="utf-8") == OURS
 
 
@@ -63,10 +63,10 @@ def test_what_was_written_once_is_written_again(
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("render", "-o", "it.jpg"), "it.jpg: the name of the PNG picture has to end in .png"),
+        (("render", "-o", "it.jpg"), "it.jpg: the name of the PNG picture must end in .png"),
         (
             ("inspect", "job.plan.json", "--graph", "svg", "-o", "it.png"),
-            "it.png: the name of the SVG drawing has to end in .svg",
+            "it.png: the name of the SVG drawing must end in .svg",
         ),
     ],
 )

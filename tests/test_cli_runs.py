@@ -60,7 +60,7 @@ def test_a_stage_alone_without_a_checkpoint_has_the_earlier_ones_carried_out_fir
     code, out, err = command("run", planned(SCRIPT), "--stage", "once", "--json")
     assert (code, json.loads(out)["paused"]) == (0, True)
     assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
-    assert "no checkpoint of “once more” with this plan and world: carrying out what comes before it" in err
+    assert "no checkpoint of “once more” for this plan and world: carrying out the steps before it" in err
 
 
 def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(command: Command, planned: Planned) -> None:
@@ -91,11 +91,11 @@ def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
     ("words", "sentence"),
     [
         (("--stage", "onze"), "onze"),
-        (("--stage", "feel", "--to", "feel"), "--from and --to do not go with it"),
+        (("--stage", "feel", "--to", "feel"), "--stage excludes --from and --to"),
         (("--until", "99"), "99"),
         (("--break", "NOWHERE"), "NOWHERE"),
         (("--stage", ""), "there is no stage"),
-        (("--from", "3", "--to", "1"), "the run begins with “feel”, and “to and fro” comes before that"),
+        (("--from", "3", "--to", "1"), "the run begins with “feel”, after “to and fro”"),
         (("--break", "error:99"), "99"),
         (("--on-stop", "sleep"), "sleep"),
         (("--on-stop", "retry:x"), "retry:x"),
@@ -133,7 +133,7 @@ def test_a_run_takes_the_place_of_another_only_if_it_is_told_to(command: Command
     assert command("run", planned(SCRIPT), "--out", "it")[0] == 0
     other = planned("        OPEN    2\n")
     code, _, err = command("run", other, "--out", "it")
-    assert (code, "it holds a run: `handeye resume it` goes on with it, --overwrite replaces it" in err) == (
+    assert (code, "it holds a run: `handeye resume it` resumes it, --overwrite replaces it" in err) == (
         2,
         True,
     )
@@ -145,11 +145,11 @@ def test_a_break_that_lies_behind_the_start_is_told(command: Command, planned: P
     code, _, err = command(
         "run", planned(SCRIPT), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
     )
-    assert (code, "kept is new; checkpoints are kept there" in err) == (0, True)
+    assert (code, "kept is new; checkpoints are saved there" in err) == (0, True)
     code, _, err = command(
         "run", planned(SCRIPT), "--stage", "2", "--break", "to and fro", "--checkpoints", "kept"
     )
-    assert (code, "from where the run begins it never comes to to and fro" in err) == (0, True)
+    assert (code, "the run never reaches to and fro from where it begins" in err) == (0, True)
 
 
 def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command, planned: Planned) -> None:
@@ -157,7 +157,7 @@ def test_a_step_that_lies_behind_the_start_is_no_place_to_stop(command: Command,
     assert command("run", plan, "--to", "1", "--checkpoints", "kept")[0] == 0
     code, out, err = command("run", plan, "--from", "2", "--until", "TO", "--checkpoints", "kept")
     assert (code, out) == (2, "")
-    assert "from where the run begins it never comes to step 1" in err
+    assert "the run never reaches step 1 from where it begins" in err
 
 
 def test_the_referee_looks_at_what_is_gone_on_with_if_it_was_to_look_at_the_run(
@@ -177,7 +177,7 @@ def test_the_checkpoints_of_a_run_stand_for_it(command: Command, planned: Planne
     assert command("run", plan, "--stage", "2", "--checkpoints", "kept")[0] == 0
     assert command("resume", "it/checkpoints")[0] == 0
     code, _, err = command("resume", "kept")
-    assert (code, "kept is a folder of checkpoints, and not that of a run; name one of them" in err) == (
+    assert (code, "kept is a folder of checkpoints, not of a run; name one of them" in err) == (
         2,
         True,
     )
@@ -186,7 +186,7 @@ def test_the_checkpoints_of_a_run_stand_for_it(command: Command, planned: Planne
 def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, planned: Planned) -> None:
     assert command("run", planned(SCRIPT), "--to", "2", "--out", "it")[0] == 0
     code, _, err = command("resume", "it", "--to", "1")
-    assert (code, "the run begins with “feel”, and “to and fro” comes before that" in err) == (2, True)
+    assert (code, "the run begins with “feel”, after “to and fro”" in err) == (2, True)
 
 
 def test_a_break_leaves_a_checkpoint_to_go_on_from_even_without_a_folder(
@@ -194,7 +194,7 @@ def test_a_break_leaves_a_checkpoint_to_go_on_from_even_without_a_folder(
 ) -> None:
     code, _, err = command("run", planned(SCRIPT), "--break", "8", "--seed", "3")
     (left,) = Path().glob("*.checkpoint")
-    assert (code, f"go on with: handeye resume {left}" in err) == (0, True)
+    assert (code, f"resume with: handeye resume {left}" in err) == (0, True)
     assert "-3-" in left.name
     assert command("resume", str(left), "--no-judge")[0] == 0
 
@@ -241,7 +241,7 @@ def test_a_refused_command_that_came_from_no_terminal_ends_with_two_if_nothing_i
 
 def test_going_on_more_often_than_there_is_a_way_is_no_failure(command: Command, planned: Planned) -> None:
     code, out, _ = command("run", planned("OPEN 1\nOPEN 2\n"), "--step", typed="step\n" * 5)
-    assert (code, "the program has come to its end: `back` goes back" in out) == (0, True)
+    assert (code, "the program has ended: `back` goes back" in out) == (0, True)
     assert command("run", planned("OPEN 1\n"), "--step", typed="step\nstpe\n")[0] == 2
 
 
@@ -252,7 +252,7 @@ def test_states_that_the_stepper_keeps_do_not_lose_each_other(command: Command, 
     for typed in (tried, "step 3\nquit\n", tried):
         err = command("run", plan, "--step", typed=typed)[2]
         kept.append(err.splitlines()[-1])
-    go_on = "go on with: handeye resume job-0-0003-once-more"
+    go_on = "resume with: handeye resume job-0-0003-once-more"
     assert kept == [f"{go_on}.checkpoint", f"{go_on}-2.checkpoint", f"{go_on}.checkpoint"]
     touched, plain = (read_head(Path(f"job-0-0003-once-more{end}.checkpoint")) for end in ("", "-2"))
     assert (touched.touched, plain.touched) == (True, False)
@@ -267,7 +267,7 @@ def test_states_go_to_the_folder_of_checkpoints_which_can_still_be_used(
     assert command(*words, "--break", "THERE")[0] == 2  # no such label: nothing moves
     for more, typed in ((("--break", "8"), ""), (("--step",), "step\nset position THERE 25 35 9\nquit\n")):
         code, _, err = command(*words, *more, typed=typed)
-        assert (code, "go on with: handeye resume kept/" in err) == (0, True)
+        assert (code, "resume with: handeye resume kept/" in err) == (0, True)
     assert {path.name for path in Path().iterdir()} - files == {"kept"}
     assert command(*words, "--stage", "2")[0] == 0
 
@@ -282,9 +282,9 @@ def test_nobody_who_does_nothing_leaves_a_file(command: Command, planned: Planne
 def test_a_run_kept_in_a_folder_says_where_and_how_to_go_on(command: Command, planned: Planned) -> None:
     plan = planned(SCRIPT)
     assert command("run", plan, "--out", "my run", "--until", "2")[2].splitlines()[-1] == (
-        "go on with: handeye resume 'my run'"
+        "resume with: handeye resume 'my run'"
     )
-    assert command("resume", "my run", "--no-judge")[2].splitlines()[-1] == "kept in my run"
+    assert command("resume", "my run", "--no-judge")[2].splitlines()[-1] == "saved in my run"
 
 
 def test_back_in_a_run_that_begins_at_a_stage_uses_the_checkpoints_of_the_folder(
@@ -298,7 +298,7 @@ def test_back_in_a_run_that_begins_at_a_stage_uses_the_checkpoints_of_the_folder
     standing = [line for line in out.splitlines() if line.startswith("──")]
     assert "stage 2, once more, step 3; 3 steps done" in standing[1]
     assert "stage 1, to and fro, step 2; 2 steps done" in standing[2]
-    assert (code, "only 2 steps can be gone back" in out) == (2, True)
+    assert (code, "`back` can undo only 2 steps" in out) == (2, True)
 
 
 def test_stepping_as_json_gives_one_object_a_line(command: Command, planned: Planned) -> None:
@@ -385,7 +385,7 @@ def test_a_disk_that_fills_up_loses_neither_checkpoints_nor_the_trace_so_far(
     assert checkpoint.snapshot is not None
     code, out, err = command("trace", "show", "full")
     assert code == 0
-    assert "was broken off" in err
+    assert "was interrupted" in err
     assert "TO AND FRO" in out
     assert command("resume", "full", "--no-judge")[0] == 0
     assert Path("full/trace.mcap").read_bytes() == Path("whole/trace.mcap").read_bytes()
@@ -452,13 +452,13 @@ def test_there_is_no_photograph_of_a_time_outside_the_run(command: Command, fold
     end = read_events(folder / "events.jsonl")[-1].time
     code, out, err = command("trace", "photograph", str(folder), f"--at={at}", "-o", "it.png")
     assert (code, out) == (2, "")
-    assert err == f"handeye: {folder} tells of 0.00 to {end:.2f} s; {at} s is not among them\n"
+    assert err == f"handeye: {folder} covers 0.00 to {end:.2f} s; {at} s is outside\n"
 
 
 def test_a_folder_of_which_nothing_was_carried_out_says_so(command: Command, folder: Path) -> None:
     Path("it").mkdir()
     Path("it/plan.json").write_bytes((folder / "plan.json").read_bytes())
-    sentence = "handeye: nothing of the run in it was carried out yet\n"
+    sentence = "handeye: the run in it has not begun\n"
     assert command("trace", "show", "it") == (2, "", sentence)
 
 

@@ -88,14 +88,14 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("--without", "camra"), "no quantity of the world is called `camra`; did you mean `camera`?"),
+        (("--without", "camra"), "the world has no quantity `camra`; did you mean `camera`?"),
         (
             ("--without", "arm.offset.7"),
-            "no quantity of the world is called `arm.offset.7`; did you mean `arm.",
+            "the world has no quantity `arm.offset.7`; did you mean `arm.",
         ),
         (
             ("--without", "weather"),
-            "no quantity of the world is called `weather`; there are `base`, `arm`, `hand`",
+            "the world has no quantity `weather`; there are `base`, `arm`, `hand`",
         ),
         (("--set", "part_mass"), "`part_mass` sets nothing; write NAME=VALUE"),
         (("--set", "part_mass=5kg"), "part_mass is not measured in `kg`; known: `%`"),
@@ -123,7 +123,7 @@ def test_what_cannot_be_chosen_is_refused_with_what_is_near(
 def test_every_command_refuses_a_name_it_does_not_know(command: Command, words: str) -> None:
     code, out, err = command(*words.split(), "--without", "camra")
     assert (code, out) == (2, "")
-    assert err.endswith("no quantity of the world is called `camra`; did you mean `camera`?\n")
+    assert err.endswith("the world has no quantity `camra`; did you mean `camera`?\n")
 
 
 def test_an_unknown_level_is_refused(command: Command) -> None:

@@ -79,14 +79,14 @@ def test_no_bar_stands_between_the_answers(stepping: Terminal) -> None:
     answers = [stepping.say(line) for line in ("step", "show gap", "stpe", "continue")]
     assert not any(ERASE in answer or "setting up" in answer for answer in answers)
     assert answers[2] == "there is no command `stpe`; did you mean `step`?"
-    assert answers[3].endswith("the program has come to its end: `back` goes back from here, `quit` leaves")
+    assert answers[3].endswith("the program has ended: `back` goes back from here, `quit` leaves")
 
 
 def test_a_wrong_command_at_a_terminal_is_no_failure(stepping: Terminal) -> None:
     stepping.say("stpe")
     left = stepping.say("exit", end=None)
     assert (stepping.process.wait(), ERASE in left) == (0, False)
-    assert "Left by hand." in left.splitlines()[-1]
+    assert "Left by the user." in left.splitlines()[-1]
 
 
 def test_control_c_at_the_prompt_drops_the_line_and_nothing_else(stepping: Terminal) -> None:

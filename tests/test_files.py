@@ -37,6 +37,6 @@ def test_what_a_link_leads_to_is_written_and_stays_readable_for_whom_it_was(tmp_
 def test_a_pipe_or_device_is_not_replaced_by_a_file(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    with pytest.raises(InvalidInput, match=r"pipe cannot be written: it is no file$"):
+    with pytest.raises(InvalidInput, match=r"pipe cannot be written: it is not a file$"):
         write_whole(pipe, b"after")
     assert pipe.is_fifo()

@@ -152,11 +152,11 @@ def test_a_world_drawn_in_another_way_is_refused() -> None:
     [
         (
             Overrides(without=("cammera",)),
-            "no quantity of the world is called `cammera`; did you mean `camera`?",
+            "the world has no quantity `cammera`; did you mean `camera`?",
         ),
         (
             Overrides(set={"x": 1.0}),
-            "no quantity of the world is called `x`; there are `camera`, `slip`, `wave`",
+            "the world has no quantity `x`; there are `camera`, `slip`, `wave`",
         ),
         (Overrides(set={"camera": 1.0}), "`camera` is a group of quantities, which cannot have one value"),
     ],

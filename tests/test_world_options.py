@@ -40,7 +40,7 @@ def test_a_value_is_in_its_unit_or_in_that_of_the_quantity(
         ("place.yaw=2degs", "place.yaw is not measured in `degs`; did you mean `deg`?"),
         ("place.yaw=91", "place.yaw cannot be `91`; it can be -90 to 90 deg"),
         ("mass=-95", "mass cannot be `-95`; -90 % is the least"),
-        ("place.z=1", "no quantity of the world is called `place.z`; did you mean `place.x`?"),
+        ("place.z=1", "the world has no quantity `place.z`; did you mean `place.x`?"),
     ],
 )
 def test_what_cannot_be_set_is_refused(setting: str, sentence: str) -> None:

@@ -9,7 +9,7 @@ from handeye.al.syntax import Value
 
 BIGGEST: Final = 1e6
 """No number of a program is larger; keeps squares of numbers finite."""
-ANY: Final = "no number of a program is larger than a million"
+ANY: Final = "numbers in a program go up to a million"
 SMALLEST: Final = 0.001
 """Least size of what has to be larger than nothing, in its unit."""
 
@@ -95,7 +95,7 @@ class Operand:
 
 
 class Role(Enum):
-    """How an instruction takes part in the flow of a program."""
+    """Role of an instruction in the flow of a program."""
 
     MOTION = "motion"
     MODIFIER = "modifier"  # of the next motion

@@ -7,8 +7,8 @@ from handeye.al.unitwords import no_units
 from handeye.diagnostics import LOOKALIKES
 
 _COMMENT: Final = "a comment begins with `;`"
-_BLANKS: Final = "operands stand behind their instruction, with nothing but blanks between"
-_VECTOR: Final = "a vector stands in brackets, as `[0 0 -1]`"
+_BLANKS: Final = "operands follow their instruction after a blank"
+_VECTOR: Final = "write a vector in brackets, as `[0 0 -1]`"
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _PLAIN: Final = re.compile(_NUMBER, re.ASCII)
 _WITH_UNIT: Final = re.compile(rf"({_NUMBER})([A-Za-z]+)", re.ASCII)
@@ -18,9 +18,9 @@ _TESTS: Final = "`SKIPE` and `SKIPN` test an error, and skip one instruction"
 _ROUNDS: Final = "`JUMP` goes back to a label; `ASSIGN` and `SOJG` count the rounds"
 _MACRO: Final = "`DEFINE` makes a macro, which ends with a blank line"
 _CALL: Final = "the name of a macro alone calls it"
-_PAUSE: Final = "nothing waits for a time; `WAIT` calls the operator"
+_PAUSE: Final = "no instruction waits for a time; `WAIT` calls the operator"
 _STRAIGHT: Final = "`CHANGE` moves straight from where the hand is, `MOVE` goes to a position"
-_GRASP: Final = "`CLOSE` grasps, and `CENTER` does without pushing"
+_GRASP: Final = "`CLOSE` grasps; `CENTER` grasps without pushing"
 
 _ELSEWHERE: Final[dict[str, str]] = {
     **dict.fromkeys(("END", "ENDPROGRAM", "EXIT", "HALT", "QUIT"), _ENDS),
@@ -29,19 +29,19 @@ _ELSEWHERE: Final[dict[str, str]] = {
     ),
     **dict.fromkeys(("IF", "THEN", "ELSE", "ELSEIF", "ENDIF", "CASE", "SWITCH"), _TESTS),
     **dict.fromkeys(("FOR", "WHILE", "LOOP", "REPEAT", "UNTIL", "NEXT"), _ROUNDS),
-    **dict.fromkeys(("GOTO", "BRANCH", "JMP"), "`JUMP` goes on at a label"),
+    **dict.fromkeys(("GOTO", "BRANCH", "JMP"), "`JUMP` goes to a label"),
     **dict.fromkeys(("CALL", "GOSUB", "PERFORM"), _CALL),
     **dict.fromkeys(("MACRO", "PROC", "PROCEDURE", "SUB", "SUBROUTINE", "FUNCTION", "DEF"), _MACRO),
     **dict.fromkeys(("INCLUDE", "IMPORT", "USE"), "`REQUIRE` reads another file"),
     **dict.fromkeys(("DELAY", "PAUSE", "SLEEP", "DWELL", "TIMER"), _PAUSE),
-    **dict.fromkeys(("PRINT", "SAY", "TYPE", "MESSAGE"), "`WAIT` tells the operator something, and stops"),
+    **dict.fromkeys(("PRINT", "SAY", "TYPE", "MESSAGE"), "`WAIT` shows the operator a text, and stops"),
     **dict.fromkeys(("MOVEL", "MOVES", "MOVEJ", "LINEAR", "APPRO", "DEPART", "LIFT", "LOWER"), _STRAIGHT),
     **dict.fromkeys(("GRASP", "GRIP", "GRAB", "PICK", "CLAMP"), _GRASP),
     **dict.fromkeys(("RELEASE", "LETGO", "UNGRASP", "DROP"), "`OPEN` lets go"),
     **dict.fromkeys(("HOME", "REST"), "`PARK` goes to the position called PARK"),
-    **dict.fromkeys(("SPEED", "VELOCITY"), "a speed stands last in a `CHANGE`, in inches a second"),
+    **dict.fromkeys(("SPEED", "VELOCITY"), "`CHANGE` takes a speed last, in inches a second"),
     **dict.fromkeys(("LET", "SET", "VAR", "INT"), "`ASSIGN` sets a counter"),
-    **dict.fromkeys(("POINT", "FRAME", "POSE"), "`TRANS` writes a position"),
+    **dict.fromkeys(("POINT", "FRAME", "POSE"), "`TRANS` defines a position"),
 }
 """Words of other languages, and how it is said in this one."""
 
@@ -65,7 +65,7 @@ def with_digits(text: str) -> str | None:
 def letters_for_digits(text: str) -> str | None:
     """Help for a text in which letters stand for digits; None if they do not."""
     right = with_digits(text)
-    return None if right is None else f"a digit is wanted, not a letter that looks like it: `{right}`"
+    return None if right is None else f"write a digit, not a letter that looks like it: `{right}`"
 
 
 def with_unit(text: str) -> tuple[str, str] | None:
@@ -79,7 +79,7 @@ def strange(text: str) -> str | None:
     """Help for characters that are no part of the language; None if nothing helps."""
     first = text[0]
     if first == ":":
-        return "a colon stands behind a label, where a line begins"
+        return "a colon belongs after a label, at the beginning of a line"
     if first in "#/'":
         return _COMMENT
     if first in "({<" or text[-1] in ")}>":
@@ -88,13 +88,13 @@ def strange(text: str) -> str | None:
     if first == "=":
         return _BLANKS
     if first in "−–—":
-        return f"this looks like a minus sign and is none: `-{text[1:]}`"
+        return f"use an ordinary minus sign: `-{text[1:]}`"
     if first in "“”„«»‘’":
-        return 'words stand in straight quotes, as `"this"`'
+        return 'use straight quotes, as `"this"`'
     if first in "+-" and text[1:2].isalpha():
         return letters_for_digits(text) or f"a name has no sign; {_VECTOR}"
     if first == "\N{NO-BREAK SPACE}":
-        return "this looks like a blank and is none: write an ordinary one"
+        return "use an ordinary blank"
     if first.isalpha():
         return "names consist of letters from A to Z, digits and `_`"
     return None

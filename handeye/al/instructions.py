@@ -69,7 +69,7 @@ _TABLE = (
                 units=(ONE,),
                 low=0.0,
                 high=0.0,
-                why="what could stand here in 1977 is lost; only 0 is known to change nothing",
+                why="its meaning of 1977 is lost; only 0 is known to change nothing",
                 optional=True,
             ),
         ),
@@ -94,15 +94,15 @@ _TABLE = (
         op="STOP",
         group=MODIFIERS,
         help="end the next motion when the hand presses along the vector with more than its length (oz), "
-        "or, given one number (ours), when anything opposes the motion with more; or when it turns something "
-        "about the moment with more than its length (oz-in); else error 23",
+        "or, for one number (ours), when anything opposes the motion with more; or when it exerts "
+        "more than the moment (oz-in); else error 23",
         operands=(
             Operand(
                 name="force",
                 takes=(Vector, Number, Name),
                 units=(OZ, OZ, OZ),
                 low=SMALLEST,
-                why=f"it has to be at least {SMALLEST:g} oz",
+                why=f"it must be at least {SMALLEST:g} oz",
                 nil=True,
                 refers=Refers.VECTOR,
             ),
@@ -196,7 +196,7 @@ _TABLE = (
     Instruction(
         op="CENTER",
         group=HAND_WORDS,
-        help="close, the hand giving way, so that the thing is not pushed; error 2 below the minimum (in)",
+        help="close without pushing the thing: the arm gives way; error 2 below the minimum (in)",
         operands=(gap("minimum", optional=True),),
     ),
     Instruction(
@@ -224,7 +224,7 @@ _TABLE = (
                 units=(IN,),
                 low=SMALLEST,
                 high=LARGEST_STEP,
-                why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search goes three of them to each side",
+                why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends three steps to each side",
             ),
         ),
     ),
@@ -259,17 +259,17 @@ _TABLE = (
         operands=(_COUNTER, _LABEL),
         role=Role.JUMP,
     ),
-    Instruction(op="JUMP", group=FLOW, help="go on at the label", operands=(_LABEL,), role=Role.JUMP),
+    Instruction(op="JUMP", group=FLOW, help="continue at the label", operands=(_LABEL,), role=Role.JUMP),
     Instruction(
         op="WAIT",
         group=FLOW,
-        help="stop, set the brakes, and tell the operator; the run ends there",
+        help="set the brakes and show the operator a text; without an operator the run ends there",
         operands=(Operand(name="text", takes=(Text,), free=True),),
     ),
     Instruction(
         op="TRANS",
         group=PLACES,
-        help="a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
+        help="define a hand position: x, y, z (in), angles O, A, T (degrees); in table coordinates, or a part's",
         operands=(
             name_of("name", Refers.NEW),
             vector(x=IN, y=IN, z=IN, o=DEG, a=DEG, t=DEG),
@@ -280,27 +280,26 @@ _TABLE = (
     Instruction(
         op="VECT",
         group=PLACES,
-        help="a vector that STOP, FORCE and CHANGE can name; in ounces, ounce-inches or no unit, as its place has it; "
-        "X, Y and Z are there already",
+        help="define a vector for STOP, FORCE and CHANGE, in the unit of its place: ounces, ounce-inches or none; "
+        "X, Y and Z are predefined",
         operands=(name_of("name", Refers.NEW), vector(x=ONE, y=ONE, z=ONE)),
         role=Role.DECLARATION,
     ),
     Instruction(
         op="SAVE",
         group=PLACES,
-        help="keep where the hand is, less where the last MOVE was to bring it; after CENTER only along the "
+        help="save where the hand is, less where the last MOVE was to bring it; after CENTER only along the "
         "finger line",
         operands=(name_of("name", Refers.NEW),),
     ),
     Instruction(
         op="HERE",
         group=PLACES,
-        help="define a position, or define it anew, as where the hand is; of a taught one that belongs to a part "
-        "the place on that part",
+        help="define a position as where the hand is; a taught position of a part stays on that part",
         operands=(name_of("name", Refers.NEW),),
     ),
     Instruction(
-        op="WHERE", group=PLACES, help="tell where the hand is, as `TRANS` would write it: inches and degrees"
+        op="WHERE", group=PLACES, help="show where the hand is, as `TRANS` writes it: inches and degrees"
     ),
     Instruction(
         op="TRAVEL",
@@ -319,7 +318,7 @@ _TABLE = (
     Instruction(
         op="LOAD",
         group=TOOL,
-        help="say what the thing in the hand weighs (oz), so that the arm carries it",
+        help="declare the weight in the hand (oz), so that the arm carries it",
         operands=(number("weight", OZ, 0.0),),
         ours=True,
     ),
@@ -368,7 +367,7 @@ _TABLE = (
     Instruction(
         op="REQUIRE",
         group=RUN,
-        help="read a file of instructions, as if its lines stood here; from the folder of the text that says so",
+        help="read a file of instructions, as if its lines stood here; its path is relative to this file",
         operands=(Operand(name="file", takes=(Text,), free=True),),
         role=Role.DECLARATION,
     ),

@@ -148,7 +148,7 @@ class _Lowering:
         before = self.labels.setdefault((call, label.text), (len(self.drafts), label))[1]
         if before is not label:
             first = Label(span=before.span, text="first here")
-            self.problem("label-twice", f"label {quoted(label.text)} stands twice", label, first)
+            self.problem("label-twice", f"label {quoted(label.text)} is defined twice", label, first)
         if self.pending:
             word = _word(self.pending[0])
             first = Label(span=word.span, text="a jump to the label would lose this")
@@ -164,7 +164,7 @@ class _Lowering:
             if name.text in self.stages:
                 first = Label(span=self.stages[name.text], text="first here")
                 message = f"two stages have the name {quoted(name.text)}"
-                help = "give each a name of its own: runs are told, stopped and gone on with by it"
+                help = "give each its own name: commands and reports refer to stages by name"
                 self.problem("stage-twice", message, name, first, help=help)
             self.stages.setdefault(name.text, name.span)
             self.stage = list(self.stages).index(name.text)
@@ -182,7 +182,7 @@ class _Lowering:
     def step(self, item: Placed, role: Role) -> None:
         statement = item.statement
         if role is not MOTION and self.pending:
-            self.no_motion(Label(span=statement.span, text="this is no motion it could modify"))
+            self.no_motion(Label(span=statement.span, text="this is not a motion it can modify"))
         if role is SKIP or role is JUMP:
             self.branches.append(len(self.drafts))
         modifiers = self.modifiers(statement) if self.pending else ()
@@ -288,7 +288,7 @@ class _Lowering:
         if inner is not None:
             there = Label(span=inner.span, text="this is inside a macro")
             message = f"label {quoted(label.text)} belongs to a macro"
-            help = "a macro keeps its labels to itself, and ends with the first blank line"
+            help = "the labels of a macro are local; a macro ends with the first blank line"
             self.problem("unknown-label", message, label, there, help=help)
             return
         message = f"no statement has the label {quoted(label.text)}"
@@ -346,7 +346,7 @@ class _Lowering:
 
 
 def _shared(one: Call, other: Call) -> int:
-    """How many calls, from the outermost on, are the same."""
+    """Count of calls, from the outermost on, that are the same."""
     for depth, (a, b) in enumerate(zip(one, other, strict=False)):
         if a != b:
             return depth

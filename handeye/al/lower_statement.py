@@ -16,7 +16,7 @@ from handeye.record import Vector3
 from handeye.units import INCH, OUNCE_FORCE
 
 PLACE_DEPTH: Final = 3.0 * INCH
-"""How far PLACE lowers the hand at most: the height of an approach."""
+"""Greatest distance that PLACE lowers the hand: the height of an approach."""
 PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
 """Force that PLACE stops on, N. The least with which the pump script stops a motion; friction is felt as up to 0.2 N,
 and an arm that moves as some ten times that."""

@@ -19,7 +19,7 @@ def takes(definition: Instruction, operand: Operand) -> str:
         Vector: f"{len(operand.units)} numbers in brackets{_units(operand)}",
         Number: f"{'a whole number' if operand.whole else 'a number'}{_units(operand)}",
         Name: _CALLED.get(operand.refers, f"the name of a {operand.refers.value}"),
-        Text: "words, up to the end of the line" if operand.free else "words in quotes",
+        Text: "text, up to the end of the line" if operand.free else "text in quotes",
     }
     choices = [*(kinds[kind] for kind in operand.takes), *["`NIL`"] * operand.nil]
     said = ", or ".join(choices) or "the word itself"
@@ -28,7 +28,7 @@ def takes(definition: Instruction, operand: Operand) -> str:
 
 
 def origin(definition: Instruction, operand: Operand) -> str:
-    """Where an operand comes from: `ours` or `period`."""
+    """Origin of an operand: `ours` or `period`."""
     return "ours" if operand.ours or definition.ours else "period"
 
 

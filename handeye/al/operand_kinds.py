@@ -13,7 +13,7 @@ def number(
     name: str, unit: OperandUnit, low: float = -BIGGEST, *, optional: bool = False, ours: bool = False
 ) -> Operand:
     """A number in a unit, perhaps with a least one."""
-    why = f"it has to be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
+    why = f"it must be at least {low:g} {unit.name}" if low > -BIGGEST else ANY
     return Operand(name=name, takes=(Number,), units=(unit,), low=low, why=why, optional=optional, ours=ours)
 
 

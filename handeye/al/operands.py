@@ -65,9 +65,9 @@ def _without_commas(tokens: Sequence[Token]) -> list[Token]:
         if token.text != ",":
             continue
         if at == 0 or tokens[at - 1].text in (",", "["):
-            raise Mistake("misplaced-comma", "nothing stands before this comma", token.span)
+            raise Mistake("misplaced-comma", "there is nothing before this comma", token.span)
         if at + 1 == len(tokens) or tokens[at + 1].text == "]":
-            raise Mistake("misplaced-comma", "nothing stands behind this comma", token.span)
+            raise Mistake("misplaced-comma", "there is nothing after this comma", token.span)
     return [token for token in tokens if token.text != ","]
 
 
@@ -76,7 +76,7 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
     opened = False
     for token in tokens:
         if token.text == "]" and not opened:
-            said = "a vector stands in brackets, as `[0 0 -1]`"
+            said = "write a vector in brackets, as `[0 0 -1]`"
             return Mistake("unopened-vector", "a vector has no opening bracket", token.span, help=said)
         if token.text in ("[", "]"):
             opened = token.text == "["
@@ -86,15 +86,13 @@ def _meant(tokens: Sequence[Token]) -> Mistake | None:
             return _malformed(Token(before.start, token.end, NUMBER, glued))
         unit = no_units(token.text) if token.kind is NAME else None
         if unit is not None and (before.kind is NUMBER or before.text == "]"):
-            return Mistake(
-                "unit-written", f"{quoted(token.text)} is written behind a number", token.span, help=unit
-            )
+            return Mistake("unit-written", f"{quoted(token.text)} follows a number", token.span, help=unit)
     commas = [at for at, token in enumerate(tokens) if token.text == ","]
     if len(commas) == 1 and _is_decimal(tokens[commas[0] - 1 : commas[0] + 2]):
         whole, _, part = tokens[commas[0] - 1 : commas[0] + 2]
-        said = f"a number is written with a point: `{whole.text}.{part.text}`"
+        said = f"write a number with a point: `{whole.text}.{part.text}`"
         span = Span(start=whole.start, end=part.end)
-        return Mistake("malformed-number", "a comma parts two operands", span, help=said)
+        return Mistake("malformed-number", "a comma separates two operands", span, help=said)
     return None
 
 
@@ -189,12 +187,12 @@ class _Reader(msgspec.Struct, gc=False):
         count, *letters = self.tokens
         for letter in letters:
             if letter.text not in AXES:
-                message = f"{quoted(letter.text)} is no axis"
+                message = f"{quoted(letter.text)} is not an axis"
                 raise Mistake("unknown-axis", message, letter.span, help="the axes are `X`, `Y` and `Z`")
         named = {letter.text for letter in letters}
         if _number(count) != len(letters) or len(named) != len(letters) or not letters:
-            stand = f"{len(named)} {'stands' if len(named) == 1 else 'different ones stand'} here"
-            message = f"`{self.definition.op}` is to have {quoted(count.text)} axes; {stand}"
+            stand = f"{len(named)} {'is' if len(named) == 1 else 'different ones are'} named"
+            message = f"`{self.definition.op}` counts {quoted(count.text)} axes; {stand}"
             raise Mistake("axis-count", message, count.span, help=self.usage())
         self.at = len(self.tokens)
         return Vector(count.start, letters[-1].end, tuple(float(axis in named) for axis in AXES))
@@ -239,7 +237,7 @@ class _Reader(msgspec.Struct, gc=False):
             behind = [token.kind is NUMBER for token in self.tokens[self.at : self.at + 2]]
             bare = len(behind) == 2 and all(behind)
             return (
-                "a vector stands in brackets, as `[0 0 -1]`"
+                "write a vector in brackets, as `[0 0 -1]`"
                 if bare
                 else f"the vector comes first; {self.usage()}"
             )
@@ -262,11 +260,11 @@ class _Reader(msgspec.Struct, gc=False):
             raise Mistake("unknown-lens", f"there is no {quoted(token.text)} mm lens", value.span, help=help)
         if not operand.low <= value.value <= operand.high:
             size = "small" if value.value < operand.low else "large"
-            message = f"{quoted(token.text)} is too {size} as {operand.plain} of `{self.definition.op}`"
+            message = f"{quoted(token.text)} is too {size} for the {operand.plain} of `{self.definition.op}`"
             raise Mistake("number-out-of-range", message, value.span, operand.why)
         if operand.nonzero and abs(value.value) < SMALLEST:
-            message = f"{quoted(token.text)} is too small as {operand.plain} of `{self.definition.op}`"
-            why = f"it has to be at least {SMALLEST:g} {operand.units[0].name}, one way or the other"
+            message = f"{quoted(token.text)} is too small for the {operand.plain} of `{self.definition.op}`"
+            why = f"it must be at least {SMALLEST:g} {operand.units[0].name}, positive or negative"
             raise Mistake("number-out-of-range", message, value.span, why)
         if operand.whole and value.value != int(value.value):
             message = f"`{self.definition.op}` takes a whole number as {operand.plain}"
@@ -300,7 +298,7 @@ class _Reader(msgspec.Struct, gc=False):
         message = f"`{self.definition.op}` takes no {'more ' if count else ''}operands"
         early = next((token for token in self.tokens[: self.at] if self.is_too_early(token)), None)
         if early is not None:
-            message = f"`{early.text}` stands before what it belongs behind"
+            message = f"`{early.text}` comes too early"
             raise Mistake("wrong-operand", message, early.span, help=self.usage())
         second = next((token.text for token in self.tokens if token.text.upper() in INSTRUCTIONS), None)
         help = self.usage() if second is None else _begins_a_line(second)
@@ -343,7 +341,7 @@ def _malformed(token: Token) -> Mistake:
     if glued is not None:
         unit, said = glued
         span = Span(start=token.end - len(unit), end=token.end)
-        return Mistake("unit-written", f"{quoted(unit)} is written behind a number", span, help=said)
+        return Mistake("unit-written", f"{quoted(unit)} follows a number", span, help=said)
     help = letters_for_digits(token.text) or "numbers look like 3, .07, -0.6 or 1e-3"
     return Mistake("malformed-number", f"{quoted(token.text)} is not a number", token.span, help=help)
 
@@ -358,5 +356,5 @@ def _no_number(token: Token) -> Mistake:
 
 
 def _unexpected(token: Token) -> Mistake:
-    message = f"{quoted(token.text)} is no part of the language"
+    message = f"{quoted(token.text)} is not part of the language"
     return Mistake("unexpected-character", message, token.span, help=strange(token.text))

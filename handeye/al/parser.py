@@ -121,7 +121,7 @@ class _Parser:
 
     def end(self) -> None:
         if self.opened is not None and self.errors < LIMIT:
-            self.unterminated("the text ends before it does")
+            self.unterminated("the text ends before the macro")
         self.close()
 
     def close(self) -> None:
@@ -158,7 +158,7 @@ class _Parser:
         message, help = f"macro {quoted(name.text)} can have no arguments", "write a macro for each use of it"
         if rest[0].text.upper() in INSTRUCTIONS:
             message = "`DEFINE` takes a name only"
-            help = "the instructions of a macro stand on the lines below"
+            help = "write the instructions of a macro on the lines below"
         span = Span(start=rest[0].start, end=rest[-1].end)
         self.report("too-many-operands", message, span, help=help)
 
@@ -206,7 +206,7 @@ class _Parser:
         if word.text in _TYPED:
             self.report(
                 "typed-word",
-                f"`{word.text}` is typed, and not written in a script",
+                f"`{word.text}` is a console command, not an instruction of a script",
                 word.span,
                 help=_alone(rest),
             )
@@ -230,7 +230,7 @@ class _Parser:
         if behind in INSTRUCTIONS or behind in self.macro_names:
             return label
         if behind.startswith("="):
-            return "`ASSIGN` sets a counter, `TRANS` writes a position"
+            return "`ASSIGN` sets a counter, `TRANS` defines a position"
         is_prose = sum(token.kind is NAME for token in rest) > 1
         return "a comment begins with `;`" if is_prose else None
 

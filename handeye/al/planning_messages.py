@@ -33,7 +33,7 @@ from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 RIDDLE: Final = (
     "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "
-    "60 it must have been, for at 600 the search would never end"
+    "it must have been 60, for at 600 the search would never end"
 )
 """Reference D1."""
 _ROUNDED: Final = 0.004
@@ -76,12 +76,10 @@ class _Phrases:
                 if isinstance(reason, OutOfReach):
                     away, nearer = f"beyond the reach of the {arm} arm", "nearer to"
                 message = f"{name} is {inches} {away}"
-                help = f"bring it at least {inches} {nearer} the arm{self.counted(name)}"
+                help = f"move it at least {inches} {nearer} the arm{self.counted(name)}"
                 return self.at_position(found, message, help=help, notes=(note,))
             case BelowTable():
-                return self.at_position(
-                    found, f"{note} on its way to {name}", help="go by a position between"
-                )
+                return self.at_position(found, f"{note} on its way to {name}", help="pass a position between")
         return self.at_position(
             found, f"the {arm} arm cannot put the hand at {name}", help=help, notes=(note,)
         )
@@ -109,10 +107,10 @@ class _Phrases:
         )
         if place is None:
             help = self.radians(found.position)
-            help = help or "turn the hand otherwise: other angles O, A, T can be within the limits"
+            help = help or "turn the hand: other angles O, A, T can be within the limits"
             return self.at_position(found, message, help=help)
-        help = "shorten the motion" if self.goal(found.step) is None else "go by a position between"
-        return self.at_position(found, message, help=help, notes=(f"it comes to its limit {place}",))
+        help = "shorten the motion" if self.goal(found.step) is None else "pass a position between"
+        return self.at_position(found, message, help=help, notes=(f"it reaches its limit {place}",))
 
     def radians(self, name: str | None) -> str | None:
         """Help for the angles of a position, if they are written in radians."""
@@ -129,7 +127,7 @@ class _Phrases:
         """The part that a position is counted from, if not from the table, as the rest of a sentence."""
         position = self.program.positions.get(name)
         of = None if position is None else position.of
-        return "" if of is None else f"; it is counted from {quoted(of)}"
+        return "" if of is None else f"; it is relative to {quoted(of)}"
 
     def below_table(self, found: GoalBelowTable) -> Diagnostic:
         message = f"the hand would be {found.depth / INCH:.2f} in below the table at {found.position}"
@@ -141,20 +139,20 @@ class _Phrases:
         into = f"would be {depth} below the table"
         if found.fixture is not None:
             into = f"would go {depth} into {quoted(found.fixture)}"
-        place, help = self.along(found.step, found.along), "go round by a position between, or higher"
+        place, help = self.along(found.step, found.along), "go around by a position between, or higher"
         if self.goal(found.step) is None:
             place = f"at the end of this `{self.word(found.step)}`" if found.at_end else place
-            help = "shorten the motion, or give it a `STOP` if it is to meet something"
+            help = "shorten the motion, or give it a `STOP` if it should touch something"
         elif found.position is not None:
             place, help = f"at {found.position}", "raise the position, or put it elsewhere"
         taken = None if found.held is None else found.grasp
-        labels = () if taken is None else (Label(span=self.word_span(taken), text="taken here"),)
+        labels = () if taken is None else (Label(span=self.word_span(taken), text="grasped here"),)
         return self.at_position(found, f"{what} {into} {place}", help=help, secondary=labels)
 
     def too_heavy(self, found: TooHeavy) -> Diagnostic:
-        message = f"the arm cannot hold {found.weight / OUNCE_FORCE:.0f} oz up on this motion"
-        said = Label(span=self.word_span(found.declared), text="said here")
-        help = f"{named(self.arm, found.joint)} gives out at {found.most / OUNCE_FORCE:.0f} oz"
+        message = f"the arm cannot carry {found.weight / OUNCE_FORCE:.0f} oz on this motion"
+        said = Label(span=self.word_span(found.declared), text="declared here")
+        help = f"{named(self.arm, found.joint)} reaches its limit at {found.most / OUNCE_FORCE:.0f} oz"
         return self.at_position(found, message, help=help, secondary=(said,))
 
     def too_weak(self, found: TooWeak) -> Diagnostic:
@@ -167,7 +165,7 @@ class _Phrases:
         return Diagnostic(
             code=found.code, message=message, notes=(RIDDLE,) if is_riddle else (),
             primary=Label(span=self.modifier_span(found.step, _FORCE_WORDS[not found.guard])),
-            help=f"{named(self.arm, found.joint)} gives out at {found.most / si:.0f} {unit}",
+            help=f"{named(self.arm, found.joint)} reaches its limit at {found.most / si:.0f} {unit}",
         )  # fmt: skip
 
     def at_position(

@@ -34,15 +34,13 @@ class Requirements:
         key = key_of(file.text, self.reading[-1])
         found = self.texts.get(key)
         if key.lower().endswith(".toml"):
-            help = (
-                "what is taught is read of itself, from the file with the script's name; leave this line out"
-            )
-            message = f"{quoted(file.text)} is a file of what is taught, and not of instructions"
+            help = "handeye reads the taught file with the script's name by itself; remove this line"
+            message = f"{quoted(file.text)} is a taught file, not a file of instructions"
             return _problem("unreadable-file", message, file, help=help)
         if key in self.reading:
             return self._circle(key, file)
         if key in self.first:
-            message = f"{quoted(file.text)} has been read before: nothing is read here"
+            message = f"{quoted(file.text)} is already included: this line does nothing"
             first = Label(span=self.first[key], text="it is read here")
             return _problem("required-twice", message, file, first)
         deep = len(self.reading) > MOST  # a text that was not sewn here
@@ -56,8 +54,8 @@ class Requirements:
         message = f"{quoted(file.text)} cannot be read"
         if found is not None:
             return _problem("unreadable-file", message, file, notes=(found.problem,))
-        help = "files are looked for beside the file that requires them: save the text as a file"
-        return _problem("unreadable-file", message, file, notes=("this text is in no file",), help=help)
+        help = "paths are relative to the file that requires them: save this text as a file"
+        return _problem("unreadable-file", message, file, notes=("this text is not in a file",), help=help)
 
     def _circle(self, key: str, file: Text) -> Diagnostic:
         around = [*self.reading[self.reading.index(key) :], key]

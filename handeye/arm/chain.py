@@ -42,7 +42,7 @@ def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
 
 
 def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Array, Array]:
-    """What each joint does to points on the hand side of all joints.
+    """Jacobians of points on the hand side of all joints.
 
     Args:
         R, p: the chain.

@@ -1,4 +1,4 @@
-"""Where the hand is, and how fast: forward kinematics and the Jacobian, of any chain."""
+"""Forward kinematics and the Jacobian, of any chain."""
 
 import numpy as np
 

@@ -13,7 +13,7 @@ from handeye.arm.hand import HandModel
 from handeye.pose import Array, Pose, inverse
 
 Structure = Literal["spherical wrist", "gantry", "cartesian"]
-"""How an arm is built, as far as its inverse kinematics go; `handeye.arm.ik` has a solver for each."""
+"""Structure of an arm, as far as its inverse kinematics go; `handeye.arm.ik` has a solver for each."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +57,7 @@ class Joint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServoModel:
-    """How the arm is held to its set-points, and what counts as a failure to."""
+    """Figures of the servo, and the following errors that count as a failure."""
 
     period: float
     """s between two torque updates."""

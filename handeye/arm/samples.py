@@ -14,7 +14,7 @@ from handeye.program.reasons import BelowTable
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Samples:
-    """Where the joints are to be at the end of servo periods 1 to N; each shape (N, n), rad and m, per s."""
+    """Set-points at the end of servo periods 1 to N; each shape (N, n), rad and m, per s."""
 
     q: Array
     qd: Array
@@ -25,12 +25,12 @@ class Samples:
 
 
 def length(X_WT: Pose) -> float:
-    """How far the hand goes over poses of shape (N, 4, 4), m."""
+    """Length of the hand's path over poses of shape (N, 4, 4), m."""
     return float(np.linalg.norm(np.diff(X_WT[:, :3, 3], axis=0), axis=1).sum())
 
 
 def check_samples(arm: ArmModel, samples: Samples, *, floor: float | None = None) -> IKResult | None:
-    """What the arm cannot take: a joint beyond its limit, or the hand below `floor` (m).
+    """Check of samples against the joint limits, and of the hand against `floor` (m); None if all is well.
 
     Returns:
         None if all can be taken; else how far the joint that is first beyond its limit goes, and where it passes it.

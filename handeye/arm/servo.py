@@ -64,7 +64,7 @@ class Motion:
 
 
 def prepare(arm: ArmModel, q_start: Array, samples: Samples) -> Motion:
-    """What is computed ahead, so that the working phase needs no trigonometry.
+    """Precompute a motion, so that the working phase needs no trigonometry.
 
     Args:
         q_start: where the motion begins at rest, shape (n,).

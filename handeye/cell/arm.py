@@ -18,7 +18,7 @@ _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))  # cr
 
 
 class ArmState(Record, frozen=True, kw_only=True):
-    """What an arm has read and was told, and how its watchdog stands."""
+    """State of an arm: readings, torques, watchdog."""
 
     q: tuple[float, ...]
     qd: tuple[float, ...]

@@ -125,7 +125,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         self._vidicon.gain = state.gain
 
     def true_view(self) -> View:
-        """What it really sees at present. For the referee and for tests: the program has `pots` only."""
+        """True view at present. For the referee and for tests: the program has `pots` only."""
         return self._model.view(self._lens, *self._stand)
 
     def _sight(self, view: View) -> float:

@@ -17,7 +17,7 @@ _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N
 
 
 class HandState(Record, frozen=True, kw_only=True):
-    """What a hand has read, and where its servo stands."""
+    """State of a hand: readings, and its servo."""
 
     gap: float
     touch: tuple[bool, bool]

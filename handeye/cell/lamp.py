@@ -10,7 +10,7 @@ from handeye.record import Record
 
 
 class LampState(Record, frozen=True, kw_only=True):
-    """What a lamp was told."""
+    """State of a lamp."""
 
     lit: bool
 

@@ -111,7 +111,7 @@ def context() -> tuple[str, Any]:
             return name, gl
     raise InvalidInput(
         "OpenGL does not work on this machine (on Debian, install libegl1, libgl1-mesa-dri and libopengl0);"
-        " photographs need it, and so does the camera unless its pictures are ray cast (`--camera ray`)"
+        " photographs need it, and so does the camera without `--camera ray`"
     )
 
 

@@ -23,7 +23,7 @@ SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
 def photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> NDArray[np.uint8]:
-    """What a camera of the scene sees, shape (height, width, 3), RGB.
+    """Photograph by a camera of the scene, shape (height, width, 3), RGB.
 
     Raises:
         InvalidInput: no such camera, or no OpenGL on this machine.

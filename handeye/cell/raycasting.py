@@ -45,7 +45,7 @@ class RayRenderer(SceneRenderer):
         return averaged(result.reshape(ROWS * FINE, COLUMNS * FINE))
 
     def _light(self, data: mujoco.MjData, index: int, points: Array, normals: Array) -> Array:
-        """What one light gives to points, shape (n,)."""
+        """Light of one lamp on points, shape (n,)."""
         model = self._model
         source, axis = data.light_xpos[index], data.light_xdir[index]
         directional = model.light_type[index] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
@@ -69,7 +69,7 @@ class RayRenderer(SceneRenderer):
 def cast(
     model: mujoco.MjModel, data: mujoco.MjData, origin: Array, rays: Array
 ) -> tuple[NDArray[np.int32], Array, Array]:
-    """What rays, unit vectors of shape (n, 3), meet: geom (n,) or -1, distance (n,) m, normal (n, 3)."""
+    """Cast rays, unit vectors of shape (n, 3): geom met (n,) or -1, distance (n,) m, normal (n, 3)."""
     n = len(rays)
     geom, distance, normal = np.full(n, -1, dtype=np.int32), np.zeros(n), np.zeros(3 * n)
     if n:

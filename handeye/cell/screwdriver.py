@@ -13,7 +13,7 @@ from handeye.record import Record
 
 
 class ScrewdriverState(Record, frozen=True, kw_only=True):
-    """What a screwdriver has read, and what it was told."""
+    """State of a screwdriver: reading and commanded speed."""
 
     torque: float
     command: float

@@ -21,7 +21,7 @@ from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-"""What MuJoCo needs to go on from a state as if it had never left it."""
+"""MuJoCo's integration state: enough to continue from a state."""
 
 
 class SimulationError(HandeyeError):
@@ -70,7 +70,7 @@ class SimulatedCell(Clock):
 
     @property
     def truth(self) -> Truth:
-        """What is really so; for the referee, the trace and tests only."""
+        """The truth; for the referee, the trace and tests only."""
         return Truth(
             model=self._model,
             data=self._data,
@@ -149,9 +149,9 @@ class SimulatedCell(Clock):
     def _check(self, state: CellState) -> None:
         """Raises ValueError unless every figure of a state has its place in this cell."""
         if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
-            raise ValueError("its physics are of another scene")
+            raise ValueError("its physics belong to another scene")
         if set(state.figures) != set(self._changes):
-            raise ValueError("it has not the figures that change in this scene")
+            raise ValueError("it lacks figures that change in this scene")
         for name, values in state.figures.items():
             if values.shape != getattr(self._model, name).shape:
                 raise ValueError(f"{name} has another size here")

@@ -1,4 +1,4 @@
-"""What is really so in a simulated cell: for the referee, the trace and tests, never for the working phase."""
+"""Truth of a simulated cell: for the referee, the trace and tests, never for the working phase."""
 
 import copy
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ from handeye.cell.mechanism import Mechanism
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drawn:
-    """How a scene was drawn, before anything happened in it."""
+    """Drawn state of a scene, before anything happened in it."""
 
     groups: NDArray[np.int32]
     """Of the shapes."""
@@ -31,7 +31,7 @@ class Truth:
     data: mujoco.MjData
     drawn: Drawn
     states: Mapping[str, msgspec.Struct]
-    """What the mechanisms of the cell remember, by their names, when this truth was asked for."""
+    """States of the cell's mechanisms, by their names, when this truth was asked for."""
     mechanisms: tuple[Mechanism[Any], ...]
 
     def copy(self) -> tuple[mujoco.MjModel, mujoco.MjData]:

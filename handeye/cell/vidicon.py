@@ -1,4 +1,4 @@
-"""What a vidicon and its digitiser make of a scene: blur, shading, gamma, gain, noise, sixteen levels."""
+"""Model of a vidicon and its digitiser: blur, shading, gamma, gain, noise, sixteen levels."""
 
 import math
 from typing import Final

@@ -44,7 +44,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
 
 
 def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
-    """Assemble once and say what checkpoints and trace cost, as shares of that run.
+    """Assemble once and measure the cost of checkpoints and trace, as shares of that run.
 
     Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
     """
@@ -76,7 +76,7 @@ def language(
     times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 15,
     json: Json = False,
 ) -> int:
-    """Say how long a check, a keystroke and a plan make people wait, each time on a text not seen before.
+    """Measure the delay of a check, a keystroke and a plan, each time on a new text.
 
     Exit code 0: each median is under its target; 1: not each.
     """

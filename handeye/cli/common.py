@@ -1,4 +1,4 @@
-"""What the commands share: consoles, options, scripts and their diagnostics."""
+"""Parts that the commands share: consoles, options, scripts and their diagnostics."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,8 +14,8 @@ from handeye.planfile.plan import Plan
 from handeye.runs.scripts import plan_script
 from handeye.source import Source
 
-Script = Annotated[Path, Parameter(help="A script (.al); what is taught stands beside it (.toml).")]
-PlanFile = Annotated[Path, Parameter(help="A plan, as `handeye plan` makes one (.plan.json).")]
+Script = Annotated[Path, Parameter(help="A script (.al), with its taught file (.toml) beside it.")]
+PlanFile = Annotated[Path, Parameter(help="A plan made by `handeye plan` (.plan.json).")]
 CameraKind = Literal["auto", "gl", "ray"]
 
 
@@ -33,7 +33,7 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
 
 WholeNumber = Annotated[int, Parameter(converter=_whole)]
 Camera = Annotated[
-    CameraKind, Parameter(help="How pictures are made: OpenGL, ray casting, or what is there.")
+    CameraKind, Parameter(help="How to make pictures: OpenGL, ray casting, or whichever works.")
 ]
 Json = Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")]
 Out = Annotated[
@@ -88,7 +88,7 @@ def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
         screen.print_json(data=[as_json(d, source) for d in diagnostics])
         return
     if len(diagnostics) == LIMIT:
-        note(f"no more than {LIMIT} are told at a time")
+        note(f"showing the first {LIMIT}")
     for diagnostic in diagnostics:
         notes.print(render_diagnostic(diagnostic, source), markup=False, soft_wrap=True, end="\n\n")
 

@@ -28,10 +28,10 @@ def fmt(
     *files: Annotated[Path, Parameter(allow_leading_hyphen=True)],
     check: Annotated[bool, Parameter(help="Write nothing; exit code 1 if a file would change.")] = False,
 ) -> int:
-    """Put scripts into columns, as in a listing of the period; every comment stays.
+    """Format scripts in columns, as in a listing of the period; comments stay.
 
-    `-` is standard input, which goes to standard output. A text with mistakes of form is left as it is. Exit code 2:
-    there was such a text, or a file cannot be used.
+    `-` reads standard input and writes standard output. A script with syntax errors stays as it is. Exit code 2:
+    there was such a script, or a file cannot be used.
     """
     if not files:
         raise InvalidInput("fmt needs the name of a script, or - for standard input")
@@ -46,7 +46,7 @@ def _fmt(file: Path, source: Source, *, check: bool) -> int:
     mistakes = check_form(source)
     if has_errors(mistakes):
         show(mistakes, source, json=False)
-        note(f"{source.name} is left as it is")
+        note(f"{source.name} is unchanged")
         return 2
     tidy = format_text(source.text)
     if check:
@@ -58,7 +58,7 @@ def _fmt(file: Path, source: Source, *, check: bool) -> int:
         sys.stdout.flush()
     elif tidy != source.text:
         write_whole(file, tidy.encode())
-        say(f"{source.name}: tidied")
+        say(f"{source.name}: formatted")
     return 0
 
 
@@ -72,7 +72,7 @@ def _standard_input() -> Source:
 
 
 def explain(word: str | None = None, /) -> int:
-    """Explain the code of a diagnostic, the number of an error, or an instruction; without a word, list the codes."""
+    """Explain a diagnostic's code, an error number or an instruction; without an argument, list the codes."""
     from handeye.editor.explain import explanation, listing
 
     text = listing() if word is None else explanation(word)

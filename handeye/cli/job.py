@@ -1,4 +1,4 @@
-"""What the commands that move the arm have in common: build, carry out, keep, judge, print."""
+"""A job of the commands that move the arm: build, carry out, save, judge, print."""
 
 import shlex
 import sys
@@ -204,7 +204,7 @@ class _Work:
     # -- ending ---------------------------------------------------------------------------------------
 
     def _interrupted(self, runner: Runner | None) -> int:
-        where = "while the cell was set up" if runner is None else f"at {runner.time:.1f} s"
+        where = "during the set-up of the cell" if runner is None else f"at {runner.time:.1f} s"
         note(f"interrupted {where}; the brakes are set")
         if self.folder is None and runner is not None:
             try:
@@ -217,7 +217,7 @@ class _Work:
     def _tell_how_to_go_on(self) -> None:
         kept = self.left if self.folder is None else self.folder.path
         if kept is not None:
-            note(f"go on with: handeye resume {shlex.quote(str(kept))}")
+            note(f"resume with: handeye resume {shlex.quote(str(kept))}")
 
     def _finished(self, runner: Runner, pause: Pause) -> int:
         job = self.job
@@ -236,7 +236,7 @@ class _Work:
         if pause.kind in ("break", "operator"):
             self._tell_how_to_go_on()
         elif self.folder is not None:
-            note(f"kept in {self.folder.path}")
+            note(f"saved in {self.folder.path}")
         return result.exit_code
 
     def _print(self, result: Result) -> None:
@@ -268,7 +268,7 @@ def _warn(runner: Runner) -> None:
     here = runner.cell.renderer
     if begun.camera != here:
         before, now = renderer_name(begun.camera), renderer_name(here)
-        note(f"the run was begun with pictures by {before}; now they are by {now}")
+        note(f"the run began with pictures by {before}; now they are by {now}")
     changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
     if changed:
-        note(f"the run was begun with other versions of {', '.join(changed)}; it need not come out the same")
+        note(f"the run began with other versions of {', '.join(changed)}; the result may differ")

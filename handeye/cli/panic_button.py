@@ -22,7 +22,7 @@ class PanicButton:
         signal.signal(signal.SIGINT, self._before)
 
     def __call__(self) -> bool:
-        """Whether it has been pressed since it was last asked."""
+        """True if it was pressed since the last call."""
         pressed, self._pressed = self._pressed, False
         return pressed
 

@@ -30,11 +30,11 @@ def inspect(
     graph: Annotated[Literal["svg", "dot"] | None, Parameter(help="Draw the flow instead.")] = None,
     output: Annotated[
         Path | None,
-        Parameter(name=["--output", "-o"], help="Where the drawing goes; else standard output."),
+        Parameter(name=["--output", "-o"], help="File for the drawing; by default standard output."),
     ] = None,
     json: Json = False,
 ) -> int:
-    """Lay a plan open: stages, steps, times, guards, forces, and what each step depends on."""
+    """Show what a plan does: stages, steps, times, guards, forces, and what each step depends on."""
     from handeye.debugger.breakpoints import stage_number
     from handeye.inspection.drawing import flow_svg
     from handeye.inspection.flow import flow, flow_dot
@@ -48,7 +48,7 @@ def inspect(
         shown = flow(plan, number)
         _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output, DRAWINGS[graph])
     elif output is not None:
-        raise InvalidInput("--output is for a drawing; say --graph svg or --graph dot")
+        raise InvalidInput("--output needs --graph svg or --graph dot")
     elif json:
         found = inspection(plan)
         kept = tuple(s for s in found.stages if number in (None, s.number))
@@ -60,7 +60,7 @@ def inspect(
 
 
 def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
-    """Tell what a change in a script did: two plans are compared.
+    """Compare what two plans do, step by step.
 
     Exit code 0: both do the same; 1: they do not; 2: bad input.
     """
@@ -79,7 +79,8 @@ def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
 def schema(
     *,
     output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Where it goes; else standard output.")
+        Path | None,
+        Parameter(name=["--output", "-o"], help="File for the schema; by default standard output."),
     ] = None,
 ) -> int:
     """Print the JSON schema of the plan format."""

@@ -17,22 +17,20 @@ if TYPE_CHECKING:
     from handeye.runs.stops import AnyStop
     from handeye.runs.system import Listing
 
-To = Annotated[str | None, Parameter(help="Stop when this stage has ended.")]
+To = Annotated[str | None, Parameter(help="Pause after this stage.")]
 Until = Annotated[
-    str | None, Parameter(help="Stop before this step, by its number in `handeye stages`, or its label.")
+    str | None, Parameter(help="Pause before this step: its number in `handeye stages`, or its label.")
 ]
 Break = Annotated[
     list[str] | None,
     Parameter(
         name="--break", consume_multiple=False,
-        help="Stop at a label, a stage, a line (58, or pins.al:3), an instruction word, or behind `error:N`; "
+        help="Pause at a label, a stage, a line (58, or pins.al:3), an instruction, or on `error:N`; "
         "may be repeated.",
     ),
 ]  # fmt: skip
-Step = Annotated[
-    bool, Parameter(help="Ask before every step; without a terminal, commands come from standard input.")
-]
-Overwrite = Annotated[bool, Parameter(help="Let this run take the place of the one in the folder of --out.")]
+Step = Annotated[bool, Parameter(help="Step by commands; without a terminal they come from standard input.")]
+Overwrite = Annotated[bool, Parameter(help="Replace the run in the folder of --out.")]
 OnStop = Annotated[
     str | None,
     Parameter(
@@ -59,7 +57,7 @@ def assemble(
 ) -> int:
     """Assemble the water pump: plan, work, judge.
 
-    Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program said done but the
+    Exit code 0: assembled; 1: the program stopped and called the operator; 3: the program ended, but the
     referee disagrees; 2: bad input; 130: interrupted.
     """
     from handeye.cli.job import Job, work
@@ -89,7 +87,7 @@ def run(
     /,
     *,
     world: WorldOptions = ANY_WORLD,
-    judge: Annotated[bool, Parameter(help="Have the referee look at the pump afterwards.")] = False,
+    judge: Annotated[bool, Parameter(help="Let the referee judge the result.")] = False,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -102,17 +100,17 @@ def run(
     step: Step = False,
     checkpoints: Annotated[
         Path | None,
-        Parameter(help="Folder of checkpoints, or of a run, that --from and --stage begin at and add to."),
+        Parameter(help="Folder of checkpoints, or of a run, where --from and --stage begin and save."),
     ] = None,
     on_stop: OnStop = None,
 ) -> int:
     """Carry out a plan in the work cell, or stages of it, or step by step.
 
-    Stages are given by name, by a beginning of it, or by number. A stage that is not the first begins at its
-    checkpoint; if there is none, the stages before it are carried out first.
+    Give a stage by its name, the beginning of its name, or its number. A later stage begins at its
+    checkpoint; without one, the stages before it come first.
 
-    Exit code 0: the program came to its end, or stopped where it was told to; 1: it stopped and called the
-    operator; 3: the referee, if asked, disagrees; 2: bad input, or a command of --step was refused that came from
+    Exit code 0: the program ended, or paused where asked; 1: it stopped and called the
+    operator; 3: the referee, if asked, disagrees; 2: bad input, or a refused --step command from
     no terminal; 130: interrupted.
     """
     from handeye.cli.job import Job, work
@@ -121,7 +119,7 @@ def run(
 
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
-        raise InvalidInput("--stage says it all; --from and --to do not go with it")
+        raise InvalidInput("--stage excludes --from and --to")
     start = Checkpoint(setup=Setup(plan=plan, world=world.spec, camera=camera, judged=judge))
     stops = _stops(plan.program, to=to if stage is None else stage, until=until, breaks=breaks or [])
     _check_order(plan.program, first, to)
@@ -130,7 +128,7 @@ def run(
         start = _at_stage(start, (first if stage is None else stage) or "", kept, out)
     _check_ahead(start, stops, breaks or [])
     if checkpoints is not None and kept is not None and not kept.exists():
-        note(f"{kept} is new; checkpoints are kept there")
+        note(f"{kept} is new; checkpoints are saved there")
     return work(
         Job(
             start=start,
@@ -156,11 +154,11 @@ def resume(
         bool | None,
         Parameter(
             negative="--no-judge",
-            help="Have the referee look at the pump afterwards; by default as the run was begun.",
+            help="Let the referee judge the result; by default as when the run began.",
         ),
     ] = None,
     json: Json = False,
-    out: Annotated[Path | None, Parameter(help="Folder to keep the run in, for a checkpoint file.")] = None,
+    out: Annotated[Path | None, Parameter(help="Folder to save the run in, for a checkpoint file.")] = None,
     overwrite: Overwrite = False,
     to: To = None,
     until: Until = None,
@@ -168,14 +166,14 @@ def resume(
     step: Step = False,
     on_stop: OnStop = None,
 ) -> int:
-    """Go on with a run that was broken off.
+    """Resume an interrupted run.
 
     Exit codes are those of `run`.
 
     Parameters
     ----------
     path
-        A checkpoint, or the folder of a run, which is gone on with from its newest sound checkpoint.
+        A checkpoint, or the folder of a run, which resumes from its newest sound checkpoint.
     """
     from handeye.cli.job import Job, work
     from handeye.runs.checkpoint_file import read_checkpoint
@@ -187,7 +185,9 @@ def resume(
         path = path.parent
     if path.is_dir():
         if out is not None:
-            raise InvalidInput(f"{path} is the folder of a run and is gone on with; --out goes with a file")
+            raise InvalidInput(
+                f"{path} is the folder of a run, which resumes there; --out needs a checkpoint file"
+            )
         folder, start = open_again(path)
         for fault in folder.kept.damaged():
             note(f"left out: {fault}")
@@ -198,7 +198,7 @@ def resume(
     _check_ahead(start, stops, breaks or [])
     done = "no steps" if start.position < 1 else f"{start.position} step{'' if start.position == 1 else 's'}"
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
-    note(f"going on where {done} were done: {stage}")
+    note(f"resuming after {done}: {stage}")
     return work(
         Job(
             start=start,
@@ -217,7 +217,7 @@ def resume(
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
-    """Where a run ends; breaks are only looked at, so that a wrong one is told before anything moves."""
+    """Stops at which a run ends; breakpoints are only parsed, so that a wrong one is refused before anything moves."""
     from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
     from handeye.runs.stops import AfterStage, BeforeStep
 
@@ -241,7 +241,7 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
     stages = listing.stages
     begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
-        raise InvalidInput(f"the run begins with “{begin}”, and “{end}” comes before that")
+        raise InvalidInput(f"the run begins with “{begin}”, after “{end}”")
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
@@ -257,14 +257,14 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
 
     for stop in stops:
         if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
-            raise InvalidInput(f"from where the run begins it never comes to step {stop.step}")
+            raise InvalidInput(f"the run never reaches step {stop.step} from where it begins")
     for text in breaks:
         if not is_ahead(breakpoint(text, listing_of(start.setup)), start):
-            note(f"from where the run begins it never comes to {text}")
+            note(f"the run never reaches {text} from where it begins")
 
 
 def _checkpoint_folder(checkpoints: Path | None, out: Path | None) -> Path | None:
-    """Where checkpoints are looked for: a folder of them, or one inside the folder of a run."""
+    """Folder to search for checkpoints: one of them, or one inside the folder of a run."""
     from handeye.runs.folder import CHECKPOINTS
 
     folder = checkpoints or out
@@ -281,7 +281,7 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     from handeye.runs.systems import listing_of
 
     if out is not None and (out / EVENTS).exists():
-        raise InvalidInput(f"{out} holds a run; name it by --checkpoints, and another folder by --out")
+        raise InvalidInput(f"{out} holds a run; give it as --checkpoints, and another folder as --out")
     listing = listing_of(start.setup)
     number = stage_number(name, listing)
     wanted = listing.stages[number]
@@ -289,6 +289,6 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     if number > 0 and (found is None or found.stage != wanted):
         reached = "the beginning" if found is None else f"“{found.stage}”"
         note(
-            f"no checkpoint of “{wanted}” with this plan and world: carrying out what comes before it, from {reached}"
+            f"no checkpoint of “{wanted}” for this plan and world: carrying out the steps before it, from {reached}"
         )
     return found or start

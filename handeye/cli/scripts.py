@@ -47,7 +47,7 @@ def check(
         bool, Parameter(name="--strict-1973", help="Refuse words and operands that are ours.")
     ] = False,
     watch: Annotated[
-        bool, Parameter(help="Check again whenever the script, what it requires or what is taught changes.")
+        bool, Parameter(help="Check again whenever the script, a required file or the taught file changes.")
     ] = False,
 ) -> int:
     """Check a script and its taught positions, the arm's reach included; nothing moves.
@@ -107,7 +107,7 @@ def _files(file: Path) -> list[Path]:
 
 
 def _version(path: Path) -> Version:
-    """What changes when a file does; editors often put another file in its place."""
+    """Version of a file: changes with it, and when an editor puts another file in its place."""
     try:
         status = path.stat()
     except OSError:
@@ -139,7 +139,7 @@ def plan(
     Parameters
     ----------
     output
-        Where the plan goes; by default beside the script, with the ending .plan.json.
+        File for the plan; by default beside the script, with the ending .plan.json.
     """
     target = output or beside(file, ".plan.json")
     made = compiled(file)

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from handeye.teaching.workplace import Workplace
 
 TaughtFile = Annotated[
-    Path | None, Parameter(name="--taught", help="File of taught positions; by default the water pump's.")
+    Path | None, Parameter(name="--taught", help="Taught file; by default the water pump's.")
 ]
 Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first.")]
-From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell as this checkpoint has it.")]
-Keep = Annotated[Path | None, Parameter(help="Keep the cell as it is at the end in this checkpoint.")]
+From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell of this checkpoint.")]
+Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this checkpoint.")]
 
 
 def register(app: App) -> None:
@@ -52,7 +52,7 @@ def do(
     Parameters
     ----------
     functions
-        A function of the arm language each; modifiers stand before theirs, with a line end between.
+        Functions of the arm language; a modifier comes before its motion, with a newline between.
     """
     from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
     from handeye.teaching.answers import converse
@@ -60,7 +60,7 @@ def do(
     from handeye.teaching.repl import Repl
 
     if not all(map(str.strip, functions or ("",))):
-        raise InvalidInput('a function is wanted, such as `handeye do "OPEN 3"`')
+        raise InvalidInput('give a function, such as `handeye do "OPEN 3"`')
     if keep is not None:
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
@@ -86,15 +86,15 @@ def repl(
     camera: Camera = "auto",
     json: Json = False,
 ) -> int:
-    """Type functions: they are collected and checked; DO carries them out. HELP tells the rest.
+    """Type functions to collect and check them; DO carries them out. HELP lists the commands.
 
-    Exit code 0: left; 1: the operator was called at last; 2: a line was refused, and came from no terminal;
+    Exit code 0: left; 1: the operator was called last; 2: a line was refused that came from no terminal;
     130: interrupted.
 
     Parameters
     ----------
     script
-        A script beside which programs for `DO NAME`, and what is taught, are looked for.
+        A script, with its taught file and the programs for `DO NAME` beside it.
     """
     from handeye.al.instructions import INSTRUCTIONS
     from handeye.teaching.answers import converse
@@ -121,7 +121,7 @@ def teach(
     camera: Camera = "auto",
     json: Json = False,
 ) -> int:
-    """Move the arm and name where it is; the file of taught positions gets what was named, and keeps the rest.
+    """Move the arm and name positions; new names go into the taught file, and the rest of it stays.
 
     Exit code 0: left; 2: bad input, or a line was refused that came from no terminal, or something was left
     unsaved; 130: interrupted.
@@ -129,7 +129,7 @@ def teach(
     Parameters
     ----------
     file
-        The file of taught positions (TOML), or the script it stands beside. It need not be there yet.
+        The taught file (TOML), or the script beside it. It need not exist yet.
     """
     from handeye.teaching.answers import converse
     from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
@@ -189,10 +189,10 @@ def _given(file: Path | None) -> Taught | None:
 
 
 def _kept(file: Path | None) -> str:
-    """How to go on when the operator was called and nobody is there to be asked."""
+    """Advice when the operator was called and nobody is there to ask."""
     if file is None:
-        return "with --keep FILE the cell would be kept as it is now, and --from FILE goes on from there"
-    return f"`handeye do --from {file}` goes on from there"
+        return "--keep FILE would save the cell as it is now, and --from FILE would continue from there"
+    return f"`handeye do --from {file}` continues from there"
 
 
 def _code(failed: "Answer | None") -> int:

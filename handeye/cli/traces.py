@@ -30,7 +30,7 @@ def register(app: App) -> None:
 
 
 def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
-    """Tell what happened in a run, and why."""
+    """Show what happened in a run, and why."""
     from handeye.events import to_line
     from handeye.trace.account import account
 
@@ -62,7 +62,7 @@ def photograph(
     file: File,
     /,
     *,
-    at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` tells them.")],
+    at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` prints them.")],
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
     camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
     width: WholeNumber = 1280,
@@ -78,13 +78,13 @@ def photograph(
     trace, _ = _read(file)
     if trace is None:
         raise InvalidInput(
-            f"{file} is an event list, which does not say where things were; take the trace.mcap"
+            f"{file} is an event list, which does not hold where things were; use the trace.mcap"
         )
     trace.check_repeatable()
     replay = Replay(trace)
     begin, end = trace.head.time, max(replay.times[-1], trace.events[-1].time)
     if not begin - SHOWN <= at <= end + SHOWN:
-        raise InvalidInput(f"{file} tells of {begin:.2f} to {end:.2f} s; {at:g} s is not among them")
+        raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
     state = replay.seek(at)
     model = task(trace.head.task).scene(trace.head.world)
     data = posed(model, state.poses)
@@ -97,10 +97,10 @@ def photograph(
 def verify(file: File, /) -> int:
     """Carry out a recorded run again and compare.
 
-    What operators and experimenters did is done again; a run that was interrupted is compared up to its last whole
+    It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
     step.
 
-    Exit code 0: it comes out the same; 1: it does not; 2: bad input.
+    Exit code 0: the run repeats exactly; 1: it does not; 2: bad input.
     """
     from handeye.runs.verify import difference, settled
     from handeye.versions import versions
@@ -113,14 +113,12 @@ def verify(file: File, /) -> int:
     trace.check_repeatable()
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:
-        sentence = (
-            f"it was recorded with other versions of {', '.join(changed)}; it need not come out the same"
-        )
+        sentence = f"it was recorded with other versions of {', '.join(changed)}; the result may differ"
         note(sentence)
-    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("carrying it out again"):
+    with tempfile.TemporaryDirectory(prefix="handeye-") as folder, notes.status("repeating the run"):
         found = difference(trace, Path(folder) / "run")
     if found is not None:
-        say(f"{file} does not come out the same: {found}")
+        say(f"{file} does not repeat exactly: {found}")
         return 1
     count = settled(events)
     ended = "" if count == len(events) else " up to the step that was interrupted"
@@ -138,12 +136,12 @@ def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
     if file.is_dir():
         growing = part(file / TRACE)
         if growing.exists():  # newer than the whole one of before the run was gone on with
-            note(f"the run in {file} was broken off; this is what its trace holds")
+            note(f"the run in {file} was interrupted; this is what its trace holds")
             file = growing
         elif (file / TRACE).exists():
             file = file / TRACE
         elif (file / PLAN).exists() and not (file / EVENTS).exists():
-            raise InvalidInput(f"nothing of the run in {file} was carried out yet")
+            raise InvalidInput(f"the run in {file} has not begun")
         else:
             file = file / EVENTS
     if file.suffix == ".jsonl":

@@ -76,10 +76,10 @@ def base_vision_trials(
     ] = "calibrated",
     camera: Camera = "auto",
 ) -> int:
-    """Find the base on the belt in many worlds: how often, how exactly, and was it ever taken for another thing.
+    """Find the base on the belt in many worlds: how often, how exactly, and how often wrongly.
 
-    The camera is calibrated with 20 simulated sightings for each lens and an arm wrong by .1 in, which is quicker than
-    to have the arm show its lamp a hundred times over; `assemble` does that.
+    Calibrates the camera with 20 simulated sightings for each lens and an arm wrong by .1 in, which is quicker than
+    showing the lamp a hundred times, as `assemble` does.
 
     Exit code 0: no wrong pose was accepted; 3: one was.
     """
@@ -122,19 +122,19 @@ def breaking_trials(
     kind: Annotated[
         Literal["killed", "interrupted", "alone", "stepped"],
         Parameter(
-            help="Killed in each stage, Ctrl-C at random moments, each stage by itself, or stepped through with "
-            "ten ways back."
+            help="Kill in each stage, press Ctrl-C at random moments, run each stage alone, or step through "
+            "and go back ten times."
         ),
     ],
     /,
     *,
     world: WorldOptions = ANY_WORLD,
-    count: Annotated[WholeNumber, Parameter(help="How often Ctrl-C is pressed.")] = 20,
+    count: Annotated[WholeNumber, Parameter(help="How often to press Ctrl-C.")] = 20,
     jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
 ) -> int:
-    """Break runs off, go on with them, and see whether they come out as if nothing had happened.
+    """Interrupt runs, resume them, and check that the result is the same.
 
-    Exit code 0: all of them do; 1: not all.
+    Exit code 0: it always is; 1: it is not.
     """
     from handeye.trials import breaking, detours
 
@@ -153,7 +153,7 @@ def breaking_trials(
         verdicts = []
         for verdict in ways[kind]():
             verdicts.append(verdict)
-            said = "; ".join(verdict.faults) or "as if nothing had happened"
+            said = "; ".join(verdict.faults) or "the same"
             say(f"{kind} {verdict.name}: {said}")
     good = sum(not verdict.faults for verdict in verdicts)
     screen.print(f"{good} of {len(verdicts)}")

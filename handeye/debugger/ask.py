@@ -39,7 +39,7 @@ class Ask:
                 continue
             if answer is not None:
                 return answer
-        self._say(["the answers have come to their end: abort"])
+        self._say(["no more answers: abort"])
         return "abort"
 
     def _understood(self, runner: Runner, word: str, rest: str) -> OperatorChoice | None:
@@ -59,7 +59,7 @@ class Ask:
         choice = _CHOICES.get(word[:1])
         if choice is None or rest or not choice.startswith(word):
             said = quoted(f"{word} {rest}".strip())
-            raise InvalidInput(f"{said} is no answer; say p, r, s, b, a or show")
+            raise InvalidInput(f"{said} is not an answer; answer p, r, s, b, a or show")
         return choice
 
     def _say(self, lines: Sequence[str]) -> None:
@@ -92,12 +92,14 @@ def _choices(runner: Runner) -> list[str]:
     """Tell what can be said, and what it does here."""
     program, onward = runner.listing, runner.onward
     first = next(step.place for step in program.steps if step.stage == runner.stage)
-    where = "to the end of the program" if onward is None else f"on at line {program.steps[onward].place}"
+    where = (
+        "to the end of the program" if onward is None else f"continue at line {program.steps[onward].place}"
+    )
     return [
-        f"p          proceed behind it: {where}",
-        f"r          retry: the stage again from line {first}, with the world as it is now",
-        "s          skip: leave out the rest of the stage",
-        "b [STAGE]  back: in time to the beginning of this stage, or of an earlier one",
+        f"p          proceed: {where}",
+        f"r          retry the stage from line {first}, with the world as it is now",
+        "s          skip the rest of the stage",
+        "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
         "a          abort",
-        "show       see joints, hand, force, saved differences, parts and so on",
+        "show       show joints, hand, force, saved differences, parts and so on",
     ]

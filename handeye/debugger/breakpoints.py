@@ -28,9 +28,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """
     text = text.strip()
     if not text:
-        raise InvalidInput(
-            "a place to stop is an error (error:23), a line, a label, an instruction or a stage"
-        )
+        raise InvalidInput("give an error (error:23), a line, a label, an instruction or a stage")
     if error := _ERROR.fullmatch(text):
         return _on_error(error["number"] or error["any"])
     place = named_place(text, listing)
@@ -81,7 +79,7 @@ def step_number(text: str, listing: Listing) -> int:
         raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
-        raise InvalidInput(f"label {quoted(text)} stands for steps {where}; give one by its number")
+        raise InvalidInput(f"label {quoted(text)} belongs to steps {where}; give one by its number")
     return found[0]
 
 
@@ -111,7 +109,7 @@ def _at_line(place: Place, listing: Listing) -> AnyStop:
     last = max(lines.values())
     if line > last:
         behind, on = line_name(line, file), line_name(last, file)
-        raise InvalidInput(f"line {behind} lies behind the last step, which is on line {on}")
+        raise InvalidInput(f"line {behind} is after the last step, which is on line {on}")
     first = min(number for number in lines.values() if number >= line)
     steps = tuple(i for i, number in lines.items() if number == first)
     return AtLine(steps=steps, file=file, line=first)

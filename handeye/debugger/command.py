@@ -51,7 +51,7 @@ def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
     """
     commands = list(named)
     if rest and all(command.bare for command in commands):
-        raise InvalidInput(f"`{commands[0].name}` takes nothing behind it; {quoted(rest)} is too much")
+        raise InvalidInput(f"`{commands[0].name}` takes nothing after it; {quoted(rest)} is too much")
 
 
 def rows(commands: Iterable[Command[Any]]) -> list[str]:

@@ -29,7 +29,7 @@ def find(line: str) -> tuple[StepperCommand, str]:
         near = meant(word, [command.name for command in COMMANDS])
         if word.casefold() in _ELSEWHERE:
             near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
-        raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` tells which there are'}")
+        raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` lists them'}")
     check_bare(named, rest)
     return named[0], rest
 
@@ -45,11 +45,11 @@ def manual() -> str:
         [
             *out,
             "",
-            "PLACE is a line (58; pins.al:3 in a file that is required), a label (L1), an instruction (AOJ), a",
+            "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
             "stage or the beginning of its name, or an error (error:23). WHAT is one of",
             f"    {', '.join(TOPICS)}.",
-            "Numbers are inches and degrees, forces ounces. On a terminal an empty line says the last step, stage",
-            "or continue again.",
+            "Units: inches, degrees, ounces. On a terminal an empty line repeats the last step, stage",
+            "or continue.",
         ]
     )
 
@@ -63,8 +63,8 @@ def _help(_: DebugSession, rest: str) -> CommandResult:
     )
 
 
-_GOING, _BACK, _BREAKS, _LOOKING = "Going on", "Going back in time", "Stopping", "Looking"
-_TRYING, _CALLED, _LEAVING = "Trying something else", "When the operator is called", "Keeping and leaving"
+_GOING, _BACK, _BREAKS, _LOOKING = "Continuing", "Going back in time", "Breakpoints", "Inspecting"
+_TRYING, _CALLED, _LEAVING = "Trying something else", "When the operator is called", "Saving and leaving"
 
 COMMANDS: Final[tuple[StepperCommand, ...]] = (
     Command(
@@ -73,36 +73,36 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="stage", short="n", group=_GOING, act=acts.stage, repeats=True,
-        help="go on to the end of the stage",
+        help="continue to the end of the stage",
     ),
     Command(
         usage="continue", short="c", group=_GOING, act=acts.go_on, repeats=True,
-        help="go on to a break, to the operator or to the end",
+        help="continue to a breakpoint, an operator call or the end",
     ),
     Command(
         usage="until PLACE", short="u", group=_GOING, act=acts.until,
-        help="go on to a place, if no break comes first",
+        help="continue to a place, or to a breakpoint before it",
     ),
     Command(
         usage="back [N]", short="b", group=_BACK, act=acts.back,
-        help="undo the last step, or the last N: arm, parts and program are as they were",
+        help="undo the last step, or the last N: restores arm, parts and program",
     ),
     Command(
         usage="back stage", short="bs", group=_BACK, act=acts.back,
-        help="to the beginning of this stage or, if nothing of it is done, of the one before",
+        help="go back to the beginning of this stage; from there, of the one before",
     ),
     Command(
-        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="stop there whenever the run comes by"
+        usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause there every time"
     ),
-    Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="tell which are set, and their numbers"),
-    Command(usage="delete N", group=_BREAKS, act=acts.delete, help="take away the break with that number"),
+    Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="list the breakpoints, with their numbers"),
+    Command(usage="delete N", group=_BREAKS, act=acts.delete, help="delete the breakpoint with that number"),
     Command(
         usage="list [LINE]", short="l", group=_LOOKING, act=acts.script,
-        help="the script around where the run stands, or around a line",
+        help="show the script around the next step, or around a line",
     ),
     Command(
         usage="show [WHAT]", short="p", group=_LOOKING, act=acts.look,
-        help="what there is to see: all of it, or one thing",
+        help="show the state of the run: all of it, or one topic",
     ),
     Command(
         usage="picture FILE", group=_LOOKING, act=acts.picture,
@@ -110,27 +110,27 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     ),
     Command(
         usage="set saved NAME x y z", group=_TRYING, act=acts.experiment,
-        help="give a saved difference a value of your own",
+        help="set a saved difference",
     ),
     Command(
         usage="set position NAME x y z [o a t]", group=_TRYING, act=acts.experiment,
-        help="teach a position anew, in the frame that `show positions` tells",
+        help="set a position, in the frame that `show positions` shows",
     ),
     Command(
-        usage="proceed", group=_CALLED, act=acts.answer("proceed"), help="go on behind the step that called"
+        usage="proceed", group=_CALLED, act=acts.answer("proceed"), help="continue after the step that called"
     ),
     Command(
         usage="retry", group=_CALLED, act=acts.answer("retry"),
-        help="go on with the first step of the stage, the world as it is now",
+        help="repeat the stage from its first step, with the world as it is now",
     ),
-    Command(usage="skip", group=_CALLED, act=acts.answer("skip"), help="leave out the rest of the stage"),
+    Command(usage="skip", group=_CALLED, act=acts.answer("skip"), help="skip the rest of the stage"),
     Command(usage="abort", group=_CALLED, act=acts.abort, help="end the run"),
     Command(
         usage="checkpoint [FILE]", group=_LEAVING, act=acts.checkpoint,
-        help="keep this state, for `handeye resume`",
+        help="save this state, for `handeye resume`",
     ),
-    Command(usage="quit", short="q", group=_LEAVING, act=acts.leave, help="keep this state and leave"),
-    Command(usage="help [COMMAND]", short="h", group=_LEAVING, act=_help, help="say this, or of one command"),
+    Command(usage="quit", short="q", group=_LEAVING, act=acts.leave, help="save this state and leave"),
+    Command(usage="help [COMMAND]", short="h", group=_LEAVING, act=_help, help="show this, or the help of one command"),
 )  # fmt: skip
 
 _SHORT: Final = {

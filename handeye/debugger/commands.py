@@ -55,10 +55,10 @@ def until(hands: DebugSession, rest: str) -> CommandResult:
 
 
 def _told(hands: DebugSession, pause: Pause) -> CommandResult:
-    """How far a command came, and why no farther."""
+    """Result of a command: how far it came, and why no farther."""
     said = hands.at_its_end() or pause_sentence(pause)
     if pause.kind == "panic":
-        said += "; the step that was broken off is undone"
+        said += "; the interrupted step is undone"
     return CommandResult(pause=pause, source=hands.source(), said=said)
 
 
@@ -66,7 +66,7 @@ def _count(text: str, expected: str) -> int:
     if not text:
         return 1
     if not re.fullmatch(r"0*[1-9][0-9]{0,6}", text):
-        raise InvalidInput(f"{expected}; {quoted(text)} is none")
+        raise InvalidInput(f"{expected}, not {quoted(text)}")
     return int(text)
 
 
@@ -81,11 +81,11 @@ def back(hands: DebugSession, rest: str) -> CommandResult:
     else:
         position = done - _count(rest, "back takes a number from 1 up, or `stage`")
     if position is None or not done:
-        raise InvalidInput("this is the beginning; nothing lies before it")
+        raise InvalidInput("this is the beginning of the run")
     first = hands.first()
     if position < first:
         raise InvalidInput(
-            reach(first) if first else f"only {done} step{'' if done == 1 else 's'} can be gone back"
+            reach(first) if first else f"`back` can undo only {done} step{'' if done == 1 else 's'}"
         )
     hands.back_to(position)
     undone = done - position
@@ -99,7 +99,9 @@ def set_break(hands: DebugSession, rest: str) -> CommandResult:
     """Set a break."""
     before = len(hands.breaks)
     made = hands.add_break(rest)
-    return CommandResult(breaks=(made,), said="it is set already" if len(hands.breaks) == before else UNSET)
+    return CommandResult(
+        breaks=(made,), said="this breakpoint is already set" if len(hands.breaks) == before else UNSET
+    )
 
 
 def breaks(hands: DebugSession, _: str) -> CommandResult:
@@ -109,12 +111,12 @@ def breaks(hands: DebugSession, _: str) -> CommandResult:
 
 def delete(hands: DebugSession, rest: str) -> CommandResult:
     """Take a break away."""
-    there = f"those that are set: {', '.join(map(str, hands.breaks)) or 'none'}"
+    there = f"breakpoints: {', '.join(map(str, hands.breaks)) or 'none'}"
     if not re.fullmatch(r"[0-9]{1,7}", rest):
-        wrong = f"; {quoted(rest)} is none" if rest else ""
-        raise InvalidInput(f"delete takes the number of a break{wrong}; {there}")
+        wrong = f", not {quoted(rest)}" if rest else ""
+        raise InvalidInput(f"delete takes the number of a breakpoint{wrong}; {there}")
     if int(rest) not in hands.breaks:
-        raise InvalidInput(f"no break has the number {int(rest)}; {there}")
+        raise InvalidInput(f"there is no breakpoint {int(rest)}; {there}")
     del hands.breaks[int(rest)]
     return breaks(hands, "")
 
@@ -129,7 +131,7 @@ def script(hands: DebugSession, rest: str) -> CommandResult:
     file, line = named_place(rest, hands.program) or ("", 0)
     last = text_of(hands.program, file).removesuffix("\n").count("\n") + 1
     if not 1 <= line <= last:
-        raise InvalidInput(f"list takes a line from 1 to {last}; {quoted(rest)} is none")
+        raise InvalidInput(f"list takes a line from 1 to {last}, not {quoted(rest)}")
     return CommandResult(source=hands.source((file, line), WIDE))
 
 
@@ -144,7 +146,7 @@ def picture(hands: DebugSession, rest: str) -> CommandResult:
         raise InvalidInput("picture takes the name of a file to write")
     path = _file(rest)
     if path.exists():
-        raise InvalidInput(f"{path} is there already; it is left alone")
+        raise InvalidInput(f"{path} already exists; nothing was written")
     name = write_picture(hands.runner, path)
     return CommandResult(file=str(path), said=f"{name}, in {path}")
 
@@ -178,7 +180,7 @@ def abort(hands: DebugSession, _: str) -> CommandResult:
 
 def _check_called(hands: DebugSession, word: str) -> None:
     if hands.runner.call is None:
-        raise InvalidInput(f"`{word}` is for when the operator is called, and nobody has called")
+        raise InvalidInput(f"`{word}` answers a call of the operator, and there is none")
 
 
 # -- keeping and leaving --------------------------------------------------------------------------------
@@ -190,11 +192,11 @@ def checkpoint(hands: DebugSession, rest: str) -> CommandResult:
         path = _file(rest)
         check_place(path, CHECKPOINT)
         write_checkpoint(path, hands.runner.checkpoint())
-        return CommandResult(file=str(path), said=f"kept in {path}")
+        return CommandResult(file=str(path), said=f"saved to {path}")
     kept = hands.keep(hands.runner.checkpoint())
     if kept is None:
-        raise InvalidInput("the checkpoints of this run are kept nowhere; name a file")
-    return CommandResult(file=str(kept), said=f"kept in {kept}")
+        raise InvalidInput("this run has no folder for checkpoints; name a file")
+    return CommandResult(file=str(kept), said=f"saved to {kept}")
 
 
 def _file(name: str) -> Path:
@@ -203,7 +205,7 @@ def _file(name: str) -> Path:
         path = Path(name).expanduser()
         path.exists()
     except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
-        raise InvalidInput(f"{quoted(name)} cannot be a file's name") from None
+        raise InvalidInput(f"{quoted(name)} cannot be a file name") from None
     return path
 
 
@@ -211,10 +213,10 @@ def leave(hands: DebugSession, _: str) -> CommandResult:
     """Keep the present state, and end."""
     hands.over = True
     if hands.runner.ended and hands.runner.call is None:
-        return CommandResult(said="nothing is left to go on with")
+        return CommandResult(said="the run has ended; nothing was saved")
     if hands.idle:
-        return CommandResult(said="nothing was done, so that nothing is kept")
+        return CommandResult(said="nothing was done; nothing was saved")
     path = hands.keep(hands.runner.checkpoint())
     if path is None:
-        return CommandResult(said="nothing is kept")
-    return CommandResult(file=str(path), said=f"kept in {path}")
+        return CommandResult(said="nothing was saved")
+    return CommandResult(file=str(path), said=f"saved to {path}")

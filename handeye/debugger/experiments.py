@@ -27,7 +27,7 @@ def experiment(runner: Runner, text: str) -> None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
         raise InvalidInput(f"an experiment is {known}" if known else "nothing can be set in this run")
     if runner.trouble is not None:
-        raise InvalidInput("nothing can be tried from here; go back first")
+        raise InvalidInput("no experiment is possible here; go back first")
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])
@@ -37,7 +37,7 @@ def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
     """The name and the numbers, brackets and commas left out."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
     if not name or len(words) not in (settable.fewest, len(settable.units)):
-        raise InvalidInput(f"an experiment is written `set {kind} {settable.usage}`")
+        raise InvalidInput(f"write an experiment as `set {kind} {settable.usage}`")
     numbers = [_number(word) for word in words]
     return _known(name, settable), numbers
 
@@ -48,7 +48,7 @@ def _number(word: str) -> float:
     except ValueError:
         value = math.nan
     if not abs(value) <= FARTHEST:
-        raise InvalidInput(f"{quoted(word)} is no number from {-FARTHEST:g} to {FARTHEST:g}")
+        raise InvalidInput(f"{quoted(word)} is not a number from {-FARTHEST:g} to {FARTHEST:g}")
     return value
 
 

@@ -58,7 +58,7 @@ def as_text(reply: Reply, most: int | None = None) -> str:
         lines += shown_lines(reply.show)
     if reply.breaks is not UNSET:
         lines += [f"{each.number:3}  {stop_name(each.stop)}" for each in reply.breaks] or [
-            "no breaks are set"
+            "no breakpoints are set"
         ]
     if reply.said is not UNSET:
         lines.append(reply.said)
@@ -66,8 +66,8 @@ def as_text(reply: Reply, most: int | None = None) -> str:
 
 
 def _standing(reply: Reply) -> str:
-    """Where the run stands."""
-    stage = "behind the last stage" if reply.stage is None else f"stage {reply.stage_number}, {reply.stage}"
+    """Line that says where the run pauses."""
+    stage = "after the last stage" if reply.stage is None else f"stage {reply.stage_number}, {reply.stage}"
     step = "" if reply.step is None else f", step {reply.step}"
     done = f"{reply.position} step{'' if reply.position == 1 else 's'} done"
     return f"── {stage}{step}; {done}, {reply.time:.2f} s"
@@ -155,7 +155,7 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
     lines = []
     for name, taught in positions.items():
         where = "" if taught.of is None else f" of {taught.of}"
-        moved = ", defined anew" if taught.moved else ""
+        moved = ", redefined" if taught.moved else ""
         angles = _vector(taught.at[3:], 1)
         lines.append(f"{name:{width}}  {_vector(taught.at[:3], 3)} in, {angles} deg{where}{moved}")
     return lines

@@ -102,7 +102,7 @@ class DebugSession:
 
     @property
     def pause(self) -> Pause:
-        """Why the run stands still now."""
+        """Reason of the present pause."""
         if self.runner.ended:
             return ended(self.runner)
         return Pause(kind="break", next=self.runner.at, met=ByHand())
@@ -113,10 +113,10 @@ class DebugSession:
         if not runner.ended:
             return None
         if runner.trouble is not None:
-            return f"the run cannot go on from here, only back: {runner.trouble}"
+            return f"the run cannot continue from here, only go back: {runner.trouble}"
         if runner.call is not None:
-            return "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
-        return "the program has come to its end: `back` goes back from here, `quit` leaves"
+            return "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, or go back"
+        return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:
         """Be again where so many steps were done.
@@ -131,7 +131,7 @@ class DebugSession:
             self.runner.undo()
             done = self.runner.position
             raise InvalidInput(
-                f"stopped by hand on the way back to where {position} steps were done; {done} are done"
+                f"stopped by the panic button on the way back to {position} steps done; {done} are done"
             ) from None
 
     def first(self) -> int:

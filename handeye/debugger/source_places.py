@@ -35,5 +35,5 @@ def named_place(text: str, program: Listing) -> Place | None:
         return "", line
     if not found:
         known = ", ".join(map(quoted, program.required)) or "none"
-        raise InvalidInput(f"the script requires no file {quoted(file)}; those it requires: {known}")
+        raise InvalidInput(f"the script requires no file {quoted(file)}; it requires: {known}")
     return (file if file in found else found[0]), line

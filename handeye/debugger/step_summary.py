@@ -66,14 +66,14 @@ def _outcome(group: Sequence[AnyEvent], step: happened.StepStarted, program: Lis
 
 
 def _onward(event: happened.ErrorTested, step: happened.StepStarted, program: Listing) -> str:
-    """Where the program goes on after a test."""
+    """Next line after a test."""
     ways = program.steps[step.step].ways
     onward = ways[-1] if event.occurred else ways[0]
-    return "to the end" if onward is None else f"on at line {program.steps[onward].place}"
+    return "to the end" if onward is None else f"continue at line {program.steps[onward].place}"
 
 
 def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing) -> str:
-    """Where a step ended of which there is nothing else to say; nothing for one that took no time."""
+    """End of a step without other events; empty for one that took no time."""
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""

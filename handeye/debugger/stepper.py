@@ -56,7 +56,7 @@ class Stepper:
 
     @property
     def pause(self) -> Pause:
-        """Why the run stands still now."""
+        """Reason of the present pause."""
         return self.hands.pause
 
     def do(self, line: str) -> Reply:
@@ -73,11 +73,9 @@ class Stepper:
         return self._reply(line, told, happened)
 
     def standing(self) -> Reply:
-        """Where the run stands, before anything is said."""
+        """Reply before the first command: where the run pauses."""
         runner = self.hands.runner
-        said = (
-            f"{self.hands.program.name}, {len(self.hands.program.steps)} steps; `help` tells what can be said"
-        )
+        said = f"{self.hands.program.name}, {len(self.hands.program.steps)} steps; `help` lists the commands"
         refusal = self.hands.at_its_end()
         told = CommandResult(source=self.hands.source(), said=refusal or said)
         return self._reply("", told, len(runner.events))

@@ -1,1 +1,1 @@
-"""What editors ask of the language: pure functions on a text, and a language server on top of them."""
+"""Editor services of the language: pure functions on a text, and a language server on top of them."""

@@ -1,4 +1,4 @@
-"""What an editor asks, answered by the functions on a document."""
+"""Answers to an editor's requests, by the functions on a document."""
 
 import asyncio
 from collections.abc import Callable
@@ -183,7 +183,7 @@ _ANSWERS: Final[dict[str, Callable[..., Any]]] = {
     lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: _symbols,
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
 }
-"""What answers each request and notification."""
+"""Handlers of requests and notifications."""
 _OPTIONS: Final[dict[str, Any]] = {
     lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),
     lsp.TEXT_DOCUMENT_RENAME: lsp.RenameOptions(prepare_provider=True),

@@ -8,5 +8,5 @@ from handeye.program.program import Program
 
 
 def planning(program: Program) -> list[Diagnostic]:
-    """What the planner says about a program."""
+    """Diagnostics of the planner for a program."""
     return plan_program(program, STANFORD, AL)[1]

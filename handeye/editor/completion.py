@@ -1,4 +1,4 @@
-"""What may be written next, by what the place takes."""
+"""Completion: proposals for the next word, by what the place takes."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Proposal:
 
 
 def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
-    """What may stand at an offset, and the characters it would replace."""
+    """Proposals at an offset, and the characters they would replace."""
     number, column = document.source.position(offset)
     start = offset - column + 1
     before = document.source.line(number)[: column - 1]

@@ -1,4 +1,4 @@
-"""What a code, an error number or an instruction means, for people."""
+"""Explanations of codes, error numbers and instructions, for people."""
 
 from functools import cache
 from typing import Final
@@ -60,11 +60,11 @@ SAMPLE = Taught(
     fixtures={"STAND": Fixture(at=(32 * INCH, 46 * INCH, 0.0, 0.0), boxes=(_box(2, 2, 0, 1.75),))},
     held={"STICK": Held(positions=("P",), boxes=(_box(0.2, 0.2, -0.5, 2.5),))},
 )
-"""What is taught for the examples."""
+"""Taught file of the examples."""
 
 
 def explanation(word: str) -> str:
-    """What the code of a diagnostic, the number of an error or an instruction means.
+    """Explanation of a diagnostic's code, an error number or an instruction.
 
     Raises:
         InvalidInput: it is none of these; the sentence names the nearest.

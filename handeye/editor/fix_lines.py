@@ -112,7 +112,7 @@ def close_up(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
     macros = {name.name for name in document.names if name.kind == MACRO}
     if behind.number + len(body) < len(document.lines) and words.isdisjoint({*macros, "DEFINE"}):
         end = document.whole_line(line_of(document, diagnostic).number).end
-        yield replace(Span(start=end, end=behind.start), "", "leave out the blank line")
+        yield replace(Span(start=end, end=behind.start), "", "remove the blank line")
 
 
 def begin_search(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

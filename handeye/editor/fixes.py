@@ -66,4 +66,4 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "unterminated-vector": fix_operands.close_vector,
     "wrong-operand": fix_operands.quote,
 }
-"""What cures a diagnostic, beside what its help suggests."""
+"""Fixes of a diagnostic, beside the suggestion of its help."""

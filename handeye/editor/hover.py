@@ -1,4 +1,4 @@
-"""What there is to know about the word under the pointer, as Markdown."""
+"""Hover: help for the word under the pointer, as Markdown."""
 
 import math
 from dataclasses import dataclass
@@ -45,7 +45,7 @@ class Hover:
 
 
 def hover(document: Document, offset: int) -> Hover | None:
-    """What there is to say about what stands at an offset."""
+    """Help for the token at an offset."""
     line = document.line_at(offset)
     if line is None:
         return None

@@ -39,7 +39,7 @@ class Edit:
 
 
 def definition(document: Document, offset: int) -> list[Found]:
-    """Where the thing named at an offset is made; a difference may be saved in several places, a file begins."""
+    """Definitions of the name at an offset; a difference may be saved in several places, a file begins."""
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
         if file.span.start <= offset <= file.span.end:
@@ -50,7 +50,7 @@ def definition(document: Document, offset: int) -> list[Found]:
 
 
 def references(document: Document, offset: int) -> list[Found]:
-    """Where the thing named at an offset is made or used."""
+    """Occurrences of the name at an offset."""
     name = document.name_at(offset)
     return [] if name is None else [found for _, found in _all(document, name)]
 
@@ -69,7 +69,7 @@ def renamable(document: Document, offset: int) -> Occurrence:
         raise InvalidInput(f"{quoted(name.name)} is a word of the language")
     if not any(place.makes for place in places):
         where = "in the taught file" if _is_taught(document, name) else "anywhere"
-        raise InvalidInput(f"where {name.kind} {quoted(name.name)} is made is not found {where}")
+        raise InvalidInput(f"the definition of {name.kind} {quoted(name.name)} is not found {where}")
     return name
 
 
@@ -82,7 +82,7 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
         raise InvalidInput(
-            f"{quoted(new)} is no name: names consist of letters, digits and `_`, and start with no digit"
+            f"{quoted(new)} is not a name: names consist of letters, digits and `_`, and do not start with a digit"
         )
     if (name.kind in (MACRO, LABEL) and new.upper() in (*INSTRUCTIONS, "DEFINE")) or new.upper() in _WORDS:
         raise InvalidInput(f"{quoted(new)} is a word of the language")
@@ -93,7 +93,7 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
-    """Whether a name stands where the new one would be taken for it; AIM takes positions and parts alike."""
+    """True if a name clashes with the new one; AIM takes positions and parts alike."""
     if name.kind == LABEL:
         return other.kind == LABEL and other.name == new
     kinds = (POSITION, PART) if name.kind in (POSITION, PART) else (name.kind,)

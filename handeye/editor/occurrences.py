@@ -1,4 +1,4 @@
-"""Where names stand in a text: what they name, and whether they are made there or used."""
+"""Occurrences of names in a text: what they name, and whether they define or use it."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ PARK: Final = "PARK"
 _MAKES: Final = {
     "TRANS": POSITION, "HERE": POSITION, "SAVE": SAVED, "LOOK": PICTURE, "ASSIGN": "counter", "VECT": "vector"
 }  # fmt: skip
-"""What instructions with a new name make."""
+"""Kinds of names that instructions define."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +57,7 @@ def macros_of(text: str) -> set[str]:
 
 
 def same(one: Occurrence, other: Occurrence) -> bool:
-    """Whether both are the name of one thing."""
+    """True if both name the same thing."""
     return (one.kind, one.name, one.scope) == (other.kind, other.name, other.scope)
 
 

@@ -38,7 +38,7 @@ def places(definition: Instruction, tokens: Sequence[Token]) -> list[Place]:
 
 
 def expected(definition: Instruction, tokens: Sequence[Token]) -> list[Operand]:
-    """What may come after these tokens: the next operand and, while that may be left out, those behind it."""
+    """Operands that may come next: the first and, while that is optional, those after it."""
     walk = _Walk(definition, tokens)
     for _ in walk.go():
         pass

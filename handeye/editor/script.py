@@ -44,7 +44,7 @@ class EditedScript:
         self.document = Document(source=source, taught=taught, taught_text=taught_text, read=read)
 
     def diagnostics(self) -> list[Diagnostic]:
-        """What the text tells; its form alone, if what is taught cannot be used."""
+        """Diagnostics of the text; of its form alone, if the taught file cannot be used."""
         if self.problem is not None:
             return arranged(check_form(self.document.whole))
         return self.document.compiled[1]
@@ -69,13 +69,13 @@ class EditedScript:
         return wire.diagnostic(found, self.range(at), [(place, ""), *related], f"{where}: ")
 
     def place(self, span: Span) -> lsp.Location:
-        """Where a span of the whole is."""
+        """Location of a span of the whole."""
         text, start = self.document.whole.find(span.start)
         local = Span(start=start, end=start + span.end - span.start)
         return lsp.Location(uri=self._uri(text), range=wire.range_(text, local, self.units))
 
     def location(self, found: Found) -> lsp.Location:
-        """Where a place is, in whichever of the files."""
+        """Location of a place, in whichever of the files."""
         if found.taught:
             return lsp.Location(uri=self.taught_uri, range=wire.range_(self._taught, found.span, self.units))
         text = next(text for text in self.document.whole.texts if text.key == found.file)
@@ -90,7 +90,7 @@ class EditedScript:
         return lsp.WorkspaceEdit(changes=changes)
 
     def requires(self, uri: str) -> bool:
-        """Whether the script is sewn of a file, among others."""
+        """True if the script includes a file."""
         return uri in map(self._uri, self.document.whole.required)
 
     def _uri(self, text: Source) -> str:

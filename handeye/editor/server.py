@@ -29,7 +29,7 @@ class ArmServer(LanguageServer):
         return EditedScript(self.workspace, uri)
 
     def diagnostics(self, script: EditedScript) -> list[Diagnostic]:
-        """What is known about a script by now: the planner's part only if it is about this very text."""
+        """Diagnostics of a script known by now: the planner's part only if it is about this very text."""
         whole, taught, problems = self.planned.get(script.uri, (None, None, []))
         known = problems if (whole, taught) == (script.document.whole, script.document.taught) else []
         return [*script.diagnostics(), *known]

@@ -1,4 +1,4 @@
-"""Where names stand in the file of what was taught.
+"""Occurrences of names in the taught file.
 
 TOML readers do not tell places. This finds what people and the teacher write: `[positions.A]`, `A = {...}` under
 `[positions]`, `of = "PART"`, and `positions = ["A"]` on one line. What it does not find, an editor cannot go to.

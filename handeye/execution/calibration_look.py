@@ -12,7 +12,7 @@ class CalibrationLook:
     lens: float
     """Focal length, m."""
     at: Vector3
-    """What the camera is aimed at."""
+    """Point the camera is aimed at."""
     sharp: Vector3
     """Where the focus is set; one for neighbouring looks, since refocusing takes three times as long as aiming."""
     places: tuple[Vector3, ...]

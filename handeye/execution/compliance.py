@@ -66,7 +66,7 @@ class Course:
         return np.clip(_beyond(self.free * wrench[:3], NOISE) * GAIN, -GREATEST, GREATEST)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
-        """How far the hand is turned (a rotation vector, rad) one servo period (s) after `turn`, shape (3,)."""
+        """Rotation vector (rad) of the hand one servo period (s) after `turn`, shape (3,)."""
         felt = wrench[3:]
         missing = _beyond(self.spin * felt, TURN_NOISE)
         wanted = float(np.linalg.norm(self.moment))

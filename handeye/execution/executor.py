@@ -161,4 +161,4 @@ class Executor:
         self.state.clock = run.time
         if self.state.idle > IDLE_LIMIT and self.state.at is not None:
             line = run.plan.program.steps[self.state.at].place
-            self._stop(f"the program runs in a circle at line {line} without anything moving", None)
+            self._stop(f"the program loops at line {line}, and nothing moves", None)

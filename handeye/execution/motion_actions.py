@@ -215,7 +215,7 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
         return None
     allowed = f"{operation.minimum / INCH:.2f} to {operation.maximum / INCH:.2f} in"
     return Fault(
-        number=errors.WRONG_TRAVEL, detail=f"it went {run.state.travel / INCH:.2f} in; {allowed} are right"
+        number=errors.WRONG_TRAVEL, detail=f"it went {run.state.travel / INCH:.2f} in; allowed: {allowed}"
     )
 
 

@@ -36,7 +36,7 @@ class Halted(Exception):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """How a motion ended."""
+    """Outcome of a motion."""
 
     trip: Trip | None = None
     """The guard that ended it."""
@@ -70,7 +70,7 @@ class ServoLoop:
     cell: Workcell
     arm: ArmModel
     state: DriveState
-    """What it remembers: set-points, load and what is felt."""
+    """Its state: set-points, load and felt wrench."""
     watch: Callable[[Sensed, Array], None] = lambda _, __: None
     """Called after every servo period with what is sensed and the torques put out, shape (n,)."""
     halt: Callable[[], bool] = lambda: False
@@ -158,7 +158,7 @@ class ServoLoop:
                 return Outcome(trip=trip)
         if guard is not None:  # its error says that nothing was met
             return REACHED
-        return Outcome(error=errors.SERVO_LAG, detail=f"the hand got on {gone / INCH:.2f} in and no farther")
+        return Outcome(error=errors.SERVO_LAG, detail=f"the hand moved {gone / INCH:.2f} in and no farther")
 
     def shifting(self, here: Dynamics, X_WT: Pose) -> Motion[Outcome]:
         """One period towards a pose close by."""
@@ -247,7 +247,7 @@ class ServoLoop:
     # -- knowing ------------------------------------------------------------------------------------
 
     def _arrived(self) -> Outcome:
-        """Whether the hand is where it is held."""
+        """Check that the hand is at its set-point."""
         off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
@@ -271,7 +271,7 @@ class ServoLoop:
         )
 
     def _reading(self, direction: Array) -> Reading:
-        """What guards look at."""
+        """Reading for the guards."""
         return Reading(
             force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
             tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,

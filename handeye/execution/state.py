@@ -127,7 +127,7 @@ def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
             vectors and pictures are of another size.
     """
     if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
-        raise InvalidInput("what the run remembers does not fit this plan")
+        raise InvalidInput("the state of the run does not fit this plan")
 
 
 def _fits_program(state: ExecutionState, plan: Plan) -> bool:

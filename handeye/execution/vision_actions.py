@@ -111,7 +111,7 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
         return _no_picture(errors.FEATURES_NOT_SEEN, operation.picture)
     general = run.state.general.get(operation.part)
     if general is None:
-        return Fault(number=errors.FEATURES_NOT_SEEN, detail="the part was not located generally before")
+        return Fault(number=errors.FEATURES_NOT_SEEN, detail="no GENERAL found the part before")
     with run.vision.running():
         found = locate_specific(shot.picture, shot.view, part, general)
     if isinstance(found, Failure):

@@ -144,7 +144,7 @@ def _change(
 
 
 def _changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """How two steps differ in what they say and do: what, as it was, as it is."""
+    """Differences of two steps: what, as it was, as it is."""
     texts, guards = [one_line(s.text) for s in (one, other)], [_guards(s) for s in (one, other)]
     if texts[0] != texts[1]:
         yield "statement", texts[0], texts[1]

@@ -102,7 +102,7 @@ def depends_text(one: Dependence) -> str:
     if one.kind == "part":
         return f"{one.name} seen at {lines}" if one.lines else f"{one.name} as planned"
     if one.kind == "position":
-        return f"{one.name} kept at {lines}" if one.lines else f"{one.name} as planned"
+        return f"{one.name} defined at {lines}" if one.lines else f"{one.name} as planned"
     level = " level" if one.level else ""
     return f"{one.name}{level} saved at {lines}" if one.lines else f"{one.name}{level}, never saved before"
 

@@ -1,4 +1,4 @@
-"""Where the steps of a flow graph are drawn, and how the ways run between them. Pixels, y downwards.
+"""Layout of a flow graph: places of the steps, and routes of the edges. Pixels, y downwards.
 
 Stages stand side by side on shelves, their steps from top to bottom; a long one has several columns, broken where no
 loop is.

@@ -1,4 +1,4 @@
-"""Where a change in a script, or in the positions taught for it, has put things."""
+"""Changes of positions and parts between two plans."""
 
 from typing import Final, Literal
 

@@ -1,4 +1,4 @@
-"""What the referee finds about one point, as facts."""
+"""Findings of the referee, as facts."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

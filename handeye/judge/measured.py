@@ -32,7 +32,7 @@ class Measured:
         return inverse(self.pose(other)) @ self.pose(body)
 
     def place(self, body: str, places: tuple[str, ...]) -> tuple[float, float]:
-        """How far a body is from the nearest of the first places of `places`; distance (m) and tilt (rad)."""
+        """Distance (m) of a body from the nearest of the first places of `places`, and its tilt (rad)."""
         X = self.pose(body)
         firsts = [self._start.xpos[self.model.body(name).id] for name in places]
         return min(float(np.linalg.norm(X[:3, 3] - p)) for p in firsts), tilt(X)

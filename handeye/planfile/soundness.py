@@ -110,7 +110,7 @@ def _use(program: Program, use: Use) -> Iterator[str]:
         case "part" if use.name not in program.parts:
             yield f"uses part {use.name}, which the plan does not have"
         case "target" if use.name not in program.parts | program.positions:
-            yield f"aims at {use.name}, which is no part or position of the plan"
+            yield f"aims at {use.name}, which is neither a part nor a position of the plan"
         case "picture" if not _NAME.fullmatch(use.name):
             yield f"calls a picture {use.name!r}; a name has letters, digits and underscores"
 
@@ -122,14 +122,14 @@ def _numbers(operation: AnyOperation | AnyGuard) -> Iterator[str]:
         size = math.hypot(*value) if isinstance(value, tuple) else value
         if size is not None and not low <= size <= high:
             has = f"a {field} of size" if isinstance(value, tuple) else field
-            yield f"has {has} {size:g}; it has to be from {low:g} to {high:g}"
+            yield f"has {has} {size:g}; it must be from {low:g} to {high:g}"
 
 
 def _choices(operation: AnyOperation) -> Iterator[str]:
     for field, choices in operation.choices.items():
         value = getattr(operation, field)
         if not any(math.isclose(value, choice) for choice in choices):
-            yield f"has {field} {value:g}; it has to be {' or '.join(f'{choice:g}' for choice in choices)}"
+            yield f"has {field} {value:g}; it must be {' or '.join(f'{choice:g}' for choice in choices)}"
 
 
 def _motion(plan: Plan, number: int, step: Step) -> Iterator[str]:

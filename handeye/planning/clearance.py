@@ -17,13 +17,13 @@ from handeye.program.program import Program
 from handeye.units import INCH
 
 MARGIN: Final = 0.1 * INCH
-"""How deep boxes may overlap unremarked. The free motions of the pump swing by as much beside the straight way down:
+"""Overlap of boxes that is not reported. The free motions of the pump swing by as much beside the straight way down:
 where the screwdriver comes back, its socket is planned .06 in into a rail of the rack."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Crossing:
-    """Where a motion leads something into something."""
+    """A collision on a motion."""
 
     what: str | None
     """The fixture; None: the table."""

@@ -1,4 +1,4 @@
-"""How each kind of motion is made. One implementation, two callers: the planner at planned values, and the
+"""Motions of each kind. One implementation, two callers: the planner at planned values, and the
 executor when the world is not where the plan thought."""
 
 from collections.abc import Sequence
@@ -56,7 +56,7 @@ def move_trajectory(
 
 
 def _clearance(X_from: Pose, X_to: Pose) -> float:
-    """How high to rise between two places."""
+    """Height to rise between two places."""
     away = float(np.hypot(*(X_to[:2, 3] - X_from[:2, 3])))
     return float(np.clip(away, LEAST_CLEARANCE, CLEARANCE))
 

@@ -1,4 +1,4 @@
-"""Why an arm cannot, in words: the one place that makes a sentence of a reason."""
+"""Sentences for reasons: the one place that makes them."""
 
 from collections.abc import Sequence
 from typing import Protocol, assert_never

@@ -100,7 +100,7 @@ def _taught(tables: _File) -> Taught:
 
 def _spoilt(error: tomllib.TOMLDecodeError) -> str:
     """The words of a TOML reader, as the rest of a sentence."""
-    said = str(error).replace("Cannot overwrite a value", "a name stands twice")
+    said = str(error).replace("Cannot overwrite a value", "a name is used twice")
     return said[:1].lower() + said[1:]
 
 
@@ -131,6 +131,4 @@ def _faults(taught: Taught) -> Iterator[UnfitEntry]:
         for name, solid in solids.items():
             count += len(solid.boxes)
             if count > MOST_BOXES:
-                yield UnfitEntry(
-                    f"{key}.{name}", f"more than {MOST_BOXES} boxes; no more can be looked after"
-                )
+                yield UnfitEntry(f"{key}.{name}", f"more than {MOST_BOXES} boxes, the limit")

@@ -1,4 +1,4 @@
-"""How positions, parts, fixtures and what is held are written as TOML tables: inches, degrees, corners of boxes."""
+"""TOML tables of positions, parts, fixtures and held things: inches, degrees, corners of boxes."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -91,7 +91,7 @@ def read_tables(
     """
     for name, table in tables.items():
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
-            said = "a name consists of letters, digits and _, and starts with no digit"
+            said = "a name consists of letters, digits and _, and does not start with a digit"
             raise UnfitEntry(f"{kind}.{name}", said)
         yield name, _read(f"{kind}.{name}", table, type)
 
@@ -112,7 +112,7 @@ def _read(key: str, table: dict[str, object], kind: type[Entry]) -> Entry:
         for box in entry.boxes:
             if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
                 corners = " to ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in (box[:3], box[3:]))
-                raise UnfitEntry(key, f"the box from {corners} has no inside")
+                raise UnfitEntry(key, f"the box from {corners} is empty")
     return entry
 
 
@@ -147,12 +147,12 @@ def unfit(error: msgspec.ValidationError) -> str:
     where = where.rstrip("`").lstrip(".")
     about = f"{where}: " if where else ""
     if size := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", said):
-        return f"{about}{size[2]} entries, and {size[1]} are wanted"
+        return f"{about}{size[2]} entries, and needs {size[1]}"
     if kinds := re.fullmatch(r"Expected `(\w+)(?: \| null)?`, got `(\w+)`", said):
         wanted, got = (_KINDS.get(kind, kind) for kind in kinds.groups())
-        return f"{about}{got} stands where {wanted} is wanted"
+        return f"{about}{got} instead of {wanted}"
     if key := re.fullmatch(r"Object missing required field `(.*)`", said, re.DOTALL):
         return f"{about}{quoted(key[1])} is missing"
     if key := re.fullmatch(r"Object contains unknown field `(.*)`", said, re.DOTALL):
-        return f"{about}{quoted(key[1])} is no key of it"
+        return f"{about}{quoted(key[1])} is not a key of it"
     return f"{about}{said[:1].lower()}{said[1:]}"

@@ -40,7 +40,7 @@ def with_position(text: str, name: str, position: Position) -> str:
         after = None
     if after != wanted:
         raise InvalidInput(
-            f"{name} cannot be put into the file without changing more; put in: {_line(name, position)}"
+            f"{name} cannot be added without changing more of the file; add it yourself: {_line(name, position)}"
         )
     return edited
 

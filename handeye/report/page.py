@@ -24,7 +24,7 @@ def page(result: Result) -> RenderableType:
         parts += [Text(), timing(result), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
-    parts += [Text(f"by hand: {sentence}", "yellow") for sentence in result.interventions]
+    parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
     return Group(*parts, Text(), verdict(result))
 
 
@@ -71,7 +71,7 @@ def period(result: Result) -> Period | None:
 
 
 def camera(result: Result) -> Text:
-    """How the pictures were made, and how well the camera was calibrated."""
+    """Line on the camera: how pictures were made, and how well it was calibrated."""
     seen = result.camera
     if seen.residual_in is None:
         return Text(f"camera: {seen.renderer}; not used", "dim")
@@ -118,4 +118,6 @@ def verdict(result: Result) -> Text:
     if result.assembled:
         return Text(words.done, "bold green")
     wrong = [check.sentence for check in result.referee.values() if not check.ok]
-    return Text(f"The program said done, but {words.product} is not right: {'; '.join(wrong)}", "bold red")
+    return Text(
+        f"The program reported success, but {words.product} is not right: {'; '.join(wrong)}", "bold red"
+    )

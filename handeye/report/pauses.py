@@ -13,7 +13,7 @@ def pause_sentence(pause: Pause) -> str:
     if pause.met is not None:
         return _met(pause.met)
     if pause.kind == "panic":
-        return f"stopped by hand{' on the way back' if pause.back else ''}; the brakes are set"
+        return f"stopped by the panic button{' on the way back' if pause.back else ''}; the brakes are set"
     return "the program came to its end" if pause.kind == "end" else pause.message
 
 
@@ -45,10 +45,10 @@ def _met(stop: AnyStop) -> str:
         case stops.AfterStage():
             return f"{stop_name(stop)}, has ended"
         case stops.OnError():
-            return f"break on {stop_name(stop)}: {ERRORS[stop.number]}"
+            return f"breakpoint on {stop_name(stop)}: {ERRORS[stop.number]}"
         case stops.AfterSteps():
             return f"{stop_name(stop)} done"
         case stops.ByHand():
-            return "left by hand"
+            return "left by the user"
         case _:
-            return f"break at {stop_name(stop)}"
+            return f"breakpoint at {stop_name(stop)}"

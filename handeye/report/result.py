@@ -16,7 +16,7 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Where the time went: simulated seconds, but for these.
+    """Times of a run: simulated seconds, but for these.
 
     `planning_wall_s` (0: the plan was there already) and `vision_wall_s` are processor time of this computer.
     `wall_s` is its clock from building the cell to the referee's word; the real-time factor is all simulated time,
@@ -46,7 +46,7 @@ class Check(Record, frozen=True, kw_only=True):
 
 
 class CameraReport(Record, frozen=True, kw_only=True):
-    """How the pictures were made and how well the camera was calibrated."""
+    """Report on the camera: renderer and calibration."""
 
     renderer: str
     sightings_rms_px: dict[str, float]

@@ -11,7 +11,7 @@ from handeye.runs.stops import AfterSteps, AnyStop
 
 
 class Pause(Record, frozen=True, kw_only=True):
-    """Why a run pauses, as facts."""
+    """Reason of a pause, as facts."""
 
     kind: Literal["end", "operator", "trouble", "break", "panic"]
     """The program ended, called the operator, cannot go on; a stop condition was met; the panic button."""

@@ -155,10 +155,10 @@ def decode(data: bytes, name: str) -> Checkpoint:
     listing = kind.listing(plan)
     begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
-        raise InvalidInput(f"{name} is not a sound checkpoint: it tells of stages that its plan has not")
+        raise InvalidInput(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
     told = (head.program, head.plan, head.position, head.touched)
     if told != (listing.name, digest_of(setup), checkpoint.position, checkpoint.touched):
-        raise InvalidInput(f"{name} is not a sound checkpoint: its head does not tell of what is in it")
+        raise InvalidInput(f"{name} is not a sound checkpoint: its head does not match its content")
     return checkpoint
 
 
@@ -238,8 +238,8 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
         raise InvalidInput(f"{name} is not a checkpoint of handeye")
     if int(words[1]) < VERSION:
         raise InvalidInput(
-            f"{name} was kept by an older handeye, in checkpoint format version {words[1]}; this one reads version "
-            f"{VERSION}: begin the run anew, or go on with it there"
+            f"{name} was saved by an older handeye, in checkpoint format version {words[1]}; this one reads version "
+            f"{VERSION}: start the run again, or resume it there"
         )
     if int(words[1]) > VERSION:
         raise InvalidInput(

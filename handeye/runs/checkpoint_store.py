@@ -83,10 +83,10 @@ class CheckpointStore:
         """
         self.check(setup)
         for fault in self.damaged():
-            raise InvalidInput(f"{self.folder} holds what cannot be read ({fault}); choose another folder")
+            raise InvalidInput(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
         if any(head.touched for path, head in self.heads() if _position(path) >= 0):
             raise InvalidInput(
-                f"{self.folder} is of a run that somebody took a hand in, which would be lost; choose another folder"
+                f"{self.folder} is of a run with interventions by people, which would be lost; choose another folder"
             )
 
     def newest(self) -> Checkpoint | None:

@@ -128,7 +128,7 @@ class RunFolder(Observer):
         """
         if self._recorder is not None and self._recorder.broken:
             raise InvalidInput(
-                f"the trace in {self.path} was broken off; make room, and `handeye resume {self.path}` goes on "
+                f"the trace in {self.path} was cut off; make room, then `handeye resume {self.path}` continues "
                 "from the last checkpoint"
             )
 
@@ -187,7 +187,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
         if any(CheckpointStore(path).heads()):
-            raise InvalidInput(f"{path} is a folder of checkpoints, and not that of a run; name one of them")
+            raise InvalidInput(f"{path} is a folder of checkpoints, not of a run; name one of them")
         raise InvalidInput(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
     checkpoint = folder.kept.newest()
     if checkpoint is None:
@@ -219,8 +219,8 @@ def _refuse_run(path: Path) -> None:
     """Raises InvalidInput if a folder holds a run."""
     if _holds_run(path):
         raise InvalidInput(
-            f"{path} holds a run: `handeye resume {path}` goes on with it, --overwrite replaces it, "
-            "and another folder leaves it alone"
+            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it, "
+            "and another folder keeps it"
         )
 
 

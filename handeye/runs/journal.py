@@ -76,7 +76,7 @@ class Journal:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 self._file.close()
-                raise InvalidInput(f"another run is writing to {self._path} at this moment") from None
+                raise InvalidInput(f"another run is writing to {self._path} now") from None
 
     def _unwritable(self, error: OSError) -> InvalidInput:
         return InvalidInput(f"{self._path} cannot be written: {error.strerror}")

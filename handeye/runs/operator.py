@@ -77,9 +77,7 @@ def parse_policy(text: str) -> Operator | None:
         return None
     times = re.fullmatch(r"retry:([1-9][0-9]{0,5})", text)
     if times is None:
-        raise InvalidInput(
-            f"what to do on a stop is abort, ask, or retry:N with N from 1 up; {quoted(text)} is none of these"
-        )
+        raise InvalidInput(f"--on-stop takes abort, ask, or retry:N with N from 1 up, not {quoted(text)}")
     return Retry(int(times[1]))
 
 
@@ -132,7 +130,7 @@ def _carry_out(
 
 
 def beginnings(runner: Runner) -> dict[int, int]:
-    """Where each stage last began: steps done then, by index of the stage, the last to begin last."""
+    """Beginnings of stages: steps done when each last began, by index of the stage, the last to begin last."""
     found: dict[int, int] = {}
     done = 0
     for event in runner.events:

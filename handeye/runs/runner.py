@@ -40,7 +40,7 @@ RECENT: Final = 400
 
 
 def reach(first: int) -> str:
-    """How far one can go back where the earliest state has `first` steps done, as a sentence."""
+    """Sentence on how far a run can go back whose earliest state has `first` steps done."""
     return f"this run begins with {first} step{'' if first == 1 else 's'} done: there is nothing before that"
 
 
@@ -250,7 +250,7 @@ class Runner:
             InvalidInput: no such position, or no state at it or before it is left.
         """
         if not 0 <= position <= self.position:
-            raise InvalidInput(f"{position} steps done is nowhere to go back to")
+            raise InvalidInput(f"cannot go back to {position} steps done")
         near = self._nearest(position, kept)
         again = self.events[: self._happened(position)]
         while self.history and self.history[-1].position > near.position:
@@ -273,7 +273,7 @@ class Runner:
         return near
 
     def _happened(self, position: int) -> int:
-        """How many events had happened when the step behind a position was about to begin."""
+        """Count of events before the step after a position."""
         done = 0
         for number, event in enumerate(self.events):
             if done == position and isinstance(event, StageStarted | StepStarted):

@@ -31,7 +31,7 @@ def setup_of(trace: Trace) -> Setup:
 
 
 def settled(events: Sequence[AnyEvent]) -> int:
-    """How many of a run's events do not depend on when somebody hit the panic button."""
+    """Count of a run's events that do not depend on when somebody hit the panic button."""
     if not events or not isinstance(events[-1], PanicStopped):
         return len(events)
     steps = [n for n, event in enumerate(events) if isinstance(event, StepStarted)]

@@ -47,7 +47,7 @@ class Period:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Count:
-    """What came of trying one thing in many worlds."""
+    """Counts of one trial in many worlds."""
 
     lines: tuple[str, ...]
     """For people."""
@@ -62,7 +62,7 @@ which the program knows so much (`true`, `drawn`, `calibrated`)."""
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Words:
-    """How people are told of what a task makes."""
+    """Words for what a task makes."""
 
     product: str
     """With its article: `the pump`."""
@@ -85,7 +85,7 @@ class Task(ABC):
     """Cameras of the scene whose view of the end is kept for people."""
     period: Period | None = None
     trials: Mapping[str, Trial] = MappingProxyType({})
-    """What can be tried in many worlds without carrying out a program."""
+    """Trials in many worlds without carrying out a program."""
 
     def fixtures(self) -> Mapping[str, Fixture]:
         """What the planner keeps motions clear of where the program has not been taught otherwise."""
@@ -113,7 +113,7 @@ class Task(ABC):
 
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
-        """What the referee finds of the finished work, point by point. The cell is not touched."""
+        """Findings of the referee on the finished work. The cell is not touched."""
 
     def check_arm(self, plan: Plan) -> None:
         """See that a plan was made for the arm of this task.

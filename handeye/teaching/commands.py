@@ -98,7 +98,7 @@ def _write(repl: Repl, rest: str) -> Answer:
         raise InvalidInput("`WRITE` takes the name of a file")
     path = beside(Path(rest), ".al")
     if path.exists():
-        raise InvalidInput(f"{path} is there already; it is left alone")
+        raise InvalidInput(f"{path} already exists; nothing was written")
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())
     return answer(repl.workplace, LineResult(file=str(path), said=f"written to {path}"))
 
@@ -129,9 +129,9 @@ def _help(repl: Repl, rest: str) -> Answer:
             raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
         return answer(repl.workplace, LineResult(said=f"{definition.usage}: {definition.help}"))
     lines = (
-        "A line is a function of the arm language, and is collected, or one of",
+        "A line is a function of the arm language, which is collected, or one of",
         *rows(_TABLE),
-        "What is collected stays until CLEAR. `HELP MOVE` says what an instruction does.",
+        "What is collected stays until CLEAR. `HELP MOVE` explains an instruction.",
     )
     return answer(repl.workplace, LineResult(lines=lines))
 
@@ -140,16 +140,16 @@ _TABLE: Final[tuple[Command[Callable[[Repl, str], Answer]], ...]] = (
     Command(usage="DO", act=_do, help="carry out what is collected"),
     Command(usage="DO FUNCTION", act=_do, help="plan one function and carry it out now: DO OPEN 3"),
     Command(usage="DO NAME", act=_do, help="carry out a macro, or the program in the file NAME.al"),
-    Command(usage="LIST", act=_list, help="tell what is collected"),
+    Command(usage="LIST", act=_list, help="list what is collected"),
     Command(usage="DROP", act=_drop, help="drop the last line collected"),
     Command(usage="CLEAR", act=_clear, help="drop all of them"),
     Command(usage="WRITE FILE", act=_write, help="write them to a new file, as a script"),
-    Command(usage="SHOW [WHAT]", act=_show, help="see joints, hand, gap, saved differences, positions, ..."),
-    Command(usage="BACK", act=_back, help="undo the last DO: arm, parts and memory are as they were"),
-    Command(usage="PROCEED", act=_answer("proceed"), help="go on behind what called the operator"),
-    Command(usage="RETRY", act=_answer("retry"), help="go on with the first function of the stage"),
-    Command(usage="SKIP", act=_answer("skip"), help="leave out the rest of the stage"),
-    Command(usage="HELP [INSTRUCTION]", act=_help, help="say this, or what an instruction does"),
+    Command(usage="SHOW [WHAT]", act=_show, help="show joints, hand, gap, saved differences, positions, ..."),
+    Command(usage="BACK", act=_back, help="undo the last DO: restores arm, parts and memory"),
+    Command(usage="PROCEED", act=_answer("proceed"), help="continue after what called the operator"),
+    Command(usage="RETRY", act=_answer("retry"), help="repeat from the first function of the stage"),
+    Command(usage="SKIP", act=_answer("skip"), help="skip the rest of the stage"),
+    Command(usage="HELP [INSTRUCTION]", act=_help, help="show this, or what an instruction does"),
     Command(usage="QUIT", act=_quit, help="leave"),
     Command(usage="EXIT", act=_quit, help="leave, too"),
 )

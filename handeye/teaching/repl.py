@@ -18,7 +18,7 @@ from handeye.teaching.workplace import Workplace
 
 MOST: Final = 500
 """Lines that are collected at most: all of them are checked again with each that is added."""
-_ANSWERS: Final = "PROCEED, RETRY or SKIP goes on from there; a function leaves it"
+_ANSWERS: Final = "PROCEED, RETRY or SKIP continues from there; a new function abandons it"
 
 
 @dataclass(slots=True, kw_only=True)
@@ -43,7 +43,7 @@ class Repl:
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
         if len(self.functions) >= MOST:
-            raise InvalidInput(f"no more than {MOST} lines are collected; write a script for more")
+            raise InvalidInput(f"at most {MOST} lines; write a script for more")
         lines = [*self.functions, line]
         checked = self.workplace.plan(self.typed("\n".join(lines)))
         found = mistakes(checked, len(lines))
@@ -70,7 +70,7 @@ class Repl:
         return self._advised(Answer(time=self.workplace.runner.run.time, said=said))
 
     def _advised(self, given: Answer) -> Answer:
-        advices = {"operator": self.called, "panic": "the step that was broken off is undone"}
+        advices = {"operator": self.called, "panic": "the interrupted step is undone"}
         advice = advices.get(given.stopped or "")
         return (
             given if advice is None else replace(given, said=msgspec.structs.replace(given.said, said=advice))

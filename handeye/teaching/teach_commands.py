@@ -55,9 +55,7 @@ class TeachSession:
         lesson = TEACH_COMMANDS.get(word)
         if lesson is None:
             known = suggestion(word, [*TEACH_COMMANDS, "quit"])
-            raise InvalidInput(
-                f"there is no command {quoted(word)}; " + (known or "`help` tells which there are")
-            )
+            raise InvalidInput(f"there is no command {quoted(word)}; " + (known or "`help` lists them"))
         return lesson.act(self.teacher, rest)
 
     def _quit(self) -> Answer:
@@ -113,9 +111,9 @@ def _float(teacher: Teacher, words: list[str]) -> Answer:
 def _push(teacher: Teacher, words: list[str]) -> Answer:
     axis, force, seconds = _exactly(words, 3, "push x 5 2")
     if not 0 < _number(seconds) <= LONGEST:
-        raise InvalidInput(f"somebody pushes for up to {LONGEST:g} s; {quoted(seconds)} cannot be")
+        raise InvalidInput(f"a push takes up to {LONGEST:g} s, not {quoted(seconds)}")
     if abs(_number(force)) > 200:
-        raise InvalidInput(f"somebody pushes with up to 200 oz; {quoted(force)} cannot be")
+        raise InvalidInput(f"a push has up to 200 oz, not {quoted(force)}")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
     return answer(
@@ -130,10 +128,10 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
     again = bool(words) and words[-1].lower() == "again"
     words = words[:-1] if again else words
     if len(words) not in (1, 3) or (len(words) == 3 and words[1].lower() != "of"):
-        raise InvalidInput("a place is named `here NAME`, `here NAME of PART`, `here NAME again`")
+        raise InvalidInput("name a position with `here NAME`, `here NAME of PART`, `here NAME again`")
     name, part = words[0], words[2] if len(words) == 3 else None
     if not NAME.fullmatch(name):
-        raise InvalidInput(f"{quoted(name)} is no name: letters, digits and _, no digit first")
+        raise InvalidInput(f"{quoted(name)} is not a name: letters, digits and _, no digit first")
     if again and part is None and name in teacher.workplace.taught.positions:
         part = teacher.workplace.taught.positions[name].of
     return answer(
@@ -189,25 +187,25 @@ def _help(teacher: Teacher, _: list[str]) -> Answer:
 
 def _exactly(words: list[str], count: int, example: str) -> list[str]:
     if len(words) != count:
-        raise InvalidInput(f"this is said like `{example}`")
+        raise InvalidInput(f"write it like `{example}`")
     return words
 
 
 def _number(word: str) -> float:
     if not re.fullmatch(r"[+-]?(\d{1,4}\.?\d{0,6}|\.\d{1,6})", word, re.ASCII):
-        raise InvalidInput(f"{quoted(word)} is no number")
+        raise InvalidInput(f"{quoted(word)} is not a number")
     return float(word)
 
 
 def _along(axis: str, size: float) -> Vector3:
     if axis.lower() not in AXES:
-        raise InvalidInput(f"{quoted(axis)} is no axis; there are x, y and z")
+        raise InvalidInput(f"{quoted(axis)} is not an axis; there are x, y and z")
     x, y, z = (size if axis.lower() == name else 0.0 for name in AXES)
     return x, y, z
 
 
 TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
-    Command(usage="j3 +1", act=_joint, help="move a joint by so much; without a sign, to there"),
+    Command(usage="j3 +1", act=_joint, help="move a joint by this much; without a sign, to this value"),
     Command(
         usage="table x +.5",
         act=_table,
@@ -221,15 +219,15 @@ TABLE: Final[tuple[Command[Callable[[Teacher, list[str]], Answer]], ...]] = (
     Command(usage="move NAME", act=_function("MOVE"), help="go to a position"),
     Command(usage="open GAP", act=_function("OPEN"), help="open the hand"),
     Command(usage="close [MIN]", act=_function("CLOSE"), help="close it"),
-    Command(usage="center [MIN]", act=_function("CENTER"), help="close it, the arm giving way to the thing"),
-    Command(usage="float", act=_float, help="take the brakes off; the arm goes where it is pushed"),
-    Command(usage="push x 5 2", act=_push, help="be the one who pushes it: along x with 5 oz for 2 s"),
-    Command(usage="here NAME [of PART]", act=_here, help="name where the hand is; `here NAME again` anew"),
-    Command(usage="where", act=_look, help="tell where the arm is"),
-    Command(usage="list", act=_list, help="tell what is taught"),
+    Command(usage="center [MIN]", act=_function("CENTER"), help="close it without pushing the thing"),
+    Command(usage="float", act=_float, help="release the brakes; the arm goes where it is pushed"),
+    Command(usage="push x 5 2", act=_push, help="push it: along x with 5 oz for 2 s"),
+    Command(usage="here NAME [of PART]", act=_here, help="name this position; `here NAME again` replaces it"),
+    Command(usage="where", act=_look, help="show where the arm is"),
+    Command(usage="list", act=_list, help="list what is taught"),
     Command(usage="undo", act=_undo, help="undo the last motion, or the last name"),
     Command(usage="save", act=_save, help="write what was named to the file; nothing else in it changes"),
-    Command(usage="help", act=_help, help="say this"),
+    Command(usage="help", act=_help, help="show this"),
 )
 TEACH_COMMANDS: Final = {lesson.name: lesson for lesson in TABLE[1:]}
 """By their words; joints are read by themselves."""

@@ -121,7 +121,7 @@ class Teacher:
             InvalidInput: the arm does not float.
         """
         if not self.afloat:
-            raise InvalidInput("the arm is held and cannot be pushed; `float` takes its brakes off")
+            raise InvalidInput("the arm is held and cannot be pushed; `float` releases its brakes")
         self._let(lambda: self._pushed(force, seconds))
 
     def _pushed(self, force: Vector3, seconds: float) -> None:
@@ -140,7 +140,7 @@ class Teacher:
             outcome = act()
         except Halted:
             self._brake()
-            raise InvalidInput("stopped by hand; the brakes are set") from None
+            raise InvalidInput("stopped by the panic button; the brakes are set") from None
         if outcome is not None and outcome.error is not None:
             self._brake()
             raise InvalidInput(f"{ERRORS[outcome.error]} ({outcome.detail}); the brakes are set")
@@ -162,7 +162,7 @@ class Teacher:
             known = ", ".join(taught.parts) or "none"
             raise InvalidInput(f"there is no part {quoted(part)}; there are {known}")
         if name in taught.positions and not again:
-            raise InvalidInput(f"{name} is taught already; `here {name} again` teaches it anew")
+            raise InvalidInput(f"{name} is already taught; `here {name} again` replaces it")
         run = self.workplace.runner.run
         position = run.world.seen_from(part, run.drive.hand())
         text = with_position(self.text, name, position)
@@ -182,7 +182,7 @@ class Teacher:
             now = read_source(self.file).text if self.file.exists() else ""
             if now != self.saved:
                 raise InvalidInput(
-                    f"{self.file} has been changed meanwhile, and is left alone; `list` tells what to put into it"
+                    f"{self.file} has changed meanwhile, and nothing was written; `list` shows what to add"
                 )
             write_whole(self.file, self.text.encode())
             self.saved = self.text

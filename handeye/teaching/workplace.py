@@ -157,7 +157,7 @@ class Workplace:
             InvalidInput: nobody has called.
         """
         if self.runner.call is None:
-            raise InvalidInput(f"`{choice}` is for when the operator is called, and nobody has called")
+            raise InvalidInput(f"`{choice}` answers a call of the operator, and there is none")
         self.runner.answer(choice)
         return self._go()
 
@@ -178,7 +178,7 @@ class Workplace:
             InvalidInput: none has been.
         """
         if not self.before:
-            raise InvalidInput("nothing has been done that could be undone")
+            raise InvalidInput("there is nothing to undo")
         self.runner = Runner(self.before.pop(), halt=self.halt)
 
 

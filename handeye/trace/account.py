@@ -25,7 +25,7 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
     for event in events:
         teller.tell(event)
     if events and not isinstance(events[-1], happened.RunFinished):
-        teller.lines += ["", f"{events[-1].time:9.2f}  here the run stands still; it has not come to its end"]
+        teller.lines += ["", f"{events[-1].time:9.2f}  the run pauses here, before its end"]
     return teller.lines
 
 
@@ -62,7 +62,7 @@ class _Teller:
                         f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
                     )
             case happened.StepStarted():
-                self._lead_on(f"on at line {event.place}")
+                self._lead_on(f"continue at line {event.place}")
                 self._shift = None
                 self.lines.append(f"{event.time:9.2f} {event.place:>5}  {event.text}")
             case happened.StepFinished():
@@ -96,7 +96,7 @@ class _Teller:
         self._tested = None
 
     def _took(self, time: float) -> str:
-        """How long the stage took."""
+        """Duration of the stage, in words."""
         camera = f", {self._camera:.1f} s of it for the camera" if self._camera else ""
         return f"in {round(time - self._begun, 3):.1f} s{camera}"
 
@@ -109,7 +109,7 @@ class _Teller:
         astray = min((off - shift, off - self._off), key=lambda v: float(np.linalg.norm(v)))
         self._off = off
         if np.linalg.norm(astray) > ASTRAY:
-            away = f"{np.linalg.norm(astray) / INCH:.2f} in from where it was to end"
+            away = f"{np.linalg.norm(astray) / INCH:.2f} in from its planned end"
             self._beneath(f"the hand is at {inches(event.hand)}, {away}")
 
 

@@ -1,4 +1,4 @@
-"""Where two traces part."""
+"""Comparison of two traces: the first difference."""
 
 from collections.abc import Iterator
 from itertools import zip_longest
@@ -21,7 +21,7 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
         unseen: compare of so many events, from the first on, nothing that was recorded beside them.
     """
     if a.plan != b.plan:
-        return "they are traces of two plans"
+        return "the traces are of different plans"
     count = 0
     for here, there in zip_longest(_compared(a, events, unseen), _compared(b, events, unseen)):
         if here != there:
@@ -61,5 +61,5 @@ def _events(one: AnyEvent, other: AnyEvent) -> str:
     values = ((name, getattr(one, name), getattr(other, name)) for name in one.__struct_fields__)
     name, first, second = next((found for found in values if found[1] != found[2]), ("", None, None))
     if not name:
-        return f"{kinds[0]} at {one.time:.3f} s is told in other words"
+        return f"{kinds[0]} at {one.time:.3f} s has another wording"
     return f"{name} of {kinds[0]} at {one.time:.3f} s is {first} in one, {second} in the other"

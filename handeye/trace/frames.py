@@ -1,4 +1,4 @@
-"""Where everything in the simulated cell really is, for the trace: an observer that can change nothing."""
+"""Frames of everything in the simulated cell, for the trace: an observer that can change nothing."""
 
 import numpy as np
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate

@@ -20,7 +20,7 @@ from handeye.trace.writing import Writing
 
 
 def part(path: Path) -> Path:
-    """Where a trace grows that will be at `path` when it is whole."""
+    """Path of a growing trace that will be at `path` when it is whole."""
     return path.with_name(f"{path.name}.part")
 
 

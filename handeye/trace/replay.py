@@ -1,4 +1,4 @@
-"""Where everything was at any time of a recorded run, without simulating it again: for views and reports."""
+"""Replay of a recorded run at any time, without simulating it again: for views and reports."""
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
@@ -78,7 +78,7 @@ class Replay:
         self._pictures = list(self.trace.pictures())
 
     def seek(self, time: float) -> State:
-        """How it was at a time (s); before the first servo period as at the first, after the last as at the last."""
+        """State at a time (s); before the first servo period as at the first, after the last as at the last."""
         row = max(bisect_right(self.times, time) - 1, 0)
         here = self._poses[row]
         told = bisect_right(self._told, time, key=lambda telling: telling.time) - 1

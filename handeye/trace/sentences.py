@@ -41,9 +41,9 @@ _CAMERA: Final = {
     "digitise": "digitised the picture",
 }
 _CHOICES: Final = {
-    "proceed": "to go on",
-    "retry": "to try the stage again",
-    "skip": "to leave out the rest of the stage",
+    "proceed": "to proceed",
+    "retry": "to retry the stage",
+    "skip": "to skip the rest of the stage",
 }
 
 
@@ -82,7 +82,7 @@ def sentence(event: Event) -> str:
         case happened.StepFinished():
             return _ended(event)
         case happened.Adjusted():
-            return f"{event.goal} is {inches(event.shift, 3)} from where it was planned"
+            return f"{event.goal} is {inches(event.shift, 3)} from its planned place"
         case happened.GuardTripped():
             return _tripped(event)
         case happened.ErrorRaised():
@@ -90,7 +90,7 @@ def sentence(event: Event) -> str:
         case happened.ErrorTested():
             return f"error {event.number} {'occurred' if event.occurred else 'did not occur'}"
         case happened.SearchAdvanced():
-            return f"the search goes on to its place {event.count + 1}, {inches(event.offset)} from the first"
+            return f"the search goes to place {event.count + 1}, {inches(event.offset)} from the first"
         case happened.Saved():
             return f"{event.name} is {inches(event.difference, 3)}"
         case happened.HandTold():
@@ -118,7 +118,7 @@ def sentence(event: Event) -> str:
         case happened.PanicStopped():
             return "panic button: drives off, brakes set"
         case happened.WentBack():
-            return f"back to event {event.events}: what came after it is undone"
+            return f"back to event {event.events}: the events after it are undone"
         case happened.RunFinished():
             return (
                 "the program came to its end" if event.completed else "the run ended before the program did"

@@ -11,8 +11,8 @@ from rich.text import Text
 from handeye import events as happened
 from handeye.events import AnyEvent, Event
 
-BROKEN_OFF = "broken off"
-"""How a stage ended whose end was not recorded."""
+BROKEN_OFF = "interrupted"
+"""Status of a stage whose end was not recorded."""
 
 
 class Figures(msgspec.Struct, kw_only=True):

@@ -92,7 +92,7 @@ class Trace:
         if self.version < VERSION:
             raise InvalidInput(
                 f"{self.name} was recorded by an older handeye, whose cell this one cannot build again: `trace show` "
-                "and `trace stats` tell of it; for the rest, carry the plan out again"
+                "and `trace stats` read it; for the rest, run the plan again"
             )
 
     def messages(self) -> Iterator[RawMessage]:

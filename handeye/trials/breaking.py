@@ -35,11 +35,11 @@ class TrialFailed(HandeyeError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verdict:
-    """What came of one trial."""
+    """Verdict on one trial."""
 
     name: str
     faults: tuple[str, ...]
-    """What was not as it should be; none if all was well."""
+    """Faults; none if all was well."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,7 +71,7 @@ def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
     done = handeye("assemble", *world, "--out", str(folder))
     if done.returncode != 0:
         raise TrialFailed(
-            f"seed {seed} is not assembled even when nobody breaks it off (exit {done.returncode})"
+            f"seed {seed} is not assembled even without an interruption (exit {done.returncode})"
         )
     events = tuple(effective(read_events(folder / EVENTS)))
     stages = tuple(event.stage for event in events if isinstance(event, StageStarted))
@@ -185,7 +185,7 @@ def _wait_for(journal: Path, lines: int, process: "subprocess.Popen[bytes]") -> 
             process.kill()
             break
         time.sleep(POLL)
-    raise TrialFailed(f"the run ended before it could be broken off (exit {process.wait()})")
+    raise TrialFailed(f"the run ended before it could be interrupted (exit {process.wait()})")
 
 
 def _middle(whole: UnbrokenRun, stage: str) -> int:
@@ -212,7 +212,7 @@ def _gone_on_with(whole: UnbrokenRun, place: Path) -> list[str]:
 
 
 def _brakes(place: Path) -> list[str]:
-    """What is wrong with the way an interrupted run stopped, by its trace."""
+    """Faults in how an interrupted run stopped, by its trace."""
     trace = read_trace(place / TRACE)
     last = trace.events[-1]
     if not isinstance(last, PanicStopped):
@@ -238,7 +238,7 @@ def _snapshot(path: Path) -> Snapshot | None:
 
 
 def _same(one: Snapshot, other: Snapshot) -> bool:
-    """Whether cell and working phase are in equal states, to the byte."""
+    """True if cell and working phase are in equal states, to the byte."""
 
     def plain(snapshot: Snapshot) -> bytes:
         return msgspec.msgpack.encode(

@@ -28,16 +28,16 @@ def stepped(whole: UnbrokenRun, folder: Path) -> Iterator[Verdict]:
     back = sum(isinstance(event, WentBack) for event in events)
     faults = [] if done.returncode == 0 else [f"exit code {done.returncode}"]
     if back != DETOURS:
-        faults.append(f"{back} ways back instead of {DETOURS}")
+        faults.append(f"went back {back} times instead of {DETOURS}")
     if tuple(effective(events)) != whole.events:
         faults.append("other events")
     if (place / TRACE).read_bytes() != whole.trace:
         faults.append("another trace")
-    yield Verdict(name=f"with {back} ways back", faults=tuple(faults))
+    yield Verdict(name=f"going back {back} times", faults=tuple(faults))
 
 
 def commands(seed: int) -> list[str]:
-    """What is said to the stepper: some way on, some way back, ten times, and on to the end."""
+    """Commands to the stepper: forward and back ten times, then on to the end."""
     choice = random.Random(seed)  # noqa: S311 - a way through a run, not a secret
     lines = []
     for _ in range(DETOURS):

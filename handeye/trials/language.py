@@ -1,4 +1,4 @@
-"""How long the arm language makes people wait: for a check, after a keystroke, for a plan.
+"""Delays of the arm language: a check, a keystroke, a plan.
 
 Every time is taken on a text that nobody has seen before: other numbers and other names, so that nothing can be left
 over from the time before.
@@ -61,7 +61,7 @@ class Waiting:
     what: str
     seconds: tuple[float, ...]
     target: float
-    """What the median has to stay under."""
+    """Limit of the median."""
 
     @property
     def median(self) -> float:
@@ -70,7 +70,7 @@ class Waiting:
 
     @property
     def is_short(self) -> bool:
-        """Whether the target is met."""
+        """True if the target is met."""
         return self.median < self.target
 
     def as_json(self) -> dict[str, object]:
@@ -125,7 +125,7 @@ def _seconds(task: Callable[[], object]) -> float:
 
 
 def _check(text: str) -> None:
-    """What `handeye check` and an editor say about a text, the arm's reach left out."""
+    """Check a text as `handeye check` and an editor do, without the arm's reach."""
     program, _ = compile_text(Source(name="pins.al", text=text), Taught())
     assert program is not None
 

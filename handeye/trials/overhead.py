@@ -1,4 +1,4 @@
-"""What it costs to trace a run and to keep checkpoints of it, as shares of one and the same run."""
+"""Overhead of traces and checkpoints, as shares of one and the same run."""
 
 import time
 from collections.abc import Iterator

@@ -57,7 +57,7 @@ class Failure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GeneralLocation:
-    """Where a part is, roughly: within an inch or two."""
+    """Rough place of a part: within an inch or two."""
 
     box: BoundingBox
     """Around it in the picture."""
@@ -87,7 +87,7 @@ class SeenHole:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpecificLocation:
-    """Where a part is, closely."""
+    """Pose of a part."""
 
     pose: tuple[float, float, float]
     """x, y (m) of the reference point and yaw (rad) in W, by circles fitted to the borders of the holes."""
@@ -109,7 +109,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
     """
     region, outline = part.region, part.outline
     if region is None or outline is None:
-        raise InvalidInput("a part can be looked for only if its region and its outline are given")
+        raise InvalidInput("vision needs the region and the outline of a part")
     sizes = np.array([np.ptp(_silhouette(view, part, part.at[0], part.at[1], t), axis=0) for t in TURNS])
     smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
     largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])

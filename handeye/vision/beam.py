@@ -115,7 +115,7 @@ def beam(
 
 
 def _first(rise: Array, step: float, ahead: Array, beyond: float) -> int | None:
-    """Where the first rise of at least `step` is steepest, of those that lead to at least `beyond`."""
+    """Index where the first rise of at least `step` is steepest, of those that lead to at least `beyond`."""
     for start in np.flatnonzero(rise >= step):
         best = int(start + np.argmax(rise[start : start + SPAN + 1]))
         if ahead[best] >= beyond:

@@ -119,7 +119,7 @@ def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
 
 
 def _crosses(scan: Scan, box: list[int], side: int, place: int, threshold: float) -> bool:
-    """Whether a line beside the box meets SPAN points in a row brighter, on average, than the threshold."""
+    """True if a line beside the box meets SPAN points in a row brighter, on average, than the threshold."""
     rows, columns = scan.image.shape
     along = side % 2 == 0  # the left and right sides are columns
     lo, hi = (box[1], box[3]) if along else (box[0], box[2])

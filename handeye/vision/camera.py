@@ -62,7 +62,7 @@ class CameraModel:
         raise InvalidInput(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
-        """What it sees with that lens at these pot readings (rad).
+        """View with that lens at these pot readings (rad).
 
         Raises:
             InvalidInput: no such lens.

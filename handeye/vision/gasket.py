@@ -43,7 +43,7 @@ CLEAR: Final = 0.06 * INCH
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GasketInspection:
-    """What was found of the gasket. Centres are (u, v) in the picture, largest hole first."""
+    """Findings on the gasket. Centres are (u, v) in the picture, largest hole first."""
 
     ok: bool
     sentence: str
@@ -110,7 +110,7 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """What was found of one hole; `fault` is empty if all is well."""
+    """Finding on one hole; `fault` is empty if all is well."""
 
     fault: str
     found: tuple[float, float] | None = None
@@ -172,7 +172,7 @@ def _border(scan: Scan, view: View, place: Array, hole: Hole, step: float, beyon
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
-    """How far the border of the difference bulges outwards about the base's hole at `centre`, shape (3,), m.
+    """Bulge of the border of the difference about the base's hole at `centre`, shape (3,), m.
 
     Against its own median radius: half of the border of a union of two discs is nearly undisturbed. Only
     where the base's border is seen in the picture before: an aligning pin may stand in front of it.

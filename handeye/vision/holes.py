@@ -40,7 +40,7 @@ class HoleSearch(NamedTuple):
     contrast: float
     """Step that is an edge, as a share of the contrast in the box."""
     face: float = 0.72
-    """What is around a hole must be at least this share of the level of the machined face."""
+    """Least brightness around a hole, as a share of the level of the machined face."""
 
 
 SEARCHES: Final = (
@@ -211,7 +211,7 @@ def hole_places(part: Part, pose: tuple[float, float, float], *, screws: bool = 
 def dark_screw_holes(
     scan: Scan, view: View, part: Part, pose: tuple[float, float, float], face: float
 ) -> int:
-    """How many of the screw holes are dark spots in the bright face, as they should be."""
+    """Count of the screw holes that are dark spots in the bright face, as they should be."""
     dark = 0
     for u, v in view.project(hole_places(part, pose, screws=True)):
         spot, around = scan.patch(u, v, 2), float(np.median(scan.patch(u, v, 6)))

@@ -149,9 +149,9 @@ def test_neither_force_nor_moment_is_reported(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "help"),
     [
-        ("STOP NIL [19 0 0]", "about an axis that is not vertical it should be at least 20 oz-in"),
-        ("FORCE [0 0 -9] [1 1 1]", "about an axis that is not vertical it should be at least 20 oz-in"),
-        ("STOP NIL [0 0 1.5]", "about the vertical it should be at least 2 oz-in"),
+        ("STOP NIL [19 0 0]", "use at least 20 oz-in about an axis that is not vertical"),
+        ("FORCE [0 0 -9] [1 1 1]", "use at least 20 oz-in about an axis that is not vertical"),
+        ("STOP NIL [0 0 1.5]", "use at least 2 oz-in about the vertical"),
     ],
 )
 def test_moment_that_friction_hides_is_warned_of(text: str, help: str) -> None:

@@ -16,23 +16,23 @@ from handeye.source import Source
         ("STOP [0 0 -5O]\nMOVE T", "malformed-number", "a letter that looks like it: `-50`"),
         ("STOP [0 O 5]\nMOVE T", "wrong-operand", "a letter that looks like it: `0`"),
         ("OPEN 25mm", "unit-written", "distances are in inches"),
-        ("STOP (0 0 -20)\nMOVE T", "unexpected-character", "a vector stands in brackets"),
-        ("MOVE(T)", "unexpected-character", "nothing but blanks between"),
-        ("OPEN = 1", "unexpected-character", "nothing but blanks between"),
-        ("CHANGE −Z 1", "unexpected-character", "looks like a minus sign and is none: `-Z`"),
+        ("STOP (0 0 -20)\nMOVE T", "unexpected-character", "write a vector in brackets"),
+        ("MOVE(T)", "unexpected-character", "after a blank"),
+        ("OPEN = 1", "unexpected-character", "after a blank"),
+        ("CHANGE −Z 1", "unexpected-character", "use an ordinary minus sign: `-Z`"),
         ("CHANGE -Z 1", "unexpected-character", "a name has no sign"),
         ("STAGE “fetch”", "unexpected-character", "straight quotes"),
-        ("OPEN\N{NO-BREAK SPACE}1", "unexpected-character", "looks like a blank and is none"),
+        ("OPEN\N{NO-BREAK SPACE}1", "unexpected-character", "use an ordinary blank"),
         ("MOVE Müller", "unexpected-character", "letters from A to Z"),
         ("OPEN 1 # wide", "unexpected-character", "a comment begins with `;`"),
-        ("CHANGE 0 0 -1 .6", "wrong-operand", "a vector stands in brackets"),
+        ("CHANGE 0 0 -1 .6", "wrong-operand", "write a vector in brackets"),
         ("CHANGE .6 [0 0 -1]", "wrong-operand", "the vector comes first"),
         ("CLOSE .1 OPEN", "wrong-operand", "`OPEN` is an instruction: it begins a line of its own"),
         ("MOVE DIRECT T", "wrong-operand", "usage: `MOVE position (DIRECT)`"),
         ("PARK\nSTOP", "missing-operand", "a program ends where its text ends"),
         ("PARK\nEND", "unknown-instruction", "a program ends where its text ends"),
         ("PARK\nRETURN", "unknown-instruction", "a program ends where its text ends"),
-        ("L: PARK\nGOTO L", "unknown-instruction", "`JUMP` goes on at a label"),
+        ("L: PARK\nGOTO L", "unknown-instruction", "`JUMP` goes to a label"),
         ("DEFINE M\nPARK\n\nCALL M", "unknown-instruction", "the name of a macro alone calls it"),
         ("L; MOVE T", "unknown-instruction", "a label ends with a colon: `L:`; a `;` begins a comment"),
         ("L MOVE T", "unknown-instruction", "a label ends with a colon: `L:`"),
@@ -92,8 +92,8 @@ def test_a_torque_of_a_screwdriver_that_may_run_is_not_told() -> None:
 
 def test_an_error_that_was_tested_before_cannot_be_there_any_more() -> None:
     (told,) = diagnose("STOP 9\nCHANGE Z -1\nSKIPE 23\nSKIPE 23\nPARK\nPARK")
-    assert (told.code, told.message) == ("error-never-raised", "error 23 cannot be there any more")
-    assert [label.text for label in told.secondary] == ["this has tested for it"]
+    assert (told.code, told.message) == ("error-never-raised", "error 23 is already cleared")
+    assert [label.text for label in told.secondary] == ["this tested it"]
 
 
 @pytest.mark.parametrize("text", ["WAIT 2", "WAIT 0.5 s", "WAIT 10 SECONDS"])
@@ -108,7 +108,7 @@ def test_a_wait_with_words_is_not(text: str) -> None:
 
 def test_a_saved_difference_is_not_mixed_up_with_a_position() -> None:
     (told,) = diagnose("MOVE T\nRESTORE P")
-    assert told.help == "`P` is a position; `SAVE` keeps a difference"
+    assert told.help == "`P` is a position; `SAVE` saves a difference"
 
 
 def test_listing_of_1973_needs_no_help() -> None:

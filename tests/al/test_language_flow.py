@@ -94,7 +94,7 @@ def test_macro_without_a_blank_line_is_reported() -> None:
         (
             "DEFINE GRASP CLOSE .1",
             "`DEFINE` takes a name only",
-            "the instructions of a macro stand on the lines below",
+            "write the instructions of a macro on the lines below",
         ),
     ],
 )

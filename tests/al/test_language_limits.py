@@ -65,7 +65,7 @@ def test_nothing_more_is_said_of_a_line_that_is_too_long() -> None:
 def test_a_file_is_at_most_a_megabyte_long(tmp_path: Path) -> None:
     file = tmp_path / "long.al"
     file.write_bytes(b" " * (LARGEST + 1))
-    with pytest.raises(InvalidInput, match=r"long\.al has 1000001 bytes; 1000000 are the most that is read$"):
+    with pytest.raises(InvalidInput, match=r"long\.al has 1000001 bytes; the limit is 1000000$"):
         read_source(file)
 
 

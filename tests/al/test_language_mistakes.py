@@ -129,7 +129,7 @@ def test_frame_shows_the_guilty_span_and_its_cause() -> None:
     text = "SAVE H\n\tOPEN 1\nL1:\tMOVE T\n; \nL1:     PARK\n"
     (diagnostic,) = diagnose(text)
     assert render(diagnostic, Source(name="plans/pump.al", text=text)) == (
-        "error[label-twice]: label `L1` stands twice\n"
+        "error[label-twice]: label `L1` is defined twice\n"
         " ┌─ plans/pump.al:5:1\n"
         " │\n"
         "3│ L1:     MOVE T\n"
@@ -172,7 +172,7 @@ def test_json_form_gives_lines_and_columns_from_one() -> None:
     assert as_json(diagnose(text)[0], Source(name="x.al", text=text)) == {
         "code": "number-out-of-range",
         "severity": "error",
-        "message": "`9` is too large as gap of `OPEN`",
+        "message": "`9` is too large for the gap of `OPEN`",
         "file": "x.al",
         "primary": {
             "file": "x.al",

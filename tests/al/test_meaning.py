@@ -19,7 +19,7 @@ def codes(text: str) -> list[str]:
 
 def test_a_test_that_only_skips_the_next_one_is_told() -> None:
     (told,) = diagnose("L: CLOSE .1 .2\nSKIPE 2\nSKIPE 7\nJUMP L\nPARK")
-    assert told.message == "with error 2 the program goes on as it does without an error"
+    assert told.message == "with error 2 the program continues as without an error"
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_a_label_before_the_skip_makes_no_difference() -> None:
 
 def test_a_blank_line_within_a_macro_is_told() -> None:
     (told,) = diagnose("DEFINE DOWN\nSTOP 50\n\nCHANGE Z -1\n\nMOVE T\nDOWN\nPARK")
-    assert told.message == "macro `DOWN` ends with `STOP`, and the motion is not in it"
+    assert told.message == "macro `DOWN` ends with `STOP`, and its motion is outside"
 
 
 @pytest.mark.parametrize("behind", ["; the work\nTURN T 9", "MOVE T", "OPEN 1", 'STAGE "the work"'])
@@ -143,15 +143,15 @@ def test_a_touch_of_fingers_that_may_be_open_is_not(hand: str) -> None:
 def test_a_part_of_which_too_little_is_taught_is_told_before_anything_moves(look: str, lacks: str) -> None:
     (told,) = (d for d in diagnose(f"LOOK V\n{look}") if d.severity == "error")
     assert told.code == "part-not-described"
-    assert told.message.endswith(f"cannot find `GASKET` without {lacks} of it")
-    assert (told.help or "").endswith("taught so is `BASE`")
+    assert told.message.endswith(f"cannot find `GASKET` without its {lacks}")
+    assert (told.help or "").endswith("taught in full: `BASE`")
 
 
 def test_a_comparison_with_a_picture_taken_as_the_camera_saw_fit_is_told() -> None:
     (told,) = diagnose("LOOK A\nLOOK B\nINSPECT BASE A B")
     assert (told.code, told.help) == (
         "compared-without-hold",
-        "`LOOK B HOLD` keeps that of the picture before",
+        "`LOOK B HOLD` keeps that of the earlier picture",
     )
     assert diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE A B") == []
 
@@ -160,7 +160,7 @@ def test_two_pictures_in_the_wrong_order_are_told_so() -> None:
     (told,) = diagnose("LOOK A\nLOOK B HOLD\nINSPECT BASE B A")
     assert (told.code, told.message) == (
         "compared-without-hold",
-        "`B` is the picture that is taken with `HOLD`, after `A`",
+        "`B` is taken with `HOLD`, after `A`",
     )
 
 
@@ -172,14 +172,14 @@ def test_a_jump_back_over_an_unused_label_is_one_mistake() -> None:
     told = diagnose(text)
     assert [d.code for d in told if d.code != "endless-loop"] == ["search-begun-anew"]
     (begun,) = (d for d in told if d.code == "search-begun-anew")
-    assert [label.text for label in begun.secondary] == ["this begins anew", "nothing jumps here"]
+    assert [label.text for label in begun.secondary] == ["this starts anew", "nothing jumps here"]
 
 
 def test_a_position_that_only_a_comment_goes_to_is_seen_there() -> None:
     (told,) = diagnose("TRANS ROD [24 36 3 90 90 0]\nOPEN 1 ; MOVE ROD\nPARK")
     assert (told.code, told.help) == (
         "unused-position",
-        "on line 2 it stands behind a `;`, which begins a comment",
+        "on line 2 it is in a comment, after a `;`",
     )
 
 
@@ -191,7 +191,7 @@ def test_a_position_that_a_comment_only_speaks_of_is_not(comment: str) -> None:
 
 def test_what_is_taught_is_not_required() -> None:
     (told,) = diagnose("REQUIRE water_pump.toml\nPARK")
-    assert told.message == "`water_pump.toml` is a file of what is taught, and not of instructions"
+    assert told.message == "`water_pump.toml` is a taught file, not a file of instructions"
 
 
 def planned(text: str) -> list[str | None]:
@@ -212,10 +212,10 @@ def test_angles_in_radians_are_known_where_they_lead_nowhere() -> None:
 
 def test_angles_that_are_merely_wrong_are_not_taken_for_radians() -> None:
     assert planned("TRANS A [26 36 5 0 2 0]\nMOVE A") == [
-        "turn the hand otherwise: other angles O, A, T can be within the limits"
+        "turn the hand: other angles O, A, T can be within the limits"
     ]
 
 
 def test_of_a_position_out_of_reach_it_is_said_what_it_is_counted_from() -> None:
     (help,) = planned("TRANS RIM [44.5 29.5 3.75 90 90 0] OF BASE\nMOVE RIM")
-    assert (help or "").endswith("nearer to the arm; it is counted from `BASE`")
+    assert (help or "").endswith("nearer to the arm; it is relative to `BASE`")

@@ -93,7 +93,7 @@ def test_a_skip_before_a_required_file_skips_its_first_instruction() -> None:
 
 def test_mistake_of_a_required_file_is_shown_in_its_own_frame() -> None:
     assert shown("PARK\nREQUIRE lib/a.al", {"lib/a.al": "\n\nOPEN 9\n"}) == (
-        "error[number-out-of-range]: `9` is too large as gap of `OPEN`\n"
+        "error[number-out-of-range]: `9` is too large for the gap of `OPEN`\n"
         " ┌─ plans/lib/a.al:3:6\n"
         " │\n"
         "3│ OPEN 9\n"
@@ -103,7 +103,7 @@ def test_mistake_of_a_required_file_is_shown_in_its_own_frame() -> None:
 
 def test_mistake_across_two_files_shows_both() -> None:
     assert shown("L: PARK\nREQUIRE a.al\nJUMP L", {"a.al": "MOVE T\nL: PARK"}) == (
-        "error[label-twice]: label `L` stands twice\n"
+        "error[label-twice]: label `L` is defined twice\n"
         " ┌─ plans/a.al:2:1\n"
         " │\n"
         "2│ L: PARK\n"
@@ -142,7 +142,7 @@ def test_a_required_file_may_make_things_for_other_scripts() -> None:
 def test_macro_of_a_required_file_ends_with_the_file() -> None:
     text = shown("REQUIRE a.al\nPARK", {"a.al": "DEFINE DROP\nPARK"})
     assert "plans/a.al:1:8" in text
-    assert "the text ends before it does" in text
+    assert "the text ends before the macro" in text
 
 
 def test_a_file_that_is_not_there_is_named_with_the_reason() -> None:
@@ -158,7 +158,7 @@ def test_what_a_missing_file_may_have_made_is_not_told_as_unknown() -> None:
 
 def test_a_text_in_no_file_requires_none() -> None:
     (diagnostic,) = al.compile_text(Source(name="x.al", text="REQUIRE a.al\nPARK"), TAUGHT)[1]
-    assert (diagnostic.code, diagnostic.notes) == ("unreadable-file", ("this text is in no file",))
+    assert (diagnostic.code, diagnostic.notes) == ("unreadable-file", ("this text is not in a file",))
 
 
 @pytest.mark.parametrize("own", ["test.al", "./test.al"])
@@ -183,7 +183,7 @@ def test_a_long_circle_is_told_shortly() -> None:
 def test_a_file_read_before_is_read_no_more() -> None:
     files = {"a.al": "PARK", "b.al": "REQUIRE a.al\nMOVE T"}
     (diagnostic,) = diagnose("REQUIRE a.al\nREQUIRE b.al", files)
-    assert diagnostic.message == "`a.al` has been read before: nothing is read here"
+    assert diagnostic.message == "`a.al` is already included: this line does nothing"
     assert places(compiled("REQUIRE a.al\nREQUIRE b.al", files)) == ["a.al:1 PARK", "b.al:2 MOVE T"]
 
 
@@ -257,7 +257,7 @@ def test_files_on_disk_are_read_from_the_script_s_folder(tmp_path: Path) -> None
         (".", "… is a directory, not a file"),
         ("/dev/zero", "/dev/zero is a device or a pipe, not a file"),
         ("latin.al", "…/latin.al is not UTF-8 text: byte 0 is 0xe9"),
-        ("large.al", f"…/large.al has 10000000 bytes; {LARGEST} are the most that is read"),
+        ("large.al", f"…/large.al has 10000000 bytes; the limit is {LARGEST}"),
         ("a\0b", "a\0b: there is no such file"),
     ],
 )

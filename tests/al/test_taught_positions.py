@@ -56,10 +56,10 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[positions.A]\nat = [1, 2]", r":1: positions\.A: at: 2 entries, and 6 are wanted"),
+        ("[positions.A]\nat = [1, 2]", r":1: positions\.A: at: 2 entries, and needs 6"),
         (
             "[positions.A]\nat = [1, 2, 3, 0, 0, 0]\nto = 1",
-            r":1: positions\.A: `to` is no key of it",
+            r":1: positions\.A: `to` is not a key of it",
         ),
         ("[positions.A]", r":1: positions\.A: `at` is missing"),
         (
@@ -76,11 +76,11 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
             "[parts.B]\nat = [0,0,0,0]\nholes = [[0,0,0]]",
             r":1: parts\.B: the hole at \(0, 0\) has diameter 0",
         ),
-        ("[parts.B]\nat = 'here'", r":1: parts\.B: at: a text stands where a list is wanted"),
-        ("[place.A]", r": `place` is no key of it"),
+        ("[parts.B]\nat = 'here'", r":1: parts\.B: at: a text instead of a list"),
+        ("[place.A]", r": `place` is not a key of it"),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, 0]]",
-            r":1: fixtures\.F: the box from \(0, 0, 0\) to \(1, 1, 0\) has no inside",
+            r":1: fixtures\.F: the box from \(0, 0, 0\) to \(1, 1, 0\) is empty",
         ),
         (
             "[fixtures.F]\nboxes = [[0, 0, 0, 1, 1, inf]]",
@@ -97,9 +97,9 @@ def test_fixtures_and_what_is_held_arrive_in_si(tmp_path: Path) -> None:
         ),
         (
             f"[fixtures.F]\nboxes = {[[0, 0, 0, 1, 1, 1]] * 501}",
-            r":1: fixtures\.F: more than 500 boxes; no more can be looked after",
+            r":1: fixtures\.F: more than 500 boxes, the limit",
         ),
-        ("positions = 3", r": positions: a whole number stands where a table is wanted"),
+        ("positions = 3", r": positions: a whole number instead of a table"),
     ],
 )
 def test_mistake_in_a_taught_file_is_named_with_its_key(tmp_path: Path, text: str, message: str) -> None:
@@ -109,7 +109,7 @@ def test_mistake_in_a_taught_file_is_named_with_its_key(tmp_path: Path, text: st
 
 def test_a_name_that_stands_twice_is_told_with_its_line(tmp_path: Path) -> None:
     text = "[positions]\nA = {at = [1, 2, 3, 0, 0, 0]}\nA = {at = [1, 2, 3, 0, 0, 0]}\n"
-    with pytest.raises(InvalidInput, match=r"not TOML: a name stands twice \(at line 3, column \d+\)$"):
+    with pytest.raises(InvalidInput, match=r"not TOML: a name is used twice \(at line 3, column \d+\)$"):
         load_taught(write(tmp_path, text))
 
 

@@ -58,14 +58,14 @@ def stopped(runner: Runner, *stops: AnyStop) -> tuple[str, int | None]:
 @pytest.mark.parametrize(
     ("text", "sentence", "line"),
     [
-        ("10", "break at line 10", 10),
-        ("9", "break at line 10", 10),
-        ("L1", "break at label L1", 8),
-        ("l3", "break at label L3", 15),
-        ("AOJ", "break at AOJ", 14),
-        ("skipe", "break at SKIPE", 11),
-        ("search in the air", "break at stage 2, search in the air", 7),
-        ("Search in", "break at stage 2, search in the air", 7),
+        ("10", "breakpoint at line 10", 10),
+        ("9", "breakpoint at line 10", 10),
+        ("L1", "breakpoint at label L1", 8),
+        ("l3", "breakpoint at label L3", 15),
+        ("AOJ", "breakpoint at AOJ", 14),
+        ("skipe", "breakpoint at SKIPE", 11),
+        ("search in the air", "breakpoint at stage 2, search in the air", 7),
+        ("Search in", "breakpoint at stage 2, search in the air", 7),
     ],
 )
 def test_a_run_stops_before_the_place_that_is_named(
@@ -77,15 +77,15 @@ def test_a_run_stops_before_the_place_that_is_named(
 @pytest.mark.slow
 @pytest.mark.parametrize("text", ["error:23", "error 23", "ERROR: 23"])
 def test_a_run_stops_behind_the_step_that_raised_the_error(runner: Runner, text: str) -> None:
-    why = "break on error 23: the motion ended without meeting the force it was to stop on"
+    why = "breakpoint on error 23: the motion ended without meeting the force it was to stop on"
     assert stopped(runner, breakpoint(text, PLAN.program)) == (why, 11)
 
 
 @pytest.mark.slow
 def test_a_break_that_was_met_does_not_stop_the_run_again_where_it_stands(runner: Runner) -> None:
     places = breakpoint("4", PLAN.program), breakpoint("AOJ", PLAN.program)
-    assert stopped(runner, *places) == ("break at AOJ", 14)
-    assert stopped(runner, *places, breakpoint("17", PLAN.program)) == ("break at line 18", 18)
+    assert stopped(runner, *places) == ("breakpoint at AOJ", 14)
+    assert stopped(runner, *places, breakpoint("17", PLAN.program)) == ("breakpoint at line 18", 18)
 
 
 @pytest.mark.slow
@@ -116,7 +116,7 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
-        ("23", "line 23 lies behind the last step, which is on line 22"),
+        ("23", "line 23 is after the last step, which is on line 22"),
         ("99999999999", "the program has no label, instruction or stage `99999999999`"),
         ("L9", "the program has no label, instruction or stage `L9`; did you mean `L1`?"),
         ("AOK", "the program has no label, instruction or stage `AOK`; did you mean `AOJ`?"),
@@ -124,7 +124,7 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
         ("shut the hnad", "the program has no label, instruction or stage `shut the hnad`; "
          "did you mean `shut the hand`?"),
         ("zzz", "the program has no label, instruction or stage `zzz`"),
-        ("", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
+        ("", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("error:9", "there is no error `9`; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
         ("error:", "there is no error ``; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
     ],
@@ -175,5 +175,5 @@ def test_a_step_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: 
 
 
 def test_a_label_that_stands_for_several_steps_is_no_step(macro: Plan) -> None:
-    with pytest.raises(InvalidInput, match=r"^label `LM` stands for steps 0, 2; give one by its number$"):
+    with pytest.raises(InvalidInput, match=r"^label `LM` belongs to steps 0, 2; give one by its number$"):
         step_number("LM", macro.program)

@@ -20,7 +20,7 @@ SEARCHED = AfterStage(stage=1, name="search in the air")
 
 pytestmark = pytest.mark.slow
 
-CALLED = "the fingers closed beyond the minimum gap: nothing, or too thin a thing, is between them"
+CALLED = "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them"
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +67,7 @@ def test_policies_are_written_in_a_word() -> None:
 @pytest.mark.parametrize("text", ["", "retry", "retry:0", "retry:-1", "retry:x", "Abort", "retry:1.5"])
 def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^what to do on a stop is abort, ask, or retry:N .* is none of these$"
+        InvalidInput, match=r"^--on-stop takes abort, ask, or retry:N with N from 1 up, not .*$"
     ):
         parse_policy(text)
 
@@ -146,27 +146,27 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
         "  ■ 19          CLOSE   .4",
         "    20          OPEN    .4",
         '    21          STAGE   "shut the hand"',
-        "p          proceed behind it: on at line 20",
-        "r          retry: the stage again from line 18, with the world as it is now",
-        "s          skip: leave out the rest of the stage",
-        "b [STAGE]  back: in time to the beginning of this stage, or of an earlier one",
+        "p          proceed: continue at line 20",
+        "r          retry the stage from line 18, with the world as it is now",
+        "s          skip the rest of the stage",
+        "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
         "a          abort",
-        "show       see joints, hand, force, saved differences, parts and so on",
+        "show       show joints, hand, force, saved differences, parts and so on",
     ]
 
 
 def test_the_end_of_the_answers_is_taken_for_abort(runner: Runner) -> None:
     talk = Talk()
     assert attend(runner, talk.operator).kind == "operator"
-    assert talk.said[-1] == "the answers have come to their end: abort"
+    assert talk.said[-1] == "no more answers: abort"
 
 
 @pytest.mark.parametrize(
     ("answer", "sentence"),
     [
-        ("maybe", "`maybe` is no answer; say p, r, s, b, a or show"),
-        ("", "`` is no answer; say p, r, s, b, a or show"),
-        ("p 3", "`p 3` is no answer; say p, r, s, b, a or show"),
+        ("maybe", "`maybe` is not an answer; answer p, r, s, b, a or show"),
+        ("", "`` is not an answer; answer p, r, s, b, a or show"),
+        ("p 3", "`p 3` is not an answer; answer p, r, s, b, a or show"),
         ("b shut", "stage 4, shut the hand, has not begun yet"),
         ("b nowhere", "there is no stage `nowhere`"),
         ("show tee", "there is no `tee` to show; did you mean `time`?"),
@@ -206,7 +206,7 @@ def test_a_break_where_the_program_goes_on_after_an_answer_stops_it_and_the_stat
 
     runner.observers.append(Keep())
     pause = attend(runner, Talk("p").operator, [breakpoint("20", plan_of(AIR).program)])
-    assert (pause.kind, pause_sentence(pause)) == ("break", "break at line 20")
+    assert (pause.kind, pause_sentence(pause)) == ("break", "breakpoint at line 20")
     assert history(list(kept[-1].events)) == history(runner.events)
 
 
@@ -241,7 +241,7 @@ def test_help_says_again_what_can_be_said(runner: Runner, word: str) -> None:
     talk = Talk(word, "a")
     attend(runner, talk.operator)
     question, choices = talk.said
-    assert choices.splitlines()[0] == "p          proceed behind it: on at line 20"
+    assert choices.splitlines()[0] == "p          proceed: continue at line 20"
     assert question.endswith(choices)
 
 
@@ -268,4 +268,4 @@ def test_the_panic_button_on_the_way_back_stops_the_run(runner: Runner) -> None:
 
     pause = attend(late, Panic(), kept=lambda _: at_start)
     assert pause == Pause(kind="panic", next=late.at, back=True)
-    assert pause_sentence(pause) == "stopped by hand on the way back; the brakes are set"
+    assert pause_sentence(pause) == "stopped by the panic button on the way back; the brakes are set"

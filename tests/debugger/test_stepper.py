@@ -41,7 +41,7 @@ from handeye.units import INCH
 pytestmark = pytest.mark.slow
 
 CALLED = (
-    "the fingers closed beyond the minimum gap: nothing, or too thin a thing, is between them "
+    "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them "
     "(the gap is 0.01 in, the minimum 0.40 in)"
 )
 Say = Callable[..., list[Reply]]
@@ -148,7 +148,7 @@ def test_an_answer_says_what_was_done_and_where_the_run_now_stands(say: Say) -> 
     say("until 9")
     assert as_text(say("s 2")[0]).splitlines() == [
         "   10 CHANGE [0 0 -1] .1             error 23: the motion ended without meeting the force it was to stop on",
-        "   11 SKIPE 23                       error 23 occurred: on at line 13",
+        "   11 SKIPE 23                       error 23 occurred: continue at line 13",
         "── stage 2, search in the air, step 7; 6 steps done, 3.08 s",
         "    11          SKIPE   23",
         "    12          JUMP    L1",
@@ -185,7 +185,7 @@ def test_a_number_of_a_break_is_not_used_again(say: Say) -> None:
 @pytest.mark.parametrize(("place", "again"), [("AOJ", "aoj"), ("L1", "l1"), ("8", "here/short.al:8")])
 def test_a_break_that_is_set_already_is_not_set_again(say: Say, place: str, again: str) -> None:
     first, second, listed = say(f"break {place}", f"break {again}", "breaks")
-    assert (second.breaks, second.said) == (first.breaks, "it is set already")
+    assert (second.breaks, second.said) == (first.breaks, "this breakpoint is already set")
     assert listed.breaks == first.breaks
 
 
@@ -272,7 +272,7 @@ def test_without_a_folder_a_picture_is_named_and_written_only_where_somebody_say
     assert stepper.do("picture seen.png").said == "CLOSE_UP, in seen.png"
     written = Path("seen.png").read_bytes()
     assert written.startswith(b"\x89PNG")
-    assert stepper.do("picture seen.png").error == "seen.png is there already; it is left alone"
+    assert stepper.do("picture seen.png").error == "seen.png already exists; nothing was written"
     assert Path("seen.png").read_bytes() == written
 
 
@@ -322,9 +322,7 @@ def test_going_back_undoes_an_experiment(say: Say) -> None:
 def test_the_call_of_the_operator_is_told_with_what_can_be_said(say: Say) -> None:
     called = say("c")[0]
     assert why(called) == ("operator", CALLED)
-    assert (
-        called.said == "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
-    )
+    assert called.said == "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, or go back"
     assert called.did[-1].outcome == f"error 2: {CALLED}; the operator is called"
     assert "  ■ 19          CLOSE   .4" in as_text(called).splitlines()
 
@@ -353,9 +351,7 @@ def test_the_end_of_the_program_is_told_and_one_can_go_back_from_it(say: Say) ->
     ended = say("c", "skip", "c")[-1]
     assert why(ended) == ("end", "the program came to its end")
     assert (ended.stage, ended.line) == (None, None)
-    assert (
-        say("step")[0].error == "the program has come to its end: `back` goes back from here, `quit` leaves"
-    )
+    assert say("step")[0].error == "the program has ended: `back` goes back from here, `quit` leaves"
     assert [answer.line for answer in say("b", "s", "bs")] == [22, None, 22]
 
 
@@ -364,14 +360,14 @@ def test_an_answer_that_ends_the_program_says_so(tmp_path: Path) -> None:
     called, ended = stepper.do("c"), stepper.do("proceed")
     assert called.did[-1].outcome == "brakes set, the operator is called: HERE"
     assert why(ended) == ("end", "the program came to its end")
-    assert ended.said == "the program has come to its end: `back` goes back from here, `quit` leaves"
+    assert ended.said == "the program has ended: `back` goes back from here, `quit` leaves"
 
 
 def test_the_end_of_the_input_is_taken_for_quit(stepper: Stepper) -> None:
     out: list[str] = []
     pause = interact(stepper, iter(["s"]), out.append)
     assert (pause.kind, pause.met) == ("break", ByHand())
-    assert out[-1].splitlines()[-1] == "nothing is kept"
+    assert out[-1].splitlines()[-1] == "nothing was saved"
 
 
 @pytest.mark.parametrize("commands", [("q",), ("exit",), ("s 2", "b 2", "q"), ("s", "b", "set x", "q")])
@@ -380,11 +376,11 @@ def test_where_nothing_was_done_nothing_is_kept(runner: Runner, commands: tuple[
         raise AssertionError
 
     out = lines_of(Stepper(runner, keep=keep), *commands)
-    assert out[-1].splitlines()[-1] == "nothing was done, so that nothing is kept"
+    assert out[-1].splitlines()[-1] == "nothing was done; nothing was saved"
 
 
 def test_an_experiment_is_something_that_was_done(stepper: Stepper) -> None:
-    assert lines_of(stepper, "set saved H 0 0 0", "q")[-1].splitlines()[-1] == "nothing is kept"
+    assert lines_of(stepper, "set saved H 0 0 0", "q")[-1].splitlines()[-1] == "nothing was saved"
 
 
 def test_a_run_that_begins_at_a_checkpoint_says_so_to_those_who_go_back_behind_it(runner: Runner) -> None:
@@ -421,7 +417,7 @@ def test_quit_keeps_a_checkpoint_that_goes_on_from_there(
 
     stepper = Stepper(runner, keep=keep, pictures=tmp_path)
     out = lines_of(stepper, "s 4", "q", "s")
-    assert out[-1].splitlines()[-1] == f"kept in {file}"
+    assert out[-1].splitlines()[-1] == f"saved to {file}"
     assert history(through(Runner(read_checkpoint(file))).events) == whole
 
 
@@ -448,10 +444,7 @@ def test_a_checkpoint_goes_to_the_file_that_is_named(say: Say, tmp_path: Path) -
 def test_a_file_that_is_no_checkpoint_is_left_alone(say: Say, tmp_path: Path) -> None:
     file = tmp_path / "pump.al"
     file.write_text("PARK\n")
-    assert (
-        say(f"checkpoint {file}")[0].error
-        == f"{file} is there already and is no checkpoint; it is left alone"
-    )
+    assert say(f"checkpoint {file}")[0].error == f"{file} exists and is no checkpoint; nothing was written"
     assert file.read_text() == "PARK\n"
 
 
@@ -460,8 +453,8 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
     runner = Runner(begin(AIR), halt=lambda: next(pressed, False))
     stepper = Stepper(runner, pictures=tmp_path)
     stopped = stepper.do("s 2")
-    assert why(stopped) == ("panic", "stopped by hand; the brakes are set")
-    assert stopped.said == "stopped by hand; the brakes are set; the step that was broken off is undone"
+    assert why(stopped) == ("panic", "stopped by the panic button; the brakes are set")
+    assert stopped.said == "stopped by the panic button; the brakes are set; the interrupted step is undone"
     assert stopped.position < 2
     stepper.do("c")
     assert history(runner.events) == whole
@@ -470,8 +463,11 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
 def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> None:
     say("s 2")
     runner._broken = "the simulation lost its footing"
-    assert say("s")[0].error == "the run cannot go on from here, only back: the simulation lost its footing"
-    assert say("set saved H 0 0 0")[0].error == "nothing can be tried from here; go back first"
+    assert (
+        say("s")[0].error
+        == "the run cannot continue from here, only go back: the simulation lost its footing"
+    )
+    assert say("set saved H 0 0 0")[0].error == "no experiment is possible here; go back first"
     assert [answer.position for answer in say("b", "s")] == [1, 2]
 
 
@@ -499,42 +495,42 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
     [
         ("stpe", "there is no command `stpe`; did you mean `step`?"),
         ("run", "there is no command `run`; did you mean `continue`?"),
-        ("frobnicate", "there is no command `frobnicate`; `help` tells which there are"),
+        ("frobnicate", "there is no command `frobnicate`; `help` lists them"),
         ("contineu", "there is no command `contineu`; did you mean `continue`?"),
-        ("step x", "step takes a number from 1 up; `x` is none"),
-        ("step 0", "step takes a number from 1 up; `0` is none"),
-        ("step -1", "step takes a number from 1 up; `-1` is none"),
-        ("stage 2", "`stage` takes nothing behind it; `2` is too much"),
-        ("until", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
+        ("step x", "step takes a number from 1 up, not `x`"),
+        ("step 0", "step takes a number from 1 up, not `0`"),
+        ("step -1", "step takes a number from 1 up, not `-1`"),
+        ("stage 2", "`stage` takes nothing after it; `2` is too much"),
+        ("until", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L1`?"),
-        ("back", "this is the beginning; nothing lies before it"),
-        ("back stage", "this is the beginning; nothing lies before it"),
-        ("back x", "back takes a number from 1 up, or `stage`; `x` is none"),
-        ("break", "a place to stop is an error (error:23), a line, a label, an instruction or a stage"),
-        ("break 99", "line 99 lies behind the last step, which is on line 22"),
-        ("delete", "delete takes the number of a break; those that are set: none"),
-        ("delete foo", "delete takes the number of a break; `foo` is none; those that are set: none"),
-        ("delete 4", "no break has the number 4; those that are set: none"),
+        ("back", "this is the beginning of the run"),
+        ("back stage", "this is the beginning of the run"),
+        ("back x", "back takes a number from 1 up, or `stage`, not `x`"),
+        ("break", "give an error (error:23), a line, a label, an instruction or a stage"),
+        ("break 99", "line 99 is after the last step, which is on line 22"),
+        ("delete", "delete takes the number of a breakpoint; breakpoints: none"),
+        ("delete foo", "delete takes the number of a breakpoint, not `foo`; breakpoints: none"),
+        ("delete 4", "there is no breakpoint 4; breakpoints: none"),
         ("picture", "picture takes the name of a file to write"),
         ("picture x.png", "the program has taken no picture yet"),
-        ("list 23", "list takes a line from 1 to 22; `23` is none"),
-        ("list x", "list takes a line from 1 to 22; `x` is none"),
+        ("list 23", "list takes a line from 1 to 22, not `23`"),
+        ("list x", "list takes a line from 1 to 22, not `x`"),
         ("show jiont", "there is no `jiont` to show; did you mean `joints`?"),
         ("show s", "there is no `s` to show; there are " + ", ".join(TOPICS)),
         ("set", "an experiment is `set saved NAME x y z` or `set position NAME x y z [o a t]`"),
         ("set speed 3", "an experiment is `set saved NAME x y z` or `set position NAME x y z [o a t]`"),
-        ("set saved H 1 2", "an experiment is written `set saved NAME x y z`"),
-        ("set saved H 1 2 nan", "`nan` is no number from -1000 to 1000"),
-        ("set saved H 1 2 1e9", "`1e9` is no number from -1000 to 1000"),
+        ("set saved H 1 2", "write an experiment as `set saved NAME x y z`"),
+        ("set saved H 1 2 nan", "`nan` is not a number from -1000 to 1000"),
+        ("set saved H 1 2 1e9", "`1e9` is not a number from -1000 to 1000"),
         ("set saved HH 1 2 3", "the program has no saved difference `HH`; did you mean `H`?"),
-        ("set position T 1 2 3 4", "an experiment is written `set position NAME x y z [o a t]`"),
+        ("set position T 1 2 3 4", "write an experiment as `set position NAME x y z [o a t]`"),
         ("set position TT 1 2 3", "the program has no position `TT`; did you mean `T`?"),
-        ("proceed", "`proceed` is for when the operator is called, and nobody has called"),
-        ("retry", "`retry` is for when the operator is called, and nobody has called"),
-        ("skip", "`skip` is for when the operator is called, and nobody has called"),
-        ("abort", "`abort` is for when the operator is called, and nobody has called"),
-        ("checkpoint", "the checkpoints of this run are kept nowhere; name a file"),
-        ("help me", "there is no command `me`; `help` tells which there are"),
+        ("proceed", "`proceed` answers a call of the operator, and there is none"),
+        ("retry", "`retry` answers a call of the operator, and there is none"),
+        ("skip", "`skip` answers a call of the operator, and there is none"),
+        ("abort", "`abort` answers a call of the operator, and there is none"),
+        ("checkpoint", "this run has no folder for checkpoints; name a file"),
+        ("help me", "there is no command `me`; `help` lists them"),
     ],
 )  # fmt: skip
 def test_a_wrong_command_is_answered_by_one_sentence_and_changes_nothing(
@@ -548,11 +544,11 @@ def test_a_wrong_command_is_answered_by_one_sentence_and_changes_nothing(
 
 
 def test_going_back_farther_than_the_beginning_is_refused(say: Say) -> None:
-    assert say("s 2", "b 3")[-1].error == "only 2 steps can be gone back"
+    assert say("s 2", "b 3")[-1].error == "`back` can undo only 2 steps"
 
 
 def test_after_the_call_of_the_operator_going_on_needs_an_answer(say: Say) -> None:
-    refusal = "the operator has been called: say `proceed`, `retry`, `skip` or `abort`, or go back"
+    refusal = "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, or go back"
     assert [answer.error for answer in say("c", "step", "stage", "continue")] == [None, *[refusal] * 3]
 
 
@@ -573,11 +569,11 @@ def test_the_json_of_an_answer_says_where_the_run_stands_and_what_happened(stepp
     assert (first["position"], first["stage"], first["line"], first["text"]) == (
         3, "search in the air", 8, "MOVE    T"
     )  # fmt: skip
-    assert (first["pause"]["kind"], first["pause"]["sentence"]) == ("break", "break at label L1")
+    assert (first["pause"]["kind"], first["pause"]["sentence"]) == ("break", "breakpoint at label L1")
     assert [event["event"] for event in first["events"]].count("StepFinished") == 3
     assert (first["error"], wrong["error"]) == (
         None,
-        "there is no command `frobnicate`; `help` tells which there are",
+        "there is no command `frobnicate`; `help` lists them",
     )
     assert (wrong["pause"], wrong["events"], wrong["position"]) == (None, [], 3)
 
@@ -590,7 +586,7 @@ def test_text_begins_with_where_the_run_stands(stepper: Stepper) -> None:
         "  → 4          OPEN    .5",
         "    5          OPEN    .4",
         '    6          STAGE   "search in the air"',
-        "short, 14 steps; `help` tells what can be said",
+        "short, 14 steps; `help` lists the commands",
     ]
 
 

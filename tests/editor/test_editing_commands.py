@@ -28,7 +28,7 @@ def handeye(*words: str, typed: bytes) -> tuple[int, bytes, bytes]:
 def test_fmt_puts_files_into_columns_and_says_which(command: Command) -> None:
     Path("a.al").write_text(UNTIDY, encoding="utf-8")
     Path("b.al").write_text(TIDY, encoding="utf-8")
-    assert command("fmt", "a.al", "b.al") == (0, "a.al: tidied\n", "")
+    assert command("fmt", "a.al", "b.al") == (0, "a.al: formatted\n", "")
     assert Path("a.al").read_text(encoding="utf-8") == Path("b.al").read_text(encoding="utf-8") == TIDY
 
 
@@ -43,7 +43,7 @@ def test_fmt_check_writes_nothing_and_ends_with_one(command: Command) -> None:
 def test_fmt_leaves_a_text_with_mistakes_of_form_alone(command: Command) -> None:
     Path("a.al").write_text("open 1 2\n", encoding="utf-8")
     code, out, err = command("fmt", "a.al")
-    assert (code, out, err.count("error["), err.endswith("a.al is left as it is\n")) == (2, "", 1, True)
+    assert (code, out, err.count("error["), err.endswith("a.al is unchanged\n")) == (2, "", 1, True)
     assert Path("a.al").read_text(encoding="utf-8") == "open 1 2\n"
 
 
@@ -65,7 +65,7 @@ def test_fmt_knows_the_macros_of_required_files_and_leaves_those_files_alone(
     main, required = Path("main.al"), Path("b.al")
     main.write_text("require b.al\ndrop\n", encoding="utf-8")
     required.write_text("DEFINE DROP\nopne 1\n\n", encoding="utf-8")
-    assert command("fmt", "main.al") == (0, "main.al: tidied\n", "")
+    assert command("fmt", "main.al") == (0, "main.al: formatted\n", "")
     assert main.read_text(encoding="utf-8") == "        REQUIRE b.al\n        DROP\n"
     assert required.read_text(encoding="utf-8") == "DEFINE DROP\nopne 1\n\n"
 

@@ -217,7 +217,7 @@ def test_rename_changes_the_script_and_what_is_taught() -> None:
         ("M: L: JUMP |L", "M", "there is a label `M` already"),
         ("|PARK", "HOME", "`PARK` is a word of the language"),
         ("MOVE |PARK", "HOME", "`PARK` is a word of the language"),
-        ("MOVE |LOW", "HIGH", "where position `LOW` is made is not found in the taught file"),
+        ("MOVE |LOW", "HIGH", "the definition of position `LOW` is not found in the taught file"),
         ("MOVE |T ", "of", "a word of the language"),
         ("OPEN |1", "X", "there is no name here"),
     ],

@@ -75,7 +75,7 @@ def test_a_countdown_says_where_it_leads() -> None:
 
 def test_a_goal_that_was_kept_depends_on_where_that_was() -> None:
     text = f"{PLACE}MOVE T\nCHANGE Z -1\nHERE F\nMOVE F\nMOVE T\n"
-    assert [depends_text(one) for one in step_of(text, 3).depends] == ["F kept at line 4"]
+    assert [depends_text(one) for one in step_of(text, 3).depends] == ["F defined at line 4"]
     assert step_of(text, 4).depends == ()
 
 

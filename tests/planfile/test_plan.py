@@ -120,7 +120,7 @@ def test_a_step_that_leads_nowhere_is_refused(plan: Plan) -> None:
     ("step", "field", "value", "said"),
     [
         (2, "positive", 77, "step 2 (line 3) leads to step 77; the plan has steps 0 to 2"),
-        (0, "value", 5000, "step 0 (line 1) has value 5000; it has to be from 0 to 1000"),
+        (0, "value", 5000, "step 0 (line 1) has value 5000; it must be from 0 to 1000"),
     ],
 )
 def test_a_count_that_cannot_be_carried_out_is_refused(step: int, field: str, value: int, said: str) -> None:
@@ -179,7 +179,7 @@ GUARD = f"{CHANGE}.guards.0"
         (
             f"{GUARD}",
             {"guard": "touch", "fingers": 7},
-            "step 1 (line 4) has fingers 7; it has to be from 1 to 3",
+            "step 1 (line 4) has fingers 7; it must be from 1 to 3",
         ),
         (f"{GUARD}", {"guard": "moment", "moment": [0, 0, 0]}, "step 1 (line 4) has a moment of size 0"),
         (f"{GUARD}", {"guard": "against", "force": 1e9}, "step 1 (line 4) has force 1e+09"),
@@ -188,7 +188,7 @@ GUARD = f"{CHANGE}.guards.0"
         (
             "program.steps.3.operation",
             {"op": "lens", "focal_length": 0.077},
-            "step 3 (line 6) has focal_length 0.077; it has to be 0.025 or 0.05",
+            "step 3 (line 6) has focal_length 0.077; it must be 0.025 or 0.05",
         ),
         ("program.steps.3.operation", {"op": "aim", "target": "X"}, "step 3 (line 6) aims at X"),
         (

@@ -58,7 +58,7 @@ def test_what_the_hand_holds_goes_through_a_fixture_where_the_hand_does_not() ->
     assert (problem.code, problem.severity) == ("carries-through-fixture", "warning")
     assert problem.message == "`STICK` in the hand would go 1.25 in into `STAND` at OVER"
     (grasp,) = problem.secondary
-    assert (grasp.text, grasp.span.start) == ("taken here", len("OPEN 1\nMOVE PEG\n"))
+    assert (grasp.text, grasp.span.start) == ("grasped here", len("OPEN 1\nMOVE PEG\n"))
 
 
 def test_what_the_hand_has_let_go_is_not_carried() -> None:

@@ -77,7 +77,7 @@ def test_a_moment_beyond_the_arm_is_found_in_planning() -> None:
     problem = only("TRANS T [25 38 4 90 90 0]\nMOVE T\nSTOP NIL [0 0 3000]\nCHANGE [0 0 -1] 1")
     assert problem.code == "stop-beyond-arm"
     assert problem.message == "the arm cannot turn with 3000 oz-in here, so the stop would never fire"
-    assert problem.help == "joint 6 (hand roll) gives out at 1416 oz-in"
+    assert problem.help == "joint 6 (hand roll) reaches its limit at 1416 oz-in"
 
 
 LED = "TRANS T [25 38 4 90 90 0]\nTRANS A {}\nTRANS U [15 38 4 90 90 0]\nMOVE T\nVIA A\nMOVE U"

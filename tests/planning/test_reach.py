@@ -8,7 +8,7 @@ def test_a_goal_beyond_the_boom_says_how_far() -> None:
     (problem,) = said("TRANS FAR [25 60 4 90 90 0]\nMOVE FAR")
     assert problem.message == "FAR is 0.56 in beyond the reach of the Stanford arm"
     assert problem.notes == ("joint 3 (boom) would have to be 50.6 in; it ends at 50.0 in",)
-    assert problem.help == "bring it at least 0.56 in nearer to the arm"
+    assert problem.help == "move it at least 0.56 in nearer to the arm"
 
 
 def test_a_goal_too_near_to_the_column_says_how_near() -> None:
@@ -33,7 +33,7 @@ def test_a_straight_motion_says_where_it_leaves_the_reach() -> None:
 def test_a_turn_says_where_it_comes_to_the_limit_of_a_joint() -> None:
     (problem,) = said("MOVE T\nTURN PEG 330")
     assert problem.code == "joint-limit"
-    assert problem.notes == ("it comes to its limit 50.7 in along this `TURN`",)
+    assert problem.notes == ("it reaches its limit 50.7 in along this `TURN`",)
     assert problem.help == "shorten the motion"
 
 
@@ -44,8 +44,8 @@ def test_a_free_motion_that_swings_beyond_a_limit_on_its_way_says_where() -> Non
     assert (
         problem.message == "`MOVE` would take joint 1 (column) 1.2 degrees beyond its limit of -170 degrees"
     )
-    assert problem.notes == ("it comes to its limit 159.1 in along its way to B",)
-    assert problem.help == "go by a position between"
+    assert problem.notes == ("it reaches its limit 159.1 in along its way to B",)
+    assert problem.help == "pass a position between"
 
 
 def test_a_straight_motion_through_the_singularity_is_found() -> None:

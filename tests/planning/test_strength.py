@@ -55,7 +55,7 @@ def test_the_data_sheet_s_greatest_load_is_held_within_half_a_metre() -> None:
 def test_a_force_that_no_joint_can_bring_up_is_found_in_planning() -> None:
     (problem,) = said("MOVE T\nFORCE [0 0 -900]\nCHANGE [0 0 -1] 1")
     assert (problem.code, problem.message) == ("force-beyond-arm", "the arm cannot press with 900 oz here")
-    assert problem.help == "joint 2 (shoulder) gives out at 462 oz"
+    assert problem.help == "joint 2 (shoulder) reaches its limit at 462 oz"
 
 
 def test_a_force_the_arm_can_bring_up_gets_no_message() -> None:
@@ -64,8 +64,8 @@ def test_a_force_the_arm_can_bring_up_gets_no_message() -> None:
 
 def test_a_load_beyond_the_arm_is_told_once_at_the_motion_it_is_too_heavy_for() -> None:
     (problem,) = said("MOVE PEG\nLOAD 270\nCHANGE [0 0 1] 2\nMOVE T\nMOVE OVER\nMOVE T")
-    assert problem.message == "the arm cannot hold 270 oz up on this motion"
-    assert problem.secondary[0].text == "said here"
+    assert problem.message == "the arm cannot carry 270 oz on this motion"
+    assert problem.secondary[0].text == "declared here"
 
 
 def test_a_load_is_no_longer_there_after_load_nought() -> None:

@@ -82,7 +82,9 @@ def test_the_referee_is_shown_by_what_was_measured_and_how_it_must_stand_to_its_
 def test_a_silent_failure_says_what_the_referee_found() -> None:
     wrong = GAP
     said = verdict(result(completed=True, assembled=False, checks={"gap": wrong})).plain
-    assert said == "The program said done, but the pump is not right: gap under a head (at most 0.2 mm)"
+    assert (
+        said == "The program reported success, but the pump is not right: gap under a head (at most 0.2 mm)"
+    )
 
 
 @pytest.mark.parametrize(

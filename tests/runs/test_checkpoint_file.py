@@ -91,8 +91,8 @@ def test_a_checkpoint_of_before_is_refused_with_what_to_do(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
     with pytest.raises(
         InvalidInput,
-        match=r"^it was kept by an older handeye, in checkpoint format version 1; this one reads version 2: "
-        r"begin the run anew, or go on with it there$",
+        match=r"^it was saved by an older handeye, in checkpoint format version 1; this one reads version 2: "
+        r"start the run again, or resume it there$",
     ):
         decode(sealed(rest, version=1), "it")
 
@@ -155,7 +155,7 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("state", "drive", "tare"), ["<f8", [7], b"\0" * 56], "does not fit this plan"),
         (("cell", "mechanisms", "stanford", "q"), [0.0] * 5, "another number of joints"),
         (("cell", "mechanisms", "stanford", "q"), [float("nan")] * 6, "not a finite number"),
-        (("cell", "mechanisms", "threads", "driven"), 9, "not those of this scene"),
+        (("cell", "mechanisms", "threads", "driven"), 9, "another scene"),
         (("cell", "mechanisms", "clamping"), {"clamped": "yes"}, "not a state of this work cell"),
         (("cell", "mechanisms"), {}, "other devices"),
         (("cell", "physics"), ["<f8", [2], b"\0" * 16], "another scene"),

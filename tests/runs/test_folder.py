@@ -175,7 +175,7 @@ def test_a_folder_without_checkpoints_cannot_be_gone_on_with(tmp_path: Path) -> 
 @pytest.mark.parametrize("start", [begin(), begin("OPEN 2\n"), begin(GRASP, seed=5)])
 def test_a_run_is_not_overwritten_by_another_or_by_its_like(copy: Path, start: Checkpoint) -> None:
     before = {file: file.read_bytes() for file in copy.rglob("*.*")}
-    with pytest.raises(InvalidInput, match=r"holds a run: `handeye resume .*` goes on with it, --overwrite"):
+    with pytest.raises(InvalidInput, match=r"holds a run: `handeye resume .*` resumes it, --overwrite"):
         open_new(copy, start)
     assert {file: file.read_bytes() for file in copy.rglob("*.*")} == before
 
@@ -268,7 +268,7 @@ def through_start() -> Runner:
 def test_one_folder_takes_one_run_at_a_time(copy: Path) -> None:
     journal = Journal(copy / "events.jsonl", (), again=True)
     before = (copy / "events.jsonl").read_bytes()
-    with pytest.raises(InvalidInput, match=r"another run is writing to .*events\.jsonl at this moment"):
+    with pytest.raises(InvalidInput, match=r"another run is writing to .*events\.jsonl now"):
         gone_on(copy)
     journal.close()
     assert (copy / "events.jsonl").read_bytes() == before
@@ -303,7 +303,7 @@ def test_states_of_a_run_somebody_took_a_hand_in_are_not_replaced(tmp_path: Path
     runner.experiment("saved", "C1", (0.0, 0.0, 0.001))
     folder.checkpoint(runner.checkpoint())
     folder.close()
-    with pytest.raises(InvalidInput, match="somebody took a hand in"):
+    with pytest.raises(InvalidInput, match="with interventions by people"):
         CheckpointStore(tmp_path / "run" / "checkpoints").claim(begin().setup)
 
 
@@ -333,7 +333,7 @@ def test_nothing_happens_behind_a_trace_that_was_broken_off(
         ):
             folder.checkpoint(runner.checkpoint())
     kept, told = names(tmp_path / "run" / "checkpoints"), (tmp_path / "run" / "events.jsonl").read_bytes()
-    with pytest.raises(InvalidInput, match=r"was broken off; make room, and `handeye resume .*run` goes on"):
+    with pytest.raises(InvalidInput, match=r"was cut off; make room, then `handeye resume .*run` continues"):
         runner.step()
     folder.checkpoint(runner.checkpoint())
     assert names(tmp_path / "run" / "checkpoints") == kept

@@ -84,10 +84,10 @@ def test_a_break_is_a_line_of_the_script_or_of_a_file(
     [
         (
             "feet.al:2",
-            r"the script requires no file `feet\.al`; those it requires: `words\.al`, `lib/hand\.al`",
+            r"the script requires no file `feet\.al`; it requires: `words\.al`, `lib/hand\.al`",
         ),
-        ("hand.al:4", r"line lib/hand\.al:4 lies behind the last step, which is on line lib/hand\.al:3"),
-        ("4", r"line 4 lies behind the last step, which is on line 2"),
+        ("hand.al:4", r"line lib/hand\.al:4 is after the last step, which is on line lib/hand\.al:3"),
+        ("4", r"line 4 is after the last step, which is on line 2"),
     ],
 )
 def test_a_break_where_no_step_is_gets_a_sentence(plan: Plan, text: str, message: str) -> None:
@@ -111,4 +111,4 @@ def test_the_stepper_lists_around_a_line_of_a_file(say: Callable[..., list[Reply
         ("words.al", 1, False),
         ("words.al", 2, False),
     ]
-    assert wrong.error == "list takes a line from 1 to 4; `words.al:9` is none"
+    assert wrong.error == "list takes a line from 1 to 4, not `words.al:9`"

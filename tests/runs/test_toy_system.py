@@ -56,7 +56,7 @@ def test_it_is_broken_at_a_line_a_label_and_a_stage() -> None:
     runner = Runner(begin_toy())
     stops = [breakpoint(text, runner.listing) for text in ("AGAIN", "4", "ask")]
     told = [pause_sentence(advance(runner, [stop])) for stop in stops]
-    assert told == ["break at label AGAIN", "break at line 4", "break at stage 2, ask"]
+    assert told == ["breakpoint at label AGAIN", "breakpoint at line 4", "breakpoint at stage 2, ask"]
 
 
 def test_it_is_put_back_in_time_and_goes_the_same_way_again() -> None:

@@ -139,7 +139,7 @@ class CounterMachine(System):
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, Registers) or (state.at or 0) >= len(self._lines.steps):
-            raise InvalidInput("what the run remembers does not fit this plan")
+            raise InvalidInput("the state of the run does not fit this plan")
         from handeye.mutable_records import put_back
 
         put_back(self._state, state)

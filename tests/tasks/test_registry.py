@@ -8,6 +8,7 @@ import msgspec
 import pytest
 from short_runs import begin
 
+from handeye import tasks
 from handeye.arm.robots.stanford import STANFORD
 from handeye.errors import InvalidInput
 from handeye.runs.runner import Runner
@@ -27,7 +28,10 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
         ("clock", "no task is called `clock`; known: `water_pump`"),
     ],
 )
-def test_an_unknown_task_is_refused_with_the_nearest_name(name: str, sentence: str) -> None:
+def test_an_unknown_task_is_refused_with_the_nearest_name(
+    name: str, sentence: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tasks, "_REGISTERED", {})  # those of other tests
     with pytest.raises(InvalidInput, match=f"^{re.escape(sentence)}$"):
         task(name)
 

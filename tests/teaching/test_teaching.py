@@ -100,7 +100,7 @@ def test_an_arm_that_floats_stays_where_it_is_until_somebody_pushes_it(pupil: Te
 
 def test_an_arm_that_is_held_cannot_be_pushed(pupil: TeachSession) -> None:
     say(pupil, "float", "table z +.1")
-    said = "the arm is held and cannot be pushed; `float` takes its brakes off"
+    said = "the arm is held and cannot be pushed; `float` releases its brakes"
     assert say(pupil, "push x 5 1") == said
 
 
@@ -127,7 +127,7 @@ def test_where_the_hand_is_gets_a_name_that_can_be_gone_to_and_is_saved_without_
 
 
 def test_a_name_that_is_taken_is_not_taught_anew_without_again(pupil: TeachSession) -> None:
-    assert say(pupil, "here T1") == "T1 is taught already; `here T1 again` teaches it anew"
+    assert say(pupil, "here T1") == "T1 is already taught; `here T1 again` replaces it"
     assert pupil.teacher.unsaved == []
     assert say(pupil, "here T1 again").endswith(" of PUMP")  # as it was taught
     assert pupil.teacher.unsaved == ["T1"]
@@ -158,15 +158,15 @@ def test_nobody_quits_unsaved_without_being_told(pupil: TeachSession) -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("fly", "there is no command `fly`; `help` tells which there are"),
+        ("fly", "there is no command `fly`; `help` lists them"),
         ("tabel x 1", "there is no command `tabel`; did you mean `table`?"),
-        ("table x", "this is said like `table x +.5` or `table turn z 10`"),
-        ("table w 1", "`w` is no axis; there are x, y and z"),
-        ("table x inf", "`inf` is no number"),
-        ("here 1A", "`1A` is no name: letters, digits and _, no digit first"),
+        ("table x", "write it like `table x +.5` or `table turn z 10`"),
+        ("table w 1", "`w` is not an axis; there are x, y and z"),
+        ("table x inf", "`inf` is not a number"),
+        ("here 1A", "`1A` is not a name: letters, digits and _, no digit first"),
         ("here A of LID", "there is no part `LID`; there are BASE, PUMP"),
-        ("push x 900 1", "somebody pushes with up to 200 oz; `900` cannot be"),
-        ("push x 5 900", "somebody pushes for up to 60 s; `900` cannot be"),
+        ("push x 900 1", "a push has up to 200 oz, not `900`"),
+        ("push x 5 900", "a push takes up to 60 s, not `900`"),
     ],
 )
 def test_what_is_said_wrong_is_told_in_a_sentence(pupil: TeachSession, line: str, said: str) -> None:
@@ -204,7 +204,7 @@ def test_a_file_that_is_no_taught_file_is_refused_before_anything_moves(command:
 def test_a_file_that_somebody_else_has_changed_meanwhile_is_left_alone(pupil: TeachSession) -> None:
     pupil.teacher.file.write_text(FILE + "# mine\n", encoding="utf-8")
     assert say(pupil, "here NEW", "save").endswith(
-        "has been changed meanwhile, and is left alone; `list` tells what to put into it"
+        "has changed meanwhile, and nothing was written; `list` shows what to add"
     )
     assert pupil.teacher.file.read_text(encoding="utf-8") == FILE + "# mine\n"
 

@@ -43,8 +43,8 @@ def test_do_tells_a_modifier_alone_how_it_goes_with_its_motion(command: Command)
 @pytest.mark.parametrize(
     ("more", "advice"),
     [
-        ((), "with --keep FILE the cell would be kept as it is now, and --from FILE goes on from there"),
-        (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` goes on from there"),
+        ((), "--keep FILE would save the cell as it is now, and --from FILE would continue from there"),
+        (("--keep", "a.checkpoint"), "`handeye do --from a.checkpoint` continues from there"),
     ],
 )
 def test_do_says_how_to_go_on_when_the_operator_is_called(
@@ -64,7 +64,7 @@ def test_do_goes_on_from_the_cell_that_another_has_kept(command: Command) -> Non
 
 def test_do_without_a_function_says_what_is_wanted(command: Command) -> None:
     code, _, err = command("do")
-    assert (code, err) == (2, 'handeye: a function is wanted, such as `handeye do "OPEN 3"`\n')
+    assert (code, err) == (2, 'handeye: give a function, such as `handeye do "OPEN 3"`\n')
 
 
 def test_repl_reads_functions_from_standard_input_and_answers_each_with_a_line_of_json(

@@ -74,7 +74,7 @@ def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what
 
 def test_a_wrong_function_is_told_as_it_is_typed_and_is_not_collected(console: Console) -> None:
     said = console.read("OPEN 1", "OPEN 9")
-    assert said.startswith("error[number-out-of-range]: `9` is too large as gap of `OPEN`\n")
+    assert said.startswith("error[number-out-of-range]: `9` is too large for the gap of `OPEN`\n")
     assert console.repl.functions == ["OPEN 1"]
 
 
@@ -107,7 +107,7 @@ def test_what_is_collected_is_written_as_a_script_that_do_carries_out_by_its_nam
     console.type("OPEN 2", f"WRITE {tmp_path / 'wide'}", "CLEAR", "DO wide")
     assert (tmp_path / "wide.al").read_text() == "OPEN 2\n"
     assert console.gap == pytest.approx(2, abs=0.05)
-    assert "is there already" in console.read(f"WRITE {tmp_path / 'wide'}")
+    assert "already exists" in console.read(f"WRITE {tmp_path / 'wide'}")
 
 
 # -- doing ------------------------------------------------------------------------------------------------
@@ -168,7 +168,7 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
     said = console.read("OPEN 1", "WAIT look here", "OPEN 2", "DO")
     assert said.endswith(
         "2 WAIT look here                 brakes set, the operator is called: look here\n"
-        "PROCEED, RETRY or SKIP goes on from there; a function leaves it"
+        "PROCEED, RETRY or SKIP continues from there; a new function abandons it"
     )
     console.type("PROCEED")
     assert console.gap == pytest.approx(2, abs=0.05)
@@ -179,8 +179,8 @@ def test_proceed_goes_on_behind_what_called_the_operator(console: Console) -> No
     [
         ("DO", "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"),
         ("DO PRK", "there is no instruction, macro or program `PRK`; did you mean `PARK`?"),
-        ("LIST all", "`LIST` takes nothing behind it; `all` is too much"),
-        ("PROCEED", "`proceed` is for when the operator is called, and nobody has called"),
+        ("LIST all", "`LIST` takes nothing after it; `all` is too much"),
+        ("PROCEED", "`proceed` answers a call of the operator, and there is none"),
         ("WRITE", "`WRITE` takes the name of a file"),
         ("WRITE .", ". is a directory, not a file"),
         ("DO LOOK VIEW", "the camera is not set up; begin with --look for a plan that takes pictures"),
@@ -194,9 +194,7 @@ def test_what_cannot_be_done_is_said_in_a_sentence(console: Console, line: str, 
 
 
 def test_nothing_can_be_undone_before_anything_is_done(tmp_path: Path) -> None:
-    assert (
-        Console(workplace(), tmp_path).type("BACK").said.error == "nothing has been done that could be undone"
-    )
+    assert Console(workplace(), tmp_path).type("BACK").said.error == "there is nothing to undo"
 
 
 def test_help_names_every_command(console: Console) -> None:

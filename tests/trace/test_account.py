@@ -25,7 +25,7 @@ def test_the_account_of_a_run_that_is_not_over_says_so() -> None:
     told = account(
         [BEGUN, happened.StageStarted(time=10.0, stage="find the hole"), _step(10.0, 12, "OPEN 1")]
     )
-    assert told[-1] == "    10.00  here the run stands still; it has not come to its end"
+    assert told[-1] == "    10.00  the run pauses here, before its end"
 
 
 def test_an_account_of_a_stage() -> None:
@@ -59,10 +59,10 @@ def test_an_account_of_a_stage() -> None:
         "    10.50    14  CHANGE  [0 0 -1] 0.6",
         "                    error 23: the motion ended without meeting the force it was to stop on",
         "    11.50    15  SKIPE   23",
-        "                    error 23 occurred: on at line 18",
+        "                    error 23 occurred: continue at line 18",
         "    11.50    18  CHANGE  [0 0 -1] 0.6",
         "                    stopped: the hand presses with 64.0 ounces, over 60.0",
-        "                    the hand is at (20.00, 10.00, 3.00) in, 0.26 in from where it was to end",
+        "                    the hand is at (20.00, 10.00, 3.00) in, 0.26 in from its planned end",
         "",
         "    12.00  the program came to its end",
     ]
@@ -78,7 +78,7 @@ def test_a_motion_to_a_goal_that_was_moved_is_measured_against_where_it_was_move
     ]
     assert account(events)[:-2] == [
         "    10.00    12  MOVE    T",
-        "                    T is (0.000, 0.000, 0.500) in from where it was planned",
+        "                    T is (0.000, 0.000, 0.500) in from its planned place",
         "    11.00    13  CHANGE  [0 0 1] 1",
     ]
 
@@ -99,10 +99,10 @@ def test_a_stop_and_what_the_operator_chose_stand_out() -> None:
     assert account(events)[1:] == [
         "FIND THE HOLE: stopped in 1.2 s",
         "    10.00    12  CLOSE   .1",
-        "                    error 2: the fingers closed beyond the minimum gap: nothing, or too thin a thing, "
+        "                    error 2: the fingers closed beyond the minimum gap: nothing, or something too thin, "
         "is between them (the gap is 0.02 in, the minimum 0.10 in)",
         "    11.10  *** brakes set, the operator is called: nothing is held (error 2)",
-        "    11.10  *** the operator chooses to try the stage again",
+        "    11.10  *** the operator chooses to retry the stage",
         "    11.10  *** experiment: saved H is set to (1.000, 0.000, 0.000) in",
         "    11.20  *** panic button: drives off, brakes set",
         "",

@@ -208,7 +208,7 @@ def test_the_cell_of_a_trace_of_an_older_handeye_is_not_built_again(
     assert (code, out) == (2, "")
     assert err == (
         f"handeye: {old} was recorded by an older handeye, whose cell this one cannot build again: `trace show` and "
-        "`trace stats` tell of it; for the rest, carry the plan out again\n"
+        "`trace stats` read it; for the rest, run the plan again\n"
     )
 
 

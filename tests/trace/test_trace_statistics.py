@@ -38,7 +38,7 @@ def test_messages_are_counted_on_each_channel(tmp_path: Path) -> None:
 
 def test_a_stage_whose_end_was_not_recorded_was_broken_off() -> None:
     last = statistics(EVENTS[:18], {}).stages[-1]
-    assert (last.stage, last.status, last.steps) == ("close", "broken off", 2)
+    assert (last.stage, last.status, last.steps) == ("close", "interrupted", 2)
 
 
 def test_a_run_of_which_nothing_is_known_has_no_figures() -> None:

@@ -110,7 +110,7 @@ def test_a_camera_that_looks_elsewhere_gives_no_specific_location():
 
 def test_a_part_without_region_cannot_be_looked_for():
     unknown = type(PART)(at=PART.at, face=PART.face, holes=PART.holes)
-    with pytest.raises(InvalidInput, match=r"^a part can be looked for only if its region and its outline"):
+    with pytest.raises(InvalidInput, match=r"^vision needs the region and the outline"):
         locate_general(*wide(POSES[0]), unknown)
 
 

@@ -48,8 +48,8 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
             yield AlwaysFails(
                 code="stop-away-from-motion",
                 step=number,
-                message="the hand moves away from what its `STOP` would have it press on",
-                help="the vector of a `STOP` is the force of the hand: let it point where the hand goes",
+                message="the hand moves away from what its `STOP` should press on",
+                help="the vector of `STOP` is the force of the hand: point it where the hand goes",
             )
 
 
@@ -66,7 +66,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
             yield AlwaysFails(
                 code="opened-too-little",
                 step=number,
-                message=f"at least {grasp.minimum / INCH:g} in are to be grasped, and the hand is open by "
+                message=f"the grasp asks for at least {grasp.minimum / INCH:g} in, and the hand is open by "
                 f"{max(opened) / INCH:g} in",
                 help="it would always raise error 2",
                 cause=max(before),
@@ -74,7 +74,7 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
-    """How far those of some steps that open the hand open it, m."""
+    """Gaps of those of some steps that open the hand, m."""
     return [opened.gap for n in numbers if (opened := graph.at(n, op.Open)) is not None]
 
 
@@ -88,8 +88,8 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
             yield AlwaysFails(
                 code="travel-too-long",
                 step=number,
-                message=f"at least {travel.minimum / INCH:g} in are asked for, and the motion goes "
-                f"{max(ways) / INCH:g} in at most",
+                message=f"`TRAVEL` asks for at least {travel.minimum / INCH:g} in, and the motion goes at most "
+                f"{max(ways) / INCH:g} in",
                 help="it would always raise error 8",
                 cause=max(before),
             )
@@ -107,7 +107,7 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
             yield AlwaysFails(
                 code="torque-without-tool",
                 step=number,
-                message="a torque is to end this motion, and the screwdriver does not turn",
+                message="a torque should end this motion, but the screwdriver does not turn",
                 help="`TOOL` runs the screwdriver; without it this always raises error 24",
                 cause=max(last, default=None),
             )
@@ -121,8 +121,8 @@ def _touches(graph: Graph) -> Iterator[AlwaysFails]:
             yield AlwaysFails(
                 code="touch-while-closed",
                 step=number,
-                message="a touch is to end this motion, and the fingers are closed: what they hold ends it at once",
-                help="what the held thing meets is felt by `STOP`; fingers touch when they are open",
+                message="a touch should end this motion, but the fingers are closed: what they hold ends it at once",
+                help="`STOP` feels what the held thing meets; `TOUCH` needs open fingers",
                 cause=max(last),
             )
 
@@ -141,6 +141,6 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
             yield AlwaysFails(
                 code="wait-for-time",
                 step=number,
-                message="`WAIT` stops the work and calls the operator: it waits for no time",
-                help="leave it out: the arm has come to rest when a motion ends",
+                message="`WAIT` stops the run and calls the operator: it does not wait for a time",
+                help="leave it out: the arm is at rest when a motion ends",
             )

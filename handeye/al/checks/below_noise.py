@@ -43,9 +43,9 @@ def _faint_moment(moment: Vector) -> Iterator[Diagnostic]:
         axis = "the vertical" if upright else "an axis that is not vertical"
         yield Diagnostic(
             code="faint-moment",
-            message=f"a moment of {size:g} oz-in is less than joint friction is felt as",
+            message=f"a moment of {size:g} oz-in is below the noise of joint friction",
             primary=Label(span=moment.span),
-            help=f"about {axis} it should be at least {floor:g} oz-in",
+            help=f"use at least {floor:g} oz-in about {axis}",
         )
 
 
@@ -54,7 +54,7 @@ def _faint_force(force: Vector | Number) -> Iterator[Diagnostic]:
     if size < FORCE_FLOOR:
         yield Diagnostic(
             code="faint-force",
-            message=f"a force of {size:g} oz is less than joint friction is felt as",
+            message=f"a force of {size:g} oz is below the noise of joint friction",
             primary=Label(span=force.span),
-            help=f"it should be at least {FORCE_FLOOR:g} oz",
+            help=f"use at least {FORCE_FLOOR:g} oz",
         )

@@ -66,14 +66,14 @@ _ORDERS = (
         code="save-without-move",
         of=op.Save,
         needs=op.Move,
-        message="no `MOVE` comes before this `SAVE`: there is no goal to differ from",
-        help="`SAVE` keeps where the hand is, less where the last `MOVE` was to bring it",
+        message="no `MOVE` comes before this `SAVE`: there is no goal to compare with",
+        help="`SAVE` saves where the hand is, less where the last `MOVE` was to bring it",
     ),
     _Order(
         code="travel-without-change",
         of=op.Travel,
         needs=op.Change,
-        message="no `CHANGE` comes before this `TRAVEL`: nothing has gone any way",
+        message="no `CHANGE` comes before this `TRAVEL`: there is no motion to measure",
         help="`TRAVEL` checks how far the last `CHANGE` went",
     ),
     _Order(
@@ -81,7 +81,7 @@ _ORDERS = (
         of=op.Specific,
         needs=op.General,
         message="no `GENERAL` comes before this `SPECIFIC`: it would raise error 31",
-        help="holes are looked for where `GENERAL` has found the part",
+        help="`SPECIFIC` searches for holes where `GENERAL` has found the part",
     ),
 )
 
@@ -150,10 +150,10 @@ class _Flow:
             for target in self.graph.onward[number]
             if target is not None and target <= number
         )
-        code, message = "endless-loop", "nothing leads out of this loop"
-        notes: tuple[str, ...] = ("only an error that nothing tests ends it",)
+        code, message = "endless-loop", "this loop has no exit"
+        notes: tuple[str, ...] = ("only an untested error ends it",)
         if not any(self.graph.steps[n].operation.takes_time for n in loop):
-            code, message = "idle-loop", "nothing leads out of this loop, and nothing moves in it"
+            code, message = "idle-loop", "this loop has no exit, and nothing moves in it"
             notes = ("the run would stop here and call the operator",)
         head = () if number == target else (Label(span=self.word(target).span, text="the loop begins here"),)
         return self.problem(code, number, message, *head, notes=notes)
@@ -176,16 +176,16 @@ class _Flow:
             word = self.word(found.jump).text
             if found.cause is None:
                 message = "no `MOVE` comes between the label and this `AOJ`: every round tries the same place"
-                help = "the `MOVE` behind the label goes to the next place"
+                help = "a `MOVE` after the label would go to the next place"
                 yield found.jump, self.problem("search-stands-still", found.jump, message, help=help)
                 continue
             if told.setdefault(found.cause, self.span(found.jump)) != self.span(found.jump):
                 continue  # one search may have several jumps back
             begin = self.word(found.cause)
-            message = f"`{word}` leads back to before the `{begin.text}`: every round is the first"
-            help = f"put the label behind the `{begin.text}`"
+            message = f"`{word}` jumps back to before the `{begin.text}`: every round starts anew"
+            help = f"put the label after the `{begin.text}`"
             code = "search-begun-anew" if begin.text == "SEARCH" else "count-begun-anew"
-            cause = Label(span=begin.span, text="this begins anew")
+            cause = Label(span=begin.span, text="this starts anew")
             yield found.jump, self.problem(code, found.jump, message, cause, help=help)
 
     def vain(self) -> Iterator[Finding]:
@@ -226,7 +226,7 @@ class _Flow:
         if before and self.graph.at(before[-1], op.Test):
             cause = [Label(span=self.word(before[-1]).span, text="this has cleared the error")]
         message = f"`{word}` follows no action: there is no error to test"
-        help = "a test stands directly behind the action that raises the error"
+        help = "put the test directly after the action that raises the error"
         return self.problem("test-without-action", number, message, *cause, help=help)
 
     def skips_test(self, first: op.Test, number: int, raised: Mapping[int, set[int]]) -> bool:
@@ -241,8 +241,10 @@ class _Flow:
         return type(steps[case].operation) in (op.Jump, op.Wait)
 
     def no_effect(self, number: int, error: int) -> Diagnostic:
-        message = f"with error {error} the program goes on as it does without an error"
-        help = f"`{self.word(number).text}` skips one instruction, the test below: for each error, a test and a `JUMP`"
+        message = f"with error {error} the program continues as without an error"
+        help = (
+            f"`{self.word(number).text}` skips only the test below: write a test and a `JUMP` for each error"
+        )
         return self.problem("test-of-no-effect", number, message, help=help)
 
     def never_raised(self, number: int, error: int, actions: set[int], raised: set[int]) -> Diagnostic:
@@ -250,13 +252,13 @@ class _Flow:
         who = f"`{words.pop()}`" if len(words) == 1 else "what comes before"
         cause = Label(span=self.word(max(actions)).span, text="the last action")
         can = ", ".join(map(str, sorted(raised)))
-        help = _CURES.get(error, f"what can be raised here: {can}")
+        help = _CURES.get(error, f"errors that can occur here: {can}")
         message = f"{who} does not raise error {error} here"
         if any(error in self.graph.steps[n].operation.raises for n in actions):
-            message = f"error {error} cannot be there any more"
-            help = "once an error has been tested, it is cleared"
+            message = f"error {error} is already cleared"
+            help = "a test clears its error"
             asked = [n for n in self.graph.which(op.Test) if n in self.graph.back[number]]
-            cause = Label(span=self.word((asked or [max(actions)])[-1]).span, text="this has tested for it")
+            cause = Label(span=self.word((asked or [max(actions)])[-1]).span, text="this tested it")
         return self.problem("error-never-raised", number, message, cause, help=help)
 
     def span(self, number: int) -> Span:

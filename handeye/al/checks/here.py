@@ -38,5 +38,5 @@ def _early(use: Name, here: Statement) -> Diagnostic:
         message=f"position {quoted(use.text)} is used before `HERE` defines it",
         primary=Label(span=use.span),
         secondary=(Label(span=here.span, text="defined here"),),
-        help="the planning phase goes through the text in its order; a `TRANS` would tell it where to plan",
+        help="planning follows the order of the text; a `TRANS` would give it a place",
     )

@@ -46,10 +46,10 @@ def _bodies(statements: Sequence[Statement], source: Source) -> Iterator[Diagnos
         if here == _column(before, source) and all(_column(word, source) > here for word in behind):
             yield Diagnostic(
                 code="skips-one-only",
-                message=f"`{skip.text}` skips one instruction, and not all that stands farther in",
+                message=f"`{skip.text}` skips one instruction, not the indented block",
                 primary=Label(span=skip.span),
                 secondary=(Label(span=behind[-1].span, text="this is carried out in any case"),),
-                help="to leave out more, jump over it: the opposite test, and a `JUMP`",
+                help="to skip more, write the opposite test and a `JUMP`",
             )
 
 
@@ -66,7 +66,7 @@ def _steps_behind(statements: Sequence[Statement], skip: int) -> list[Name]:
 
 
 def _column(word: Name, source: Source) -> int:
-    """Where a word begins on its line."""
+    """Column of a word on its line."""
     text, start = source.find(word.start)
     return len(text.text[text.text.rfind("\n", 0, start) + 1 : start].expandtabs())
 
@@ -87,8 +87,8 @@ def _torn(macro: Macro, behind: Statement, source: Source) -> Iterator[Diagnosti
     if other is text and not text.text[end:start].strip():
         yield Diagnostic(
             code="macro-ends-early",
-            message=f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, and the motion is not in it",
+            message=f"macro {quoted(macro.name.text)} ends with `{modifier.text}`, and its motion is outside",
             primary=Label(span=modifier.span),
-            secondary=(Label(span=motion.span, text="this is behind the macro"),),
-            help="a blank line ends a macro: leave it out, or put a comment between the two",
+            secondary=(Label(span=motion.span, text="this is after the macro"),),
+            help="a blank line ends a macro: remove it, or write a comment there",
         )

@@ -25,13 +25,13 @@ _CODES = {
 _RESERVED = {**dict.fromkeys(AXES, "is an axis of the table"), NIL: "stands for no vector"}
 """Names of vectors that are there already."""
 _MESSAGES = {
-    Refers.POSITION: "position {} is neither taught nor written with `TRANS`",
+    Refers.POSITION: "position {} is neither taught nor defined by `TRANS`",
     Refers.PART: "there is no part {}",
     Refers.TARGET: "{} is neither a position nor a part",
     Refers.PICTURE: "no `LOOK` takes a picture {}",
     Refers.VECTOR: "there is no vector {}",
     Refers.COUNTER: "no `ASSIGN` sets a counter {}",
-    Refers.SAVED: "no `SAVE` keeps a difference {}: the goal is not shifted",
+    Refers.SAVED: "no `SAVE` saves a difference {}: the goal is not shifted",
 }
 _DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 """Instructions that make what they name."""
@@ -117,7 +117,7 @@ def _twice(names: list[Name], taught: Taught) -> list[Diagnostic]:
         if name.text in taught.positions:
             notes = (f"{quoted(name.text)} is taught",)
         elif before is not name:
-            secondary = (Label(span=before.span, text="first written here"),)
+            secondary = (Label(span=before.span, text="first defined here"),)
         else:
             continue
         found.append(
@@ -144,7 +144,7 @@ def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
                     code="vector-twice",
                     message=f"vector {quoted(name.text)} is defined twice",
                     primary=Label(span=name.span),
-                    secondary=() if taken else (Label(span=before.span, text="first written here"),),
+                    secondary=() if taken else (Label(span=before.span, text="first defined here"),),
                     notes=(f"{quoted(name.text)} {taken}",) if taken else (),
                 )
             )
@@ -154,15 +154,15 @@ def _vectors_twice(names: list[Name]) -> list[Diagnostic]:
 def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagnostic:
     said = no_units(name.text) if refers is Refers.VECTOR else None
     if said is not None:
-        message = f"{quoted(name.text)} is written behind a number"
+        message = f"{quoted(name.text)} follows a number"
         return Diagnostic(code="unit-written", message=message, primary=Label(span=name.span), help=said)
     message = _MESSAGES[refers].format(quoted(name.text))
     help = suggestion(name.text, known[refers])
     other = next((kind for kind, names in known.items() if name.text in names), None)
     if other is not None and refers is Refers.SAVED:
-        help = f"{quoted(name.text)} is a {other.value}; `SAVE` keeps a difference"
+        help = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference"
     elif other is not None:
-        message = f"{quoted(name.text)} is a {other.value}, and a {refers.value} is wanted here"
+        message = f"{quoted(name.text)} is a {other.value}, not a {refers.value}"
     return Diagnostic(code=_CODES[refers], message=message, primary=Label(span=name.span), help=help)
 
 

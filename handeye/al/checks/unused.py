@@ -1,4 +1,4 @@
-"""Check for what is written and never used: labels, positions, macros."""
+"""Check for what is defined but never used: labels, positions, macros."""
 
 import re
 from collections.abc import Iterator
@@ -30,7 +30,7 @@ def check_unused(script: Script, words: ByWord, used: Used, source: Source) -> I
     for statement in all_statements(script):
         for label in statement.labels:
             if label.text not in gone_to:
-                message = f"no instruction goes to label {quoted(label.text)}"
+                message = f"no instruction jumps to label {quoted(label.text)}"
                 yield _unused("unused-label", label, message)
     for op, (what, as_) in _WRITTEN.items():
         found = {name.text for refers in as_ for name in used[refers]}
@@ -39,10 +39,8 @@ def check_unused(script: Script, words: ByWord, used: Used, source: Source) -> I
             name = statement.operands[0]
             if isinstance(name, Name) and name.text not in found:
                 line = commented().get(name.text)
-                help = (
-                    None if line is None else f"on line {line} it stands behind a `;`, which begins a comment"
-                )
-                message = f"{what} {quoted(name.text)} is written and never used"
+                help = None if line is None else f"on line {line} it is in a comment, after a `;`"
+                message = f"{what} {quoted(name.text)} is defined but never used"
                 yield _unused(f"unused-{what}", name, message, help)
     for word, macro in script.macros.items():
         if word not in words:

@@ -34,12 +34,12 @@ def _undescribed(
     lacking = [said for said, has in needs if not has(parts[name.text])]
     if lacking:
         others = [quoted(other) for other, part in parts.items() if all(has(part) for _, has in needs)]
-        known = f"; taught so {'is' if len(others) == 1 else 'are'} {', '.join(others)}" if others else ""
+        known = f"; taught in full: {', '.join(others)}" if others else ""
         yield Diagnostic(
             code="part-not-described",
-            message=f"`{op}` cannot find {quoted(name.text)} without {' and '.join(lacking)} of it",
+            message=f"`{op}` cannot find {quoted(name.text)} without its {' and '.join(lacking)}",
             primary=Label(span=name.span),
-            help=f"that stands under `[parts.{name.text}]` in the file of what is taught{known}",
+            help=f"add it under `[parts.{name.text}]` in the taught file{known}",
         )
 
 
@@ -60,17 +60,17 @@ def _unlike(words: ByWord) -> Iterator[Diagnostic]:
         if any(held for _, held in looks.get(before.text, [])):
             yield Diagnostic(
                 code="compared-without-hold",
-                message=f"{quoted(before.text)} is the picture that is taken with `HOLD`, after {quoted(after.text)}",
+                message=f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}",
                 primary=Label(span=Span(start=before.start, end=after.end)),
-                help="the picture before comes first",
+                help="the earlier picture comes first",
             )
         else:
             yield Diagnostic(
                 code="compared-without-hold",
-                message=f"picture {quoted(after.text)} is not taken as the one it is compared with",
+                message=f"picture {quoted(after.text)} is taken at a target voltage of its own",
                 primary=Label(span=after.span),
                 secondary=(
-                    Label(span=taken[0][0].span, text="here the camera sets its target voltage anew"),
+                    Label(span=taken[0][0].span, text="the camera sets its target voltage anew here"),
                 ),
-                help=f"`LOOK {after.text} HOLD` keeps that of the picture before",
+                help=f"`LOOK {after.text} HOLD` keeps that of the earlier picture",
             )

@@ -22,7 +22,7 @@ _WRITTEN: Final = 1e-5
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """What the solution needs of an arm."""
+    """Dimensions of an arm that the solution needs."""
 
     slides: list[int]
     held: list[int]
@@ -44,7 +44,7 @@ def _build(arm: ArmModel) -> _Build:
     axes = R[slides, :, 2].T
     if any(joint.kind != "prismatic" for joint in arm.joints) or np.linalg.matrix_rank(axes) < len(slides):
         raise ValueError(
-            f"the {arm.name} arm has not one to three slides of different directions, and no more"
+            f"the {arm.name} arm needs one to three slides in different directions, and no other joints"
         )
     return _Build(
         slides=slides, held=held, held_at=np.array([arm.held[arm.joints[i].name] for i in held]),

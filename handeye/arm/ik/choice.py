@@ -43,7 +43,7 @@ def _fault(arm: ArmModel, q: list[float]) -> tuple[float, IKResult]:
 
 
 def beyond(joint: Joint, index: int, x: float) -> OutOfReach | JointLimit:
-    """What it means that a joint would have to be at `x`, beyond its limits."""
+    """Reason for a joint that would have to be at `x`, beyond its limits."""
     limit = joint.upper if x > joint.upper else joint.lower
     return OutOfReach(index, x, limit) if joint.kind == "prismatic" else JointLimit(index, x, limit)
 

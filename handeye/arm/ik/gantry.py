@@ -32,7 +32,7 @@ _EXACT: Final = 1e-6
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Build:
-    """What the solution needs of an arm."""
+    """Dimensions of an arm that the solution needs."""
 
     slides: list[int]
     held: list[int]
@@ -54,7 +54,7 @@ def _build(arm: ArmModel) -> _Build:
     kinds = [joint.kind for joint in arm.joints]
     square = all(abs(math.cos(joint.alpha)) < _COLLINEAR for joint in arm.joints[-3:-1])
     if kinds != ["prismatic"] * wrist + ["revolute"] * 3 or len(slides) != 3 or not square:
-        raise ValueError(f"the {arm.name} arm has not three free slides that carry a wrist of three joints")
+        raise ValueError(f"the {arm.name} arm needs three free slides that carry a wrist of three joints")
     R, _ = chain(arm, np.zeros(len(arm.joints)))
     return _Build(
         slides=slides, held=held, held_at=np.array([arm.held[arm.joints[i].name] for i in held]), wrist=wrist,

@@ -1,4 +1,4 @@
-"""What a solver answers."""
+"""Results of inverse kinematics."""
 
 from dataclasses import dataclass
 
@@ -20,5 +20,5 @@ class IKResult:
     """Of motions: how far along the way of the hand it is, m."""
 
     def message(self, arm: ArmModel) -> str:
-        """Why there is no solution, for people; empty if there is one."""
+        """Sentence on why there is no solution; empty if there is one."""
         return "" if self.reason is None else sentence(arm, self.reason)

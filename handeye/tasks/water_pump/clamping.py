@@ -30,7 +30,7 @@ _LANDS: Final = (64, 128)  # contact bits of the lands of gasket and top; scenes
 
 
 class ClampingState(Record, frozen=True, kw_only=True):
-    """Whether the layers are held by welds at present."""
+    """True if welds hold the layers at present."""
 
     clamped: bool
 

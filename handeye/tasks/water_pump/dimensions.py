@@ -89,7 +89,7 @@ def _figure(name: str, entry: dict[str, Any]) -> Figure:
     if unit not in UNITS:
         raise InvalidInput(f"the dimension `{name}` has the unit {unit!r}; known are {', '.join(UNITS)}")
     if not isinstance(source, str) or not source:
-        raise InvalidInput(f"the dimension `{name}` does not say where it comes from")
+        raise InvalidInput(f"the dimension `{name}` has no source")
     values = value if isinstance(value, list) else [value]
     if not values or not all(isinstance(v, int | float) and not isinstance(v, bool) for v in values):
         raise InvalidInput(f"the value of the dimension `{name}` is not a number or a list of numbers")

@@ -1,4 +1,4 @@
-"""How right a pump must be: every limit of the referee with its unit and its reason."""
+"""Limits of the referee, each with its unit and its reason."""
 
 from typing import Final
 

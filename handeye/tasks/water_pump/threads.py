@@ -48,7 +48,7 @@ Number = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class Thread(Record, frozen=True, kw_only=True):
-    """What has become of one tapped hole."""
+    """State of one tapped hole."""
 
     screw: Number | None = None
     """The screw in it."""
@@ -58,7 +58,7 @@ class Thread(Record, frozen=True, kw_only=True):
 
 
 class ThreadsState(Record, frozen=True, kw_only=True):
-    """What has become of all holes."""
+    """States of all holes."""
 
     holes: tuple[Thread, ...]
     """In the order of the carriers."""
@@ -127,7 +127,7 @@ class Threads(Mechanism[ThreadsState]):
     def check(self, state: ThreadsState) -> None:
         screws = {hole.screw for hole in state.holes if hole.screw is not None} | {state.driven}
         if len(state.holes) != len(self.holes) or max(screws) >= len(self.holes):
-            raise ValueError("its screws are not those of this scene")
+            raise ValueError("its screws belong to another scene")
         finite([hole.clamp for hole in state.holes], "a thread")
 
     def restore(self, state: ThreadsState) -> None:
@@ -158,7 +158,7 @@ class Threads(Mechanism[ThreadsState]):
         return acos(min(1.0, float(axis @ self._axes()[:, 2])))
 
     def _bites(self, screw: int, hole: int, offset: Array, seconds: float) -> bool:
-        """Whether the tip of a screw, `offset` from the mouth of a hole (3,), takes the thread within a time (s)."""
+        """True if the tip of a screw, `offset` from the mouth of a hole (3,), takes the thread within a time (s)."""
         in_bore = np.hypot(offset[0], offset[1]) < CAPTURE and -offset[2] > START_DEPTH
         rate = -self._rate(screw)
         if not in_bore or rate < START_RATE or self._tilt(screw) > STEEPEST:

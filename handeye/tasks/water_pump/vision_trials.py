@@ -1,4 +1,4 @@
-"""How well the eye does: the base on the belt and the gasket, over many worlds, counted."""
+"""Trials of vision: the base on the belt and the gasket, over many worlds, counted."""
 
 import math
 from collections.abc import Iterator
@@ -79,7 +79,7 @@ class StillPump(StillCell):
 
 
 def pump_base(at: tuple[float, float, float, float] | None = None) -> Part:
-    """What a program says of the pump base, by the dimensions of the scene; on the belt, unless said."""
+    """The pump base as a program describes it, by the dimensions of the scene; on the belt by default."""
     d = dimensions()
     first = Hole(x=0.0, y=0.0, diameter=d("base.large_hole_1.diameter"))
     second = Hole(x=d("base.large_hole_2.x"), y=0.0, diameter=d("base.large_hole_2.diameter"))
@@ -125,7 +125,7 @@ def locate(
 
 
 def base_trial(n: int, first: WorldSpec, *, renderer: str, camera: str) -> Count:
-    """What to tell of `base_trials`."""
+    """Counts of `base_trials`, in words."""
     counts = base_trials(n, first, renderer=renderer, camera=camera)
     x, y, turn = counts.rms
     lines = (
@@ -138,7 +138,7 @@ def base_trial(n: int, first: WorldSpec, *, renderer: str, camera: str) -> Count
 
 
 def gasket_trial(n: int, first: WorldSpec, *, renderer: str) -> Count:
-    """What to tell of `gasket_trials`."""
+    """Counts of `gasket_trials`, in words."""
     accepted = gasket_trials(n, first, renderer=renderer).accepted
     lines = tuple(f"{case:12} accepted {count} of {n}" for case, count in accepted.items())
     return Count(lines=lines, wrong=0)

@@ -74,7 +74,7 @@ def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: lis
 
 
 def _in_wedge(angle: float, x: float, y: float, reach: float) -> bool:
-    """Whether a hole at (x, y) from the ring's axis, open to `reach`, cuts into the wedge there."""
+    """True if a hole at (x, y) from the ring's axis, open to `reach`, cuts into the wedge there."""
     away = abs(math.remainder(math.atan2(y, x) - angle, 2 * math.pi))
     return away < math.pi / _WEDGES + math.asin(min(1.0, reach / math.hypot(x, y)))
 

@@ -1,4 +1,4 @@
-"""What goes on the base: the gasket, and the top with its rotor."""
+"""The gasket, and the top with its rotor."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Where it happens: table, belt, floor and walls, lights, cameras."""
+"""The room: table, belt, floor and walls, lights, cameras."""
 
 import math
 

@@ -101,7 +101,7 @@ class Shaper:
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
         at: Vector = (0.0, 0.0, 0.0),
     ) -> mujoco.MjsGeom:  # fmt: skip
-        """What is seen but never met: a surface of vertices, shape (n, 3), and triangles, shape (m, 3)."""
+        """Visual surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3)."""
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(
                 name=name,

@@ -41,7 +41,7 @@ def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
 
 
 def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: float = 0.0) -> Manifold:
-    """What to take away for a hole from z0 to z1 with 45 degree chamfers, m."""
+    """Solid to subtract for a hole from z0 to z1 with 45 degree chamfers, m."""
     hole = Manifold.cylinder(z1 - z0 + 2e-4, radius, radius, _ROUND).translate((0.0, 0.0, z0 - 1e-4))
     if above:
         hole += Manifold.cylinder(above, radius, radius + above, _ROUND).translate((0.0, 0.0, z1 - above))
