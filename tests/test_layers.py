@@ -123,7 +123,7 @@ def test_cell_and_referee_know_no_task(module: str) -> None:
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] == "cell"])
 def test_the_cell_knows_nothing_of_seeing_but_how_a_camera_is_built(module: str) -> None:
-    assert {o for o in own(module) if o.split(".")[0] == "vision"} <= {"vision.camera"}
+    assert {o for o in own(module) if o.split(".")[0] == "vision"} <= {"vision.camera_model"}
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] != "tasks"])

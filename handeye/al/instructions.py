@@ -24,7 +24,7 @@ from handeye.al.definition import (
 )
 from handeye.al.operand_kinds import ERROR, MOMENT, also, gap, name_of, named_vector, number, vector, word
 from handeye.al.syntax import Name, Number, Text, Vector
-from handeye.program.operations import VIAS
+from handeye.program.motion_operations import VIAS
 
 AXES: Final = ("X", "Y", "Z")
 """Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""

@@ -13,7 +13,8 @@ from handeye.al.lower_statement import operation, restore
 from handeye.al.macros import Call, Placed
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
-from handeye.program.operations import AnyOperation, Move
+from handeye.program.motion_operations import Move
+from handeye.program.operations import AnyOperation
 from handeye.program.program import SourcePlace, Step
 from handeye.source import Source, Span
 

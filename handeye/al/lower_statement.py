@@ -10,8 +10,24 @@ from msgspec.structs import replace
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
 from handeye.program import guards as g
-from handeye.program import operations as p
+from handeye.program.flow_operations import (
+    Advance,
+    Assign,
+    Countdown,
+    Here,
+    Jump,
+    Load,
+    Save,
+    Search,
+    Test,
+    Tool,
+    Wait,
+    Where,
+)
+from handeye.program.motion_operations import Center, Change, Close, Move, Open, Restore, Travel, Turn
+from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
+from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.record import Vector3
 from handeye.units import INCH, OUNCE_FORCE
 
@@ -92,7 +108,7 @@ class _How(msgspec.Struct, frozen=True, kw_only=True):
 _FREELY: Final = _How()
 
 
-def operation(statement: Statement, modifiers: Sequence[Statement]) -> p.AnyOperation:
+def operation(statement: Statement, modifiers: Sequence[Statement]) -> AnyOperation:
     """The operation of a statement whose modifiers fit it, jumps and skips still without their targets."""
     assert statement.word is not None
     how = _FREELY
@@ -114,10 +130,10 @@ def position(statement: Statement) -> tuple[str, Position]:
     return operands.name("name"), Position(at=(x, y, z, o, a, t), of=of)
 
 
-def restore(statement: Statement) -> p.Restore:
+def restore(statement: Statement) -> Restore:
     """The shift that a `RESTORE` adds to its `MOVE`."""
     operands = _operands(statement)
-    return p.Restore(name=operands.name("name"), level=operands.has("LEVEL"))
+    return Restore(name=operands.name("name"), level=operands.has("LEVEL"))
 
 
 def _stop(operands: Operands) -> g.Guards:
@@ -130,12 +146,12 @@ def _stop(operands: Operands) -> g.Guards:
     )
 
 
-def _change(operands: Operands, how: _How) -> p.Change:
+def _change(operands: Operands, how: _How) -> Change:
     x, y, z = operands.vector3("[x y z]")
     scale = operands.number("distance") / math.hypot(x, y, z)
     displacement = (x * scale, y * scale, z * scale)
     speed = operands.number_or("speed") or None
-    return p.Change(
+    return Change(
         displacement=displacement,
         speed=speed,
         guards=how.guards,
@@ -146,8 +162,8 @@ def _change(operands: Operands, how: _How) -> p.Change:
     )
 
 
-def _place(_: Operands, how: _How) -> p.Change:
-    return p.Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
+def _place(_: Operands, how: _How) -> Change:
+    return Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
 
 
 _MODIFIERS: Final[dict[str, Callable[[_How, Operands], _How]]] = {
@@ -159,37 +175,37 @@ _MODIFIERS: Final[dict[str, Callable[[_How, Operands], _How]]] = {
     "TORQUE": lambda how, o: replace(how, guards=(g.Torque(torque=o.number("torque")),)),
     "TOUCH": lambda how, o: replace(how, guards=(g.Touch(fingers=int(o.number("mask"))),)),
 }
-_MOTIONS: Final[dict[str, Callable[[Operands, _How], p.AnyOperation]]] = {
-    "MOVE": lambda o, how: p.Move(
+_MOTIONS: Final[dict[str, Callable[[Operands, _How], AnyOperation]]] = {
+    "MOVE": lambda o, how: Move(
         goal=o.name("position"), direct=o.has("DIRECT"), guards=how.guards, via=how.via
     ),
-    "PARK": lambda _, how: p.Move(goal="PARK", guards=how.guards, via=how.via),
-    "TURN": lambda o, how: p.Turn(centre=o.name("position"), angle=o.number("angle"), guards=how.guards),
+    "PARK": lambda _, how: Move(goal="PARK", guards=how.guards, via=how.via),
+    "TURN": lambda o, how: Turn(centre=o.name("position"), angle=o.number("angle"), guards=how.guards),
     "CHANGE": _change,
     "PLACE": _place,
 }
-_STEPS: Final[dict[str, Callable[[Operands], p.AnyOperation]]] = {
-    "OPEN": lambda o: p.Open(gap=o.number("gap")),
-    "CLOSE": lambda o: p.Close(minimum=o.number_or("minimum") or 0.0, maximum=o.number_or("maximum")),
-    "CENTER": lambda o: p.Center(minimum=o.number_or("minimum") or 0.0),
-    "SEARCH": lambda o: p.Search(step=o.number("step"), limit=PLACES),
-    "SKIPE": lambda o: p.Test(number=int(o.number("error")), raised=None),
-    "SKIPN": lambda o: p.Test(number=int(o.number("error")), raised=None),
-    "AOJ": lambda _: p.Advance(),
-    "ASSIGN": lambda o: p.Assign(counter=o.name("counter"), value=int(o.number("value"))),
-    "SOJG": lambda o: p.Countdown(counter=o.name("counter"), positive=None),
-    "JUMP": lambda _: p.Jump(),
-    "WAIT": lambda o: p.Wait(message=o.name("text")),
-    "SAVE": lambda o: p.Save(name=o.name("name")),
-    "HERE": lambda o: p.Here(position=o.name("name")),
-    "WHERE": lambda _: p.Where(),
-    "TRAVEL": lambda o: p.Travel(minimum=o.number("minimum"), maximum=o.number("maximum")),
-    "TOOL": lambda o: p.Tool(speed=o.number("speed")),
-    "LOAD": lambda o: p.Load(weight=o.number("weight")),
-    "LENS": lambda o: p.Lens(focal_length=o.number("mm")),
-    "AIM": lambda o: p.Aim(target=o.name("name")),
-    "LOOK": lambda o: p.Look(picture=o.name("picture"), hold_target=o.has("HOLD")),
-    "GENERAL": lambda o: p.General(part=o.name("part"), picture=o.name("picture")),
-    "SPECIFIC": lambda o: p.Specific(part=o.name("part"), picture=o.name("picture")),
-    "INSPECT": lambda o: p.Inspect(part=o.name("part"), before=o.name("before"), after=o.name("after")),
+_STEPS: Final[dict[str, Callable[[Operands], AnyOperation]]] = {
+    "OPEN": lambda o: Open(gap=o.number("gap")),
+    "CLOSE": lambda o: Close(minimum=o.number_or("minimum") or 0.0, maximum=o.number_or("maximum")),
+    "CENTER": lambda o: Center(minimum=o.number_or("minimum") or 0.0),
+    "SEARCH": lambda o: Search(step=o.number("step"), limit=PLACES),
+    "SKIPE": lambda o: Test(number=int(o.number("error")), raised=None),
+    "SKIPN": lambda o: Test(number=int(o.number("error")), raised=None),
+    "AOJ": lambda _: Advance(),
+    "ASSIGN": lambda o: Assign(counter=o.name("counter"), value=int(o.number("value"))),
+    "SOJG": lambda o: Countdown(counter=o.name("counter"), positive=None),
+    "JUMP": lambda _: Jump(),
+    "WAIT": lambda o: Wait(message=o.name("text")),
+    "SAVE": lambda o: Save(name=o.name("name")),
+    "HERE": lambda o: Here(position=o.name("name")),
+    "WHERE": lambda _: Where(),
+    "TRAVEL": lambda o: Travel(minimum=o.number("minimum"), maximum=o.number("maximum")),
+    "TOOL": lambda o: Tool(speed=o.number("speed")),
+    "LOAD": lambda o: Load(weight=o.number("weight")),
+    "LENS": lambda o: Lens(focal_length=o.number("mm")),
+    "AIM": lambda o: Aim(target=o.name("name")),
+    "LOOK": lambda o: Look(picture=o.name("picture"), hold_target=o.has("HOLD")),
+    "GENERAL": lambda o: General(part=o.name("part"), picture=o.name("picture")),
+    "SPECIFIC": lambda o: Specific(part=o.name("part"), picture=o.name("picture")),
+    "INSPECT": lambda o: Inspect(part=o.name("part"), before=o.name("before"), after=o.name("after")),
 }

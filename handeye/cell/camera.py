@@ -15,7 +15,7 @@ from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
 from handeye.record import Record
-from handeye.vision.camera import CameraModel, View
+from handeye.vision.camera_model import CameraModel, View
 
 TURRET: Final = 20.0
 REFOCUS: Final = 12.0

@@ -17,7 +17,7 @@ from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 
 PLATFORMS: Final = (
     ("EGL", "mujoco.egl", ("libEGL.so.1",), ("libOpenGL.so.0", "libGL.so.1")),

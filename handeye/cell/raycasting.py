@@ -10,7 +10,7 @@ from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.pose import Array
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 
 SKY: Final = 0.1
 """Luminance where there is nothing. Placeholder."""

@@ -14,7 +14,7 @@ import numpy as np
 from handeye.cell.vidicon import Luminance
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.pose import Array
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 
 FINE: Final = 2
 """Samples for a picture point, along the line and across it."""

@@ -7,7 +7,7 @@ from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.device_errors import CameraErrors
 from handeye.cell.renderers import make_renderer
 from handeye.pose import Array, Pose, pose
-from handeye.vision.camera import CameraModel
+from handeye.vision.camera_model import CameraModel
 
 
 class StillCell:

@@ -22,8 +22,8 @@ from handeye.ports.workcell import Workcell
 from handeye.pose import hand
 from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
-from handeye.vision.camera import CameraModel
-from handeye.vision.spot import find_spot
+from handeye.vision.camera_model import CameraModel
+from handeye.vision.lamp import find_spot
 
 FEWEST: Final = 8
 """Sightings with each lens below which the set-up is called a failure."""

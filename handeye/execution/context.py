@@ -13,7 +13,7 @@ from handeye.mutable_records import put_back
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.program.world_model import WorldModel
-from handeye.vision.camera import CameraModel
+from handeye.vision.camera_model import CameraModel
 
 
 @dataclass(slots=True, kw_only=True)

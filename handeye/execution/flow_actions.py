@@ -6,12 +6,25 @@ from handeye import errors
 from handeye.events import ErrorTested, HandTold, PositionDefined, Saved, SearchAdvanced
 from handeye.execution.context import Action, Decision, ExecutionContext
 from handeye.execution.state import Fault, SearchState, vector
-from handeye.program import operations as op
+from handeye.program.flow_operations import (
+    Advance,
+    Assign,
+    Countdown,
+    Here,
+    Jump,
+    Load,
+    Save,
+    Search,
+    Test,
+    Tool,
+    Wait,
+    Where,
+)
 from handeye.program.operation import Operation
 from handeye.program.world_model import place
 
 
-def test_error(run: ExecutionContext, operation: op.Test) -> bool:
+def test_error(run: ExecutionContext, operation: Test) -> bool:
     """Test for an error of the last action, and clear it."""
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
@@ -21,23 +34,23 @@ def test_error(run: ExecutionContext, operation: op.Test) -> bool:
     return occurred
 
 
-def assign(run: ExecutionContext, operation: op.Assign) -> None:
+def assign(run: ExecutionContext, operation: Assign) -> None:
     """Set a counter."""
     run.state.counters[operation.counter] = operation.value
 
 
-def count_down(run: ExecutionContext, operation: op.Countdown) -> bool:
+def count_down(run: ExecutionContext, operation: Countdown) -> bool:
     """Subtract one from a counter; true while it is still positive."""
     left = run.state.counters[operation.counter] = run.state.counters.get(operation.counter, 0) - 1
     return left > 0
 
 
-def search(run: ExecutionContext, operation: op.Search) -> None:
+def search(run: ExecutionContext, operation: Search) -> None:
     """Set up a search; the present place is the first."""
     run.state.search = SearchState(step=operation.step, limit=operation.limit)
 
 
-def advance(run: ExecutionContext, _: op.Advance) -> Fault | None:
+def advance(run: ExecutionContext, _: Advance) -> Fault | None:
     """Go on to the next place of the search, to which the next searching motion will go."""
     found = run.state.search
     if found is None or found.count + 1 >= found.limit:
@@ -49,7 +62,7 @@ def advance(run: ExecutionContext, _: op.Advance) -> Fault | None:
     return None
 
 
-def save(run: ExecutionContext, operation: op.Save) -> None:
+def save(run: ExecutionContext, operation: Save) -> None:
     """Keep how far the hand is from the goal of the last motion to a position."""
     difference = run.drive.hand()[:3, 3] - run.state.goal
     if operation.name in run.state.restored:  # what it has added already still belongs to it
@@ -61,7 +74,7 @@ def save(run: ExecutionContext, operation: op.Save) -> None:
     run.emit(Saved(time=run.time, name=operation.name, difference=vector(difference)))
 
 
-def here(run: ExecutionContext, operation: op.Here) -> None:
+def here(run: ExecutionContext, operation: Here) -> None:
     """Define a position as where the hand is."""
     name = operation.position
     seen = run.world.seen_from(run.world.positions[name].of, run.drive.hand())
@@ -69,17 +82,17 @@ def here(run: ExecutionContext, operation: op.Here) -> None:
     run.emit(PositionDefined(time=run.time, name=name, at=seen.at, of=seen.of))
 
 
-def where(run: ExecutionContext, _: op.Where) -> None:
+def where(run: ExecutionContext, _: Where) -> None:
     """Tell where the hand is."""
     run.emit(HandTold(time=run.time, at=place(run.drive.hand())))
 
 
-def load(run: ExecutionContext, operation: op.Load) -> None:
+def load(run: ExecutionContext, operation: Load) -> None:
     """Have the servo bear a weight."""
     run.drive.state.load = operation.weight
 
 
-def tool(run: ExecutionContext, operation: op.Tool) -> None:
+def tool(run: ExecutionContext, operation: Tool) -> None:
     """Run the screwdriver."""
     run.drive.state.tool = operation.speed
 
@@ -89,16 +102,16 @@ def nothing(_: ExecutionContext, __: Operation) -> None:
 
 
 FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {
-    op.Assign: assign,
-    op.Search: search,
-    op.Advance: advance,
-    op.Save: save,
-    op.Here: here,
-    op.Where: where,
-    op.Load: load,
-    op.Tool: tool,
-    op.Jump: nothing,
-    op.Wait: nothing,
+    Assign: assign,
+    Search: search,
+    Advance: advance,
+    Save: save,
+    Here: here,
+    Where: where,
+    Load: load,
+    Tool: tool,
+    Jump: nothing,
+    Wait: nothing,
 }
-DECISIONS: Final[dict[type[Operation], Decision]] = {op.Test: test_error, op.Countdown: count_down}
+DECISIONS: Final[dict[type[Operation], Decision]] = {Test: test_error, Countdown: count_down}
 """Operations that branch."""

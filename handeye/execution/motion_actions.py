@@ -23,8 +23,8 @@ from handeye.planning.motions import (
 )
 from handeye.pose import Array, Pose, translated
 from handeye.program.guards import GuardKind, Guards, unmet
+from handeye.program.motion_operations import Center, Change, Close, Move, Open, Travel, Turn
 from handeye.program.operation import Operation
-from handeye.program.operations import Center, Change, Close, Move, Open, Travel, Turn
 from handeye.record import Vector3
 from handeye.touch.centring import Centring
 from handeye.touch.guards import monitor

@@ -13,12 +13,12 @@ from typing import TypeVar
 import numpy as np
 
 from handeye import errors
+from handeye.arm.computed_torque import external_wrench, prepare, torque
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
-from handeye.arm.servo import external_wrench, prepare, torque
 from handeye.execution.compliance import Course
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Sensed, Workcell

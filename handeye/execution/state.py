@@ -21,7 +21,7 @@ from handeye.system_state import SystemState
 from handeye.touch.spiral import spiral
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
 
 

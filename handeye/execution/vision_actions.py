@@ -12,9 +12,9 @@ from handeye.execution.state import Fault, Found, Shot
 from handeye.ports.camera import TvCamera
 from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.operation import Operation
-from handeye.program.operations import Aim, General, Inspect, Lens, Look, Specific
+from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
-from handeye.vision.camera import CameraModel
+from handeye.vision.camera_model import CameraModel
 from handeye.vision.gasket import inspect as inspect_gasket
 
 

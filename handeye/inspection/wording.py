@@ -6,7 +6,8 @@ from typing import Any, Final
 
 from handeye.errors import NOTHING_HELD, WRONG_THICKNESS, WRONG_TRAVEL
 from handeye.program import guards as g
-from handeye.program import operations as op
+from handeye.program.motion_operations import Center, Change, Close, Move, Travel
+from handeye.program.operations import AnyOperation
 from handeye.record import Vector3
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
@@ -66,18 +67,18 @@ def stops(guards: g.Guards) -> str:
     return f"stops {' or '.join(_MET[type(guard)](guard) for guard in guards)}, else error {g.unmet(guards)}"
 
 
-def conditions(operation: op.AnyOperation) -> tuple[str, ...]:
+def conditions(operation: AnyOperation) -> tuple[str, ...]:
     """Say what guards an operation, and what it does with force; nothing for most."""
     guarded = (stops(operation.guards),) if operation.guards else ()
     said = _CONDITIONS.get(type(operation))
     return guarded if said is None else (*guarded, *said(operation))
 
 
-def _via(operation: op.Move) -> list[str]:
+def _via(operation: Move) -> list[str]:
     return [f"by way of {', '.join(operation.via)}"] if operation.via else []
 
 
-def _with_force(operation: op.Change) -> list[str]:
+def _with_force(operation: Change) -> list[str]:
     said = []
     if operation.press is not None:
         said.append(f"presses with {ounces(operation.press)}")
@@ -90,27 +91,27 @@ def _with_force(operation: op.Change) -> list[str]:
     return said
 
 
-def _closed(operation: op.Close) -> list[str]:
+def _closed(operation: Close) -> list[str]:
     said = [_held(operation)] if operation.minimum > 0 else []
     most = operation.maximum
     return said if most is None else [*said, f"{inches(most)} or less, else error {WRONG_THICKNESS}"]
 
 
-def _held(operation: op.Close | op.Center) -> str:
+def _held(operation: Close | Center) -> str:
     return f"holds {inches(operation.minimum)} or more, else error {NOTHING_HELD}"
 
 
-def _gone(operation: op.Travel) -> list[str]:
+def _gone(operation: Travel) -> list[str]:
     way = f"{inches(operation.minimum)} to {inches(operation.maximum)}"
     return [f"went {way}, else error {WRONG_TRAVEL}"]
 
 
-_CONDITIONS: Final[dict[type[op.AnyOperation], Callable[[Any], list[str]]]] = {
-    op.Move: _via,
-    op.Change: _with_force,
-    op.Close: _closed,
-    op.Center: lambda operation: [_held(operation)],
-    op.Travel: _gone,
+_CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
+    Move: _via,
+    Change: _with_force,
+    Close: _closed,
+    Center: lambda operation: [_held(operation)],
+    Travel: _gone,
 }
 """More that is to be said of an operation than its guards."""
 

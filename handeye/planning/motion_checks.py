@@ -8,14 +8,15 @@ import numpy as np
 
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
-from handeye.planning.clearance import Surroundings, table_crossing
+from handeye.planning.collision import Surroundings, table_crossing
 from handeye.planning.findings import FindingList
 from handeye.planning.grasp_state import GraspState
 from handeye.planning.strength import weakness
 from handeye.pose import Array
 from handeye.program.findings import RunsInto, TooHeavy, TooWeak
+from handeye.program.flow_operations import Load
 from handeye.program.guards import Exerted, Guards
-from handeye.program.operations import Change, Load
+from handeye.program.motion_operations import Change
 from handeye.program.program import Program, Step
 from handeye.record import Vector3
 

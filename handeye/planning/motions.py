@@ -14,7 +14,7 @@ from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.arm.trajectory import Trajectory, move
 from handeye.pose import Array, Pose
-from handeye.program.operations import Change, Move, Turn
+from handeye.program.motion_operations import Change, Move, Turn
 from handeye.units import DEGREE, INCH
 
 CLEARANCE: Final = 3.0 * INCH

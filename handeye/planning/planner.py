@@ -22,8 +22,9 @@ from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
 from handeye.pose import Array
 from handeye.program.findings import GoalBelowTable, NoConfiguration, PlanningFinding
+from handeye.program.flow_operations import Here
+from handeye.program.motion_operations import Change, Move, Turn
 from handeye.program.operation import Operation
-from handeye.program.operations import Change, Here, Move, Turn
 from handeye.program.program import Program, Step
 from handeye.program.world_model import WorldModel
 

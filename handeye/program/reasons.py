@@ -7,51 +7,34 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class OutOfReach:
-    """A sliding joint would have to stand beyond its range: no other branch can mend it."""
+class BeyondRange:
+    """Base of the reasons in which a joint would have to stand beyond its range, rad or m."""
 
     joint: int
     amount: float
-    """Where it would have to be, m."""
+    """Where it would have to be."""
     limit: float
-    """The end of its range that this passes, m."""
+    """The end of its range that this passes."""
 
     @property
     def excess(self) -> float:
-        """How far beyond, m."""
+        """The distance beyond that end."""
         return abs(self.amount - self.limit)
 
 
 @dataclass(frozen=True, slots=True)
-class TooNear:
+class OutOfReach(BeyondRange):
+    """A sliding joint would have to stand beyond its range, and no other branch can mend it."""
+
+
+@dataclass(frozen=True, slots=True)
+class TooNear(BeyondRange):
     """A boom would have to be drawn in farther than it can: the hand would be too near to the column."""
 
-    joint: int
-    amount: float
-    """Where it would have to be, m."""
-    limit: float
-    """Where it begins, m."""
-
-    @property
-    def excess(self) -> float:
-        """How far beyond, m."""
-        return abs(self.amount - self.limit)
-
 
 @dataclass(frozen=True, slots=True)
-class JointLimit:
+class JointLimit(BeyondRange):
     """A turning joint would have to stand beyond its range."""
-
-    joint: int
-    amount: float
-    """Where it would have to be, rad."""
-    limit: float
-    """The end of its range that this passes, rad."""
-
-    @property
-    def excess(self) -> float:
-        """How far beyond, rad."""
-        return abs(self.amount - self.limit)
 
 
 @dataclass(frozen=True, slots=True)

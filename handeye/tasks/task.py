@@ -16,7 +16,7 @@ from handeye.planfile.plan import Plan
 from handeye.pose import Array
 from handeye.program.program import Fixture
 from handeye.variation import Variation, WorldSpec
-from handeye.vision.camera import CameraModel
+from handeye.vision.camera_model import CameraModel
 
 if TYPE_CHECKING:  # a plan is made and checked without a simulator
     import mujoco

@@ -18,7 +18,7 @@ from handeye.execution.servo_loop import Halted, Outcome
 from handeye.files import write_whole
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED
-from handeye.program.operations import Change
+from handeye.program.motion_operations import Change
 from handeye.program.program import Position
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position

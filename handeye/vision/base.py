@@ -17,7 +17,7 @@ from handeye.program.program import Part
 from handeye.units import DEGREE, INCH
 from handeye.vision.beam import Scan
 from handeye.vision.blob import BoundingBox, localise
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 from handeye.vision.holes import (
     SEARCHES,
     HoleSearch,

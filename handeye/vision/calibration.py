@@ -14,7 +14,7 @@ import numpy as np
 from handeye.errors import InvalidInput
 from handeye.pose import Array
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import CameraModel, View
+from handeye.vision.camera_model import CameraModel, View
 
 PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets
 TURN_PRIOR: Final = 2 * DEGREE  # sigma, of pan, tilt and roll

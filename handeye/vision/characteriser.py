@@ -11,7 +11,7 @@ import numpy as np
 
 from handeye.pose import Array
 from handeye.vision.beam import BRIGHTER, Edge, Polarity, Scan, beam
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 
 BOUNCES: Final = 10
 RAYS: Final = 24

@@ -18,7 +18,7 @@ from handeye.pose import Array
 from handeye.program.program import Hole, Part
 from handeye.units import INCH
 from handeye.vision.beam import Scan
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 from handeye.vision.characteriser import fit_circle, rim
 from handeye.vision.holes import hole_places
 

@@ -12,7 +12,7 @@ from handeye.program.program import Part
 from handeye.units import DEGREE
 from handeye.vision.beam import DARKER, Edge, Scan, beam
 from handeye.vision.blob import BoundingBox
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 from handeye.vision.characteriser import Blob, characterise, fit_circle, rim
 
 ELONGATION: Final = (0.6, 1.65)

@@ -7,7 +7,8 @@ import msgspec
 
 from handeye import al
 from handeye.diagnostics import Diagnostic
-from handeye.program.operations import Assign, Countdown, Move, Test
+from handeye.program.flow_operations import Assign, Countdown, Test
+from handeye.program.motion_operations import Move
 from handeye.program.program import Hole, Part, Position, Program
 from handeye.program.taught import Taught
 from handeye.source import Source

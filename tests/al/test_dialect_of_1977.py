@@ -4,8 +4,9 @@ import pytest
 from al_support import codes, compiled, diagnose, moves, only, walk
 
 from handeye import al
+from handeye.program.flow_operations import Assign, Countdown
 from handeye.program.guards import Force, Moment, Touch
-from handeye.program.operations import Assign, Change, Countdown, Move
+from handeye.program.motion_operations import Change, Move
 from handeye.program.program import Program
 from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 

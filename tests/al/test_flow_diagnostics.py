@@ -7,8 +7,9 @@ from al_support import LISTING, codes, diagnose
 
 from handeye import al
 from handeye.codes import CODES
+from handeye.program.flow_operations import Advance, Jump, Save
 from handeye.program.guards import Against, Torque
-from handeye.program.operations import Advance, Change, Close, Jump, Move, Save
+from handeye.program.motion_operations import Change, Close, Move
 from handeye.program.taught import load_taught
 from handeye.source import Source
 

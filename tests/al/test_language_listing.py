@@ -4,22 +4,10 @@ import pytest
 from al_support import LISTING, compiled, diagnose, moves, only
 
 from handeye.al.instructions import LENSES
+from handeye.program.flow_operations import Advance, Load, Save, Search, Tool, Wait
 from handeye.program.guards import Against, Force, Torque
-from handeye.program.operations import (
-    Advance,
-    Change,
-    Close,
-    Lens,
-    Load,
-    Look,
-    Restore,
-    Save,
-    Search,
-    Tool,
-    Travel,
-    Turn,
-    Wait,
-)
+from handeye.program.motion_operations import Change, Close, Restore, Travel, Turn
+from handeye.program.vision_operations import Lens, Look
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH, RPM
 
 

@@ -15,7 +15,7 @@ from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.vision.beam import Scan
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 from handeye.vision.characteriser import characterise
 
 BLOCK = (0.65, 0.95, 0.0)

@@ -11,7 +11,8 @@ from pump_bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifte
 from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
 from handeye.events import Saved, SearchAdvanced
 from handeye.planfile.plan import Plan
-from handeye.program.operations import AnyOperation, Search
+from handeye.program.flow_operations import Search
+from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
 
 pytestmark = pytest.mark.slow

@@ -11,7 +11,7 @@ from handeye.diagnostics import Diagnostic
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_program
 from handeye.pose import hand
-from handeye.program.operations import Change
+from handeye.program.motion_operations import Change
 from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.units import INCH

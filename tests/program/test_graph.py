@@ -3,8 +3,8 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
+from handeye.program.flow_operations import Countdown
 from handeye.program.graph import Graph
-from handeye.program.operations import Countdown
 from handeye.program.program import Step
 
 GRAPHS = st.integers(1, 9).flatmap(

@@ -8,10 +8,12 @@ import pytest
 
 from handeye.execution.executor import ACTIONS
 from handeye.execution.flow_actions import DECISIONS
-from handeye.program import operations
+from handeye.program import operation
+from handeye.program.flow_operations import Countdown, Jump, Test
 from handeye.program.guards import AnyGuard, GuardKind
+from handeye.program.motion_operations import Change, Move, Restore
 from handeye.program.operation import Operation
-from handeye.program.operations import AnyOperation, Change, Countdown, Jump, Move, Restore, Test
+from handeye.program.operations import AnyOperation
 
 OPERATIONS: tuple[type[Operation], ...] = get_args(AnyOperation)
 
@@ -38,12 +40,12 @@ def asked_for(path: Path) -> set[str]:
     ]
     names = {node.id for node in asked if isinstance(node, ast.Name)}
     names |= {node.attr for one in asked for node in ast.walk(one) if isinstance(node, ast.Attribute)}
-    imports = "handeye.program.operations" in path.read_text() or "import operations" in path.read_text()
+    imports = "_operations import" in path.read_text()
     return names & {operation.__name__ for operation in OPERATIONS} if imports else set()
 
 
 def test_nobody_but_the_lowering_asks_an_operation_for_its_class() -> None:
-    package = Path(operations.__file__).parents[1]
+    package = Path(operation.__file__).parents[1]
     found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path)}
     assert found == {"al/lower.py"}  # where a RESTORE finds its MOVE, and a search its own
 

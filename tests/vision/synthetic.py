@@ -9,7 +9,7 @@ from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.program import Hole, Part
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import View
+from handeye.vision.camera_model import View
 from handeye.vision.holes import hole_places
 
 DARK, BRIGHT, BELT, PLATE, FACE, HOLE, GASKET = 3, 11, 3, 6, 12, 4, 4

@@ -9,7 +9,7 @@ from handeye.errors import InvalidInput
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Sighting, calibrate
-from handeye.vision.camera import CameraModel
+from handeye.vision.camera_model import CameraModel
 
 TRUE = replace(
     DRAWING,

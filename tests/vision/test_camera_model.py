@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from handeye.errors import InvalidInput
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import CENTRE, CameraModel, LensModel
+from handeye.vision.camera_model import CENTRE, CameraModel, LensModel
 
 TILTED = CameraModel(
     mount=(0.9, 1.7, 1.4),

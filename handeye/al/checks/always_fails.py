@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Final
 
-from handeye.program import operations as op
+from handeye.program.flow_operations import Tool, Wait
 from handeye.program.graph import Graph
 from handeye.program.guards import Force, GuardKind
+from handeye.program.motion_operations import Center, Change, Close, Open, Travel
 from handeye.units import INCH
 
 _TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNORECASE)
@@ -40,7 +41,7 @@ def in_vain(graph: Graph) -> Iterator[AlwaysFails]:
 
 
 def _stops(graph: Graph) -> Iterator[AlwaysFails]:
-    for number, change in graph.each(op.Change):
+    for number, change in graph.each(Change):
         if len(change.guards) != 1 or not isinstance(guard := change.guards[0], Force):
             continue
         (x, y, z), (f, g, h) = change.displacement, guard.force
@@ -55,12 +56,12 @@ def _stops(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
     """Grasps of more than the hand was opened to."""
-    least = min(_gaps(graph, graph.which(op.Open)), default=math.inf)  # no OPEN is too little for less
-    grasps: Iterator[tuple[int, op.Close | op.Center]] = chain(graph.each(op.Close), graph.each(op.Center))
+    least = min(_gaps(graph, graph.which(Open)), default=math.inf)  # no OPEN is too little for less
+    grasps: Iterator[tuple[int, Close | Center]] = chain(graph.each(Close), graph.each(Center))
     for number, grasp in grasps:
         if grasp.minimum <= least:
             continue
-        before = graph.last(number, op.Open, op.Close, op.Center)
+        before = graph.last(number, Open, Close, Center)
         opened = _gaps(graph, before)
         if before and len(opened) == len(before) and max(opened) < grasp.minimum - LEAST:
             yield AlwaysFails(
@@ -75,14 +76,14 @@ def _grasps(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _gaps(graph: Graph, numbers: Iterable[int]) -> list[float]:
     """Gaps of those of some steps that open the hand, m."""
-    return [opened.gap for n in numbers if (opened := graph.at(n, op.Open)) is not None]
+    return [opened.gap for n in numbers if (opened := graph.at(n, Open)) is not None]
 
 
 def _travels(graph: Graph) -> Iterator[AlwaysFails]:
     """Checks for a longer way than the motion before goes."""
-    for number, travel in graph.each(op.Travel):
-        before = graph.last(number, op.Change)
-        changes = (graph.at(n, op.Change) for n in before)
+    for number, travel in graph.each(Travel):
+        before = graph.last(number, Change)
+        changes = (graph.at(n, Change) for n in before)
         ways = [math.hypot(*change.displacement) for change in changes if change is not None]
         if ways and max(ways) < travel.minimum - LEAST:
             yield AlwaysFails(
@@ -97,12 +98,12 @@ def _travels(graph: Graph) -> Iterator[AlwaysFails]:
 
 def _torques(graph: Graph) -> Iterator[AlwaysFails]:
     """Stops on the torque of a screwdriver that does not turn."""
-    tools = graph.each(op.Tool)
+    tools = graph.each(Tool)
     running = {number for number, tool in tools if tool.speed}
     started: set[int] | None = None
     for number in _guarded(graph, GuardKind.TORQUE):
         started = graph.after(running) if started is None else started
-        last = graph.last(number, op.Tool)
+        last = graph.last(number, Tool)
         if number not in started or (last and running.isdisjoint(last)):
             yield AlwaysFails(
                 code="torque-without-tool",
@@ -116,8 +117,8 @@ def _torques(graph: Graph) -> Iterator[AlwaysFails]:
 def _touches(graph: Graph) -> Iterator[AlwaysFails]:
     """Stops on a touch of fingers that are closed."""
     for number in _guarded(graph, GuardKind.TOUCH):
-        last = graph.last(number, op.Open, op.Close, op.Center)
-        if last and not any(graph.at(n, op.Open) for n in last):
+        last = graph.last(number, Open, Close, Center)
+        if last and not any(graph.at(n, Open) for n in last):
             yield AlwaysFails(
                 code="touch-while-closed",
                 step=number,
@@ -136,7 +137,7 @@ def _guarded(graph: Graph, kind: GuardKind) -> Iterator[int]:
 
 def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
     """Calls of the operator that were meant to let time pass."""
-    for number, wait in graph.each(op.Wait):
+    for number, wait in graph.each(Wait):
         if _TIME.fullmatch(wait.message):
             yield AlwaysFails(
                 code="wait-for-time",

@@ -11,9 +11,11 @@ from handeye.al.checks.loops import stale_rounds
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label
 from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
-from handeye.program import operations as op
+from handeye.program.flow_operations import Advance, Jump, Save, Search, Test, Wait
 from handeye.program.graph import Graph
+from handeye.program.motion_operations import Change, Move, Travel
 from handeye.program.operation import Operation
+from handeye.program.vision_operations import General, Specific
 from handeye.source import Span
 
 _CURES = {
@@ -49,37 +51,37 @@ class _Order:
 _ORDERS = (
     _Order(
         code="aoj-without-search",
-        of=op.Advance,
-        needs=op.Search,
+        of=Advance,
+        needs=Search,
         message="no `SEARCH` comes before this `AOJ`: there is no next place",
         help="put a `SEARCH` before the label",
     ),
     _Order(
         code="search-without-aoj",
-        of=op.Search,
-        needs=op.Advance,
+        of=Search,
+        needs=Advance,
         message="no `AOJ` comes after this `SEARCH`: only its first place is tried",
         help="`AOJ` goes to the next place and back to a label",
         later=True,
     ),
     _Order(
         code="save-without-move",
-        of=op.Save,
-        needs=op.Move,
+        of=Save,
+        needs=Move,
         message="no `MOVE` comes before this `SAVE`: there is no goal to compare with",
         help="`SAVE` saves where the hand is, less where the last `MOVE` was to bring it",
     ),
     _Order(
         code="travel-without-change",
-        of=op.Travel,
-        needs=op.Change,
+        of=Travel,
+        needs=Change,
         message="no `CHANGE` comes before this `TRAVEL`: there is no motion to measure",
         help="`TRAVEL` checks how far the last `CHANGE` went",
     ),
     _Order(
         code="specific-without-general",
-        of=op.Specific,
-        needs=op.General,
+        of=Specific,
+        needs=General,
         message="no `GENERAL` comes before this `SPECIFIC`: it would raise error 31",
         help="`SPECIFIC` searches for holes where `GENERAL` has found the part",
     ),
@@ -108,7 +110,7 @@ class _Flow:
         self.graph = graph
         self.origins = origins
         self.reached = graph.reached
-        self.trapped = graph.trapped(graph.which(op.Wait, op.Advance))
+        self.trapped = graph.trapped(graph.which(Wait, Advance))
 
     def everywhere(self, check: Callable[[], Iterator[Finding]]) -> Iterator[Diagnostic]:
         """Findings of a check at every step that a statement has become, unreachable ones left out."""
@@ -161,7 +163,7 @@ class _Flow:
     def tests(self) -> Iterator[Finding]:
         """Tests of errors that cannot have been raised where they stand."""
         raised, actions = self.incoming()
-        for number, operation in self.graph.each(op.Test):
+        for number, operation in self.graph.each(Test):
             if not actions[number]:
                 yield number, self.no_action(number)
             elif operation.number not in raised[number] and operation.number in ERRORS:
@@ -197,7 +199,7 @@ class _Flow:
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
         """For each test: the errors that can be pending when it is come to, and the actions that raise them."""
         steps, onward = self.graph.steps, self.graph.onward
-        tests = self.graph.which(op.Test)
+        tests = self.graph.which(Test)
         raised: dict[int, set[int]] = {number: set() for number in tests}
         actions: dict[int, set[int]] = {number: set() for number in tests}
         waiting = []
@@ -209,7 +211,7 @@ class _Flow:
                 waiting.append(target)
         while waiting:
             number = waiting.pop()
-            test, target = self.graph.at(number, op.Test), steps[number].next
+            test, target = self.graph.at(number, Test), steps[number].next
             if test is None or target not in raised:
                 continue
             passed = raised[number] - {test.number}
@@ -223,22 +225,22 @@ class _Flow:
         word = self.word(number).text
         before = [n for n in self.graph.back[number] if n < number]
         cause = [Label(span=self.word(n).span, text="this raises no error") for n in before[-1:]]
-        if before and self.graph.at(before[-1], op.Test):
+        if before and self.graph.at(before[-1], Test):
             cause = [Label(span=self.word(before[-1]).span, text="this has cleared the error")]
         message = f"`{word}` follows no action: there is no error to test"
         help = "put the test directly after the action that raises the error"
         return self.problem("test-without-action", number, message, *cause, help=help)
 
-    def skips_test(self, first: op.Test, number: int, raised: Mapping[int, set[int]]) -> bool:
+    def skips_test(self, first: Test, number: int, raised: Mapping[int, set[int]]) -> bool:
         """True if a test leaves out nothing but the test of another error, which can be there, before a case."""
         steps, behind = self.graph.steps, self.graph.steps[number].next
-        second = self.graph.at(behind, op.Test)
+        second = self.graph.at(behind, Test)
         if behind is None or second is None or second.number not in raised[behind]:
             return False
         case = first.raised
         if case is None or case != steps[behind].next:
             return False
-        return type(steps[case].operation) in (op.Jump, op.Wait)
+        return type(steps[case].operation) in (Jump, Wait)
 
     def no_effect(self, number: int, error: int) -> Diagnostic:
         message = f"with error {error} the program continues as without an error"
@@ -257,7 +259,7 @@ class _Flow:
         if any(error in self.graph.steps[n].operation.raises for n in actions):
             message = f"error {error} is already cleared"
             help = "a test clears its error"
-            asked = [n for n in self.graph.which(op.Test) if n in self.graph.back[number]]
+            asked = [n for n in self.graph.which(Test) if n in self.graph.back[number]]
             cause = Label(span=self.word((asked or [max(actions)])[-1]).span, text="this tested it")
         return self.problem("error-never-raised", number, message, cause, help=help)
 

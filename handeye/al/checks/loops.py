@@ -4,8 +4,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 
-from handeye.program import operations as op
+from handeye.program.flow_operations import Advance, Assign, Countdown, Search
 from handeye.program.graph import Graph
+from handeye.program.motion_operations import Move
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,15 +25,15 @@ Circles = Callable[[], list[set[int]]]
 def stale_rounds(graph: Graph) -> Iterator[Stale]:
     """The jumps of searches and counts that cannot come to an end by themselves."""
     circles = cache(graph.circles)  # asked for only where something looks wrong
-    searches, moves = set(graph.which(op.Search)), set(graph.which(op.Move))
+    searches, moves = set(graph.which(Search)), set(graph.which(Move))
     places = searches | moves
-    for jump in graph.which(op.Advance):
+    for jump in graph.which(Advance):
         target = graph.steps[jump].next
         yield from _anew(graph, circles, jump, target, searches)
         if graph.leads(target, jump, without=places) and circles()[jump].isdisjoint(moves):
             yield Stale(jump, None)
     assigns = _assigns(graph)
-    for jump, count in graph.each(op.Countdown):
+    for jump, count in graph.each(Countdown):
         yield from _anew(graph, circles, jump, count.positive, assigns.get(count.counter, set()))
 
 
@@ -45,6 +46,6 @@ def _anew(graph: Graph, circles: Circles, jump: int, target: int | None, begins:
 def _assigns(graph: Graph) -> dict[str, set[int]]:
     """The steps that set each counter."""
     found: dict[str, set[int]] = {}
-    for number, assign in graph.each(op.Assign):
+    for number, assign in graph.each(Assign):
         found.setdefault(assign.counter, set()).add(number)
     return found

@@ -9,8 +9,9 @@ from functools import cache
 from handeye.al.lower import Lowered
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.program.flow_operations import Save
 from handeye.program.graph import Graph
-from handeye.program.operations import Move, Save
+from handeye.program.motion_operations import Move
 from handeye.source import Span
 
 

@@ -7,7 +7,7 @@ from handeye.execution.calibration_look import CalibrationLook
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE
 from handeye.record import Vector3
 from handeye.units import DEGREE, INCH
-from handeye.vision.camera import CameraModel, LensModel
+from handeye.vision.camera_model import CameraModel, LensModel
 
 DRAWING: Final = CameraModel(
     mount=(34 * INCH, 68 * INCH, 54 * INCH),

@@ -30,7 +30,7 @@ from handeye.vision.base import (
     locate_specific,
 )
 from handeye.vision.calibration import Calibration, Sighting, calibrate
-from handeye.vision.camera import CameraModel, View
+from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import inspect
 from handeye.vision.holes import hole_places
 

@@ -1,0 +1,187 @@
+"""Operations that move the arm or its hand, and the check of how far the arm went."""
+
+import math
+from typing import Annotated, ClassVar, Final
+
+from msgspec import Meta
+
+from handeye import errors
+from handeye.program.guards import FORCE, Bounds, Guards, unmet
+from handeye.program.operation import Operation, Use, action
+from handeye.record import Record, Vector3
+
+VIAS: Final = 4
+"""Positions that a motion can be led by."""
+_LENGTH: Final[Bounds] = (1e-6, 10.0)  # m
+_GAP: Final[Bounds] = (0.0, 0.2)  # m
+
+
+class Restore(Record, frozen=True, kw_only=True):
+    """Shift a goal by a saved difference."""
+
+    name: str
+    level: bool = False
+    """Use only the horizontal components."""
+
+
+class ArmMotion(Operation, frozen=True, kw_only=True):
+    """Base of the motions of the arm: guards may end them, and if none does, an error is raised."""
+
+    family: ClassVar = "motion"
+    moves: ClassVar = True
+    takes_time: ClassVar = True
+    raising: ClassVar = action(errors.JOINT_LIMIT, errors.NO_SOLUTION, errors.SERVO_LAG)
+
+    @property
+    def raises(self) -> frozenset[int]:
+        """The numbers of the errors it can raise."""
+        return self.raising | {unmet(self.guards)} if self.guards else self.raising
+
+
+class Move(ArmMotion, frozen=True, kw_only=True):
+    """Planned motion to a position, with departure upwards and approach from above."""
+
+    planned: ClassVar = True
+    reading: ClassVar = {"position": ("goal", "via")}
+    writing: ClassVar = {"goal": ()}
+
+    goal: str
+    restore: tuple[Restore, ...] = ()
+    searching: bool = False
+    """Inside a search loop: the present search offset is added to the goal."""
+    direct: bool = False
+    """Without departure and approach."""
+    via: Annotated[tuple[str, ...], Meta(max_length=VIAS)] = ()
+    """Positions passed on the way, in this order, without stopping."""
+    guards: Guards = ()
+
+    @property
+    def reads(self) -> tuple[Use, ...]:
+        """Everything it is carried out by, what it is shifted by included."""
+        shifts = [Use("difference", restore.name, restore.level) for restore in self.restore]
+        search = [Use("search")] if self.searching else []
+        return (*self.used(self.reading), *shifts, *search)
+
+    @property
+    def goal_position(self) -> str:
+        """The goal, before anything shifts it."""
+        return self.goal
+
+    @property
+    def knots(self) -> int | None:
+        """Start, lift-off, what it passes, set-down and goal."""
+        return 4 + len(self.via)
+
+
+class Change(ArmMotion, frozen=True, kw_only=True):
+    """Straight motion from the present place, orientation kept unless the hand is to be turned."""
+
+    bounds: ClassVar = {"speed": (1e-4, 2.0), "displacement": _LENGTH, "press": FORCE, "moment": FORCE}
+    writing: ClassVar = {"travel": ()}
+
+    displacement: Vector3
+    """m, table coordinates."""
+    speed: float | None = None
+    """m/s; None: the speed of guarded moves, or of free ones if nothing is to be met."""
+    guards: Guards = ()
+    press: Vector3 | None = None
+    """Force to exert while moving (N, table coordinates): the hand follows what it presses on."""
+    free: Vector3 | None = None
+    """Axes of the table, 1 or 0, along which the hand gives way to force while moving."""
+    spin: Vector3 | None = None
+    """Axes of the table, 1 or 0, about which the hand gives way to a moment while moving."""
+    moment: Vector3 | None = None
+    """Moment to exert while moving (N m, table coordinates), the hand turning until it does."""
+
+    @property
+    def meets(self) -> bool:
+        """True if it is meant to meet something: to stop on it, or to press on it or turn it."""
+        return bool(self.guards) or self.press is not None or self.moment is not None
+
+    @property
+    def complies(self) -> bool:
+        """True if force or moment moves the hand on the way."""
+        return any(way is not None for way in (self.press, self.free, self.moment, self.spin))
+
+    @property
+    def knots(self) -> int | None:
+        """Start and goal."""
+        return 2
+
+
+class Turn(ArmMotion, frozen=True, kw_only=True):
+    """Motion of the hand on a circle about the vertical through a position, the hand turning with it."""
+
+    bounds: ClassVar = {"angle": (-4 * math.pi, 4 * math.pi)}
+    reading: ClassVar = {"position": ("centre",)}
+
+    centre: str
+    angle: float
+    """rad, positive counter-clockwise seen from above."""
+    guards: Guards = ()
+
+    @property
+    def knots(self) -> int | None:
+        """Start and goal."""
+        return 2
+
+
+class Open(Operation, frozen=True, kw_only=True):
+    """Drive the fingers to a gap."""
+
+    family: ClassVar = "hand"
+    needs: ClassVar = "hand"
+    moves: ClassVar = True
+    takes_time: ClassVar = True
+    raising: ClassVar = action()
+    bounds: ClassVar = {"gap": _GAP}
+
+    gap: float
+
+
+class Close(Operation, frozen=True, kw_only=True):
+    """Close until both switches fire; error 2 below `minimum`, error 7 above `maximum` (m)."""
+
+    family: ClassVar = "hand"
+    needs: ClassVar = "hand"
+    moves: ClassVar = True
+    takes_time: ClassVar = True
+    raising: ClassVar = action(errors.NOTHING_HELD)
+    bounds: ClassVar = {"minimum": _GAP, "maximum": _GAP}
+
+    minimum: float = 0.0
+    maximum: float | None = None
+
+    @property
+    def raises(self) -> frozenset[int]:
+        """The numbers of the errors it can raise."""
+        return self.raising if self.maximum is None else self.raising | {errors.WRONG_THICKNESS}
+
+
+class Center(Operation, frozen=True, kw_only=True):
+    """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m)."""
+
+    family: ClassVar = "hand"
+    needs: ClassVar = "hand"
+    moves: ClassVar = True
+    takes_time: ClassVar = True
+    raising: ClassVar = action(errors.NOTHING_HELD, errors.JOINT_LIMIT, errors.SERVO_LAG)
+    bounds: ClassVar = {"minimum": _GAP}
+
+    minimum: float = 0.0
+
+
+class Travel(Operation, frozen=True, kw_only=True):
+    """Check how far the last Change went (m): error 8 outside the range."""
+
+    family: ClassVar = "test"
+    raising: ClassVar = action(errors.WRONG_TRAVEL)
+    only_checks: ClassVar = True
+    bounds: ClassVar = {"minimum": (-10.0, 10.0), "maximum": (-10.0, 10.0)}
+    reading: ClassVar = {"travel": ()}
+
+    minimum: float
+    maximum: float
+
+
+MotionOperation = Move | Change | Turn | Open | Close | Center | Travel

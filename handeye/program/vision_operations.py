@@ -1,0 +1,84 @@
+"""Operations of the camera, and of vision."""
+
+from typing import ClassVar
+
+from handeye import errors
+from handeye.ports.camera import LENSES
+from handeye.program.operation import Operation, action
+
+
+class Lens(Operation, frozen=True, kw_only=True):
+    """Turn the lens turret; focal length in m."""
+
+    family: ClassVar = "sight"
+    needs: ClassVar = "camera"
+    takes_time: ClassVar = True
+    raising: ClassVar = action()
+    choices: ClassVar = {"focal_length": LENSES}
+
+    focal_length: float
+
+
+class Aim(Operation, frozen=True, kw_only=True):
+    """Point the camera at a position or part and focus there."""
+
+    family: ClassVar = "sight"
+    needs: ClassVar = "camera"
+    takes_time: ClassVar = True
+    raising: ClassVar = action()
+    reading: ClassVar = {"target": ("target",)}
+
+    target: str
+
+
+class Look(Operation, frozen=True, kw_only=True):
+    """Take a picture under a name."""
+
+    family: ClassVar = "sight"
+    needs: ClassVar = "camera"
+    takes_time: ClassVar = True
+    raising: ClassVar = action()
+    writing: ClassVar = {"picture": ("picture",)}
+
+    picture: str
+    hold_target: bool = False
+    """Keep the target voltage of the picture before, as differencing needs."""
+
+
+class General(Operation, frozen=True, kw_only=True):
+    """General location: find the part's outline in the picture; measures where it is, roughly. Else error 30."""
+
+    family: ClassVar = "sight"
+    raising: ClassVar = action(errors.PART_NOT_SEEN)
+    reading: ClassVar = {"picture": ("picture",)}
+    writing: ClassVar = {"part": ("part",)}
+
+    part: str
+    picture: str
+
+
+class Specific(Operation, frozen=True, kw_only=True):
+    """Specific location: find the part's holes in the picture; measures its pose. Else error 31."""
+
+    family: ClassVar = "sight"
+    raising: ClassVar = action(errors.FEATURES_NOT_SEEN)
+    reading: ClassVar = {"part": ("part",), "picture": ("picture",)}
+    writing: ClassVar = {"part": ("part",)}
+
+    part: str
+    picture: str
+
+
+class Inspect(Operation, frozen=True, kw_only=True):
+    """Difference pictures of a part before and after its gasket was put on; error 32 if that lies wrong."""
+
+    family: ClassVar = "sight"
+    raising: ClassVar = action(errors.GASKET_WRONG)
+    reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}
+
+    part: str
+    before: str
+    after: str
+
+
+VisionOperation = Lens | Aim | Look | General | Specific | Inspect
