@@ -22,6 +22,31 @@ class Label:
     text: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class SimilarName:
+    """A known name that is like the one that is not known."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class KnownNames:
+    """All known names, where they are few and none is like the one that is not known."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MissingMark:
+    """A mark that is missing behind a word."""
+
+    mark: str
+
+
+Meant = SimilarName | KnownNames | MissingMark
+"""What the writer may have meant at a mistake, for whoever mends it; people are told in the help."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnostic:
     """One mistake. `message`: one lower-case sentence, true without the frame."""
@@ -32,6 +57,8 @@ class Diagnostic:
     secondary: tuple[Label, ...] = ()
     notes: tuple[str, ...] = ()
     help: str | None = None
+    meant: Meant | None = None
+    """At the primary place."""
 
     def __post_init__(self) -> None:
         assert self.code in CODES, self.code
@@ -80,6 +107,8 @@ def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
 
 LOOKALIKES: Final = str.maketrans("OoIl", "0011")
 """Letters, to the digits they look like."""
+FEW: Final = 8
+"""Names of which all are told."""
 MOST_COMPARED: Final = 500
 LONGEST_COMPARED: Final = 40
 """Characters. Finding the nearest name takes as many steps as there are names, times the square of their length."""
@@ -91,14 +120,29 @@ def quoted(name: str) -> str:
     return f"`{_visible(short)[0]}`"
 
 
-def suggestion(name: str, known: Iterable[str]) -> str | None:
-    """`did you mean ...` for the nearest known name, at most a third of its length away; else few choices."""
+def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | None:
+    """The nearest known name, at most a third of the length of `name` away; else all, if they are few."""
     choices = sorted(set(known))
     if _too_many(name, choices):
         return None
     if near := nearest(name, choices, len(name) // 3):
-        return f"did you mean {quoted(near)}?"
-    return "known: " + ", ".join(map(quoted, choices)) if 0 < len(choices) <= 8 else None
+        return SimilarName(near)
+    return KnownNames(tuple(choices)) if 0 < len(choices) <= FEW else None
+
+
+def suggestion(name: str, known: Iterable[str]) -> str | None:
+    """`did you mean ...`, or `known: ...`, for a name that is not known; None if nothing helps."""
+    return told_names(alternatives(name, known))
+
+
+def told_names(names: SimilarName | KnownNames | None) -> str | None:
+    """The sentence of `suggestion`."""
+    match names:
+        case SimilarName(name):
+            return f"did you mean {quoted(name)}?"
+        case KnownNames(choices):
+            return "known: " + ", ".join(map(quoted, choices))
+    return None
 
 
 def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:

@@ -12,7 +12,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.lower_statement import operation, restore
 from handeye.al.macros import Call, Placed
 from handeye.al.syntax import Name, Statement, Text
-from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
+from handeye.diagnostics import LIMIT, Diagnostic, Label, Meant, alternatives, quoted, told_names
 from handeye.program.motion_operations import Move
 from handeye.program.operations import AnyOperation
 from handeye.program.program import SourcePlace, Step
@@ -295,7 +295,8 @@ class _Lowering:
         message = f"no statement has the label {quoted(label.text)}"
         # Looking for what was meant takes time: only for those that will be shown.
         known = [name for scope, name in self.labels if scope in scopes] if self.lost <= LIMIT else []
-        self.problem("unknown-label", message, label, help=suggestion(label.text, known))
+        meant = alternatives(label.text, known)
+        self.problem("unknown-label", message, label, help=told_names(meant), meant=meant)
 
     def mark_searching(self) -> None:
         """Every MOVE between a label and an AOJ that goes back to it belongs to a search."""
@@ -340,10 +341,15 @@ class _Lowering:
         )
 
     def problem(
-        self, code: str, message: str, at: Name | Text, *secondary: Label, help: str | None = None
-    ) -> None:
+        self, code: str, message: str, at: Name | Text, *secondary: Label,
+        help: str | None = None, meant: Meant | None = None,
+    ) -> None:  # fmt: skip
         primary = Label(span=at.span)
-        self.report(Diagnostic(code=code, message=message, primary=primary, secondary=secondary, help=help))
+        self.report(
+            Diagnostic(
+                code=code, message=message, primary=primary, secondary=secondary, help=help, meant=meant
+            )
+        )
 
 
 def _shared(one: Call, other: Call) -> int:

@@ -10,7 +10,16 @@ from handeye.al.operands import Mistake, free_text, read_operands
 from handeye.al.requirements import Requirements
 from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
 from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
-from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
+from handeye.diagnostics import (
+    LIMIT,
+    Diagnostic,
+    Label,
+    Meant,
+    MissingMark,
+    alternatives,
+    quoted,
+    told_names,
+)
 from handeye.source import Source, Span
 
 _DEFINE: Final = "DEFINE"
@@ -213,26 +222,28 @@ class _Parser:
             return False
         written = line.split()[1][0].text
         message = f"there is no instruction {quoted(written)}"
-        self.report("unknown-instruction", message, word.span, help=self.meant(written, line, rest))
+        help, meant = self.meant(written, line, rest)
+        self.report("unknown-instruction", message, word.span, help=help, meant=meant)
         return False
 
-    def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> str | None:
-        """Help where a line begins with a word that is neither an instruction nor a macro."""
+    def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> tuple[str | None, Meant | None]:
+        """Help where a line begins with a word that is neither an instruction nor a macro, and what may be meant."""
         label = f"a label ends with a colon: `{written}:`"
         behind = rest[0].text.upper() if rest else ""
         if not rest and line.comment is not None and line.tokens[-1].end == line.end - len(line.comment):
-            return f"{label}; a `;` begins a comment"
-        help = elsewhere(written)
-        if help is None and behind not in self.macro_names:
-            help = suggestion(written, {*INSTRUCTIONS, *self.macro_names, _DEFINE})
-        if help is not None:
-            return help
+            return f"{label}; a `;` begins a comment", MissingMark(":")
+        if (help := elsewhere(written)) is not None:
+            return help, None
+        if behind not in self.macro_names:
+            names = alternatives(written, {*INSTRUCTIONS, *self.macro_names, _DEFINE})
+            if names is not None:
+                return told_names(names), names
         if behind in INSTRUCTIONS or behind in self.macro_names:
-            return label
+            return label, MissingMark(":")
         if behind.startswith("="):
-            return "`ASSIGN` sets a counter, `TRANS` defines a position"
+            return "`ASSIGN` sets a counter, `TRANS` defines a position", None
         is_prose = sum(token.kind is NAME for token in rest) > 1
-        return "a comment begins with `;`" if is_prose else None
+        return "a comment begins with `;`" if is_prose else None, None
 
     def unreadable(self, token: Token) -> None:
         message = f"a line starts with a label or an instruction, not with {quoted(token.text)}"
@@ -248,9 +259,14 @@ class _Parser:
         *,
         help: str | None = None,
         secondary: tuple[Label, ...] = (),
+        meant: Meant | None = None,
     ) -> None:
         primary = Label(span=span, text=text)
-        self.tell(Diagnostic(code=code, message=message, primary=primary, help=help, secondary=secondary))
+        self.tell(
+            Diagnostic(
+                code=code, message=message, primary=primary, help=help, secondary=secondary, meant=meant
+            )
+        )
 
     def tell(self, diagnostic: Diagnostic) -> None:
         self.errors += diagnostic.severity == "error"

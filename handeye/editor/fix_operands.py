@@ -1,13 +1,12 @@
 """Cures within a line: marks that are missing or too many, names, numbers."""
 
-import re
 from collections.abc import Iterator
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import TokenKind
 from handeye.al.syntax import Name, Text
-from handeye.diagnostics import Diagnostic, quoted
+from handeye.diagnostics import Diagnostic, MissingMark, quoted
 from handeye.editor.completion import names
 from handeye.editor.document import Document
 from handeye.editor.fix import Fix, insert, line_of, operand_of, replace, with_blanks_before
@@ -16,12 +15,13 @@ from handeye.source import Span
 
 MOST: Final = 8
 """Choices offered for a name that is missing."""
-_COLON: Final = re.compile(r"`(\w+):`")
 
 
-def colon(_: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
-    if diagnostic.help and (label := _COLON.search(diagnostic.help)):
-        yield insert(diagnostic.primary.span.end, ":", f"make it the label {quoted(label[1] + ':')}")
+def colon(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    if isinstance(diagnostic.meant, MissingMark):
+        span, mark = diagnostic.primary.span, diagnostic.meant.mark
+        word = document.text[span.start : span.end]
+        yield insert(span.end, mark, f"make it the label {quoted(word + mark)}")
 
 
 def instruction_alone(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

@@ -1,20 +1,15 @@
 """Cures: for a diagnostic whose cure is known, the edits that bring it about.
 
-Most are told by the diagnostic itself, in its help and its labels; so new diagnostics in the same words get theirs.
+A diagnostic that knows what was meant tells it, as data; for the others there is a table.
 """
 
-import re
 from collections.abc import Callable, Iterator
 from typing import Final
 
-from handeye.diagnostics import Diagnostic, quoted
+from handeye.diagnostics import Diagnostic, KnownNames, SimilarName, quoted
 from handeye.editor import fix_lines, fix_operands
 from handeye.editor.document import Document
 from handeye.editor.fix import Fix, replace
-
-_DID_YOU_MEAN: Final = re.compile(r"did you mean `(.+?)`\?")
-_KNOWN: Final = re.compile(r"known: (`.+`)$")
-_UNUSED: Final = "unused-"
 
 
 def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
@@ -22,19 +17,19 @@ def fixes(document: Document, diagnostic: Diagnostic) -> list[Fix]:
     if any(label.span.end > len(document.text) for label in (diagnostic.primary, *diagnostic.secondary)):
         return []  # some of it stands in a required file
     cure = _CURES.get(diagnostic.code)
-    if cure is None and diagnostic.code.startswith(_UNUSED):
-        cure = fix_lines.remove_unused
-    found = [*_suggested(diagnostic), *(cure(document, diagnostic) if cure is not None else ())]
+    found = [*_meant(diagnostic), *(cure(document, diagnostic) if cure is not None else ())]
     return list(dict.fromkeys(found))
 
 
-def _suggested(diagnostic: Diagnostic) -> Iterator[Fix]:
-    help, span = diagnostic.help or "", diagnostic.primary.span
-    for name in _DID_YOU_MEAN.findall(help):
-        yield replace(span, name, f"change to {quoted(name)}")
-    if known := _KNOWN.search(help):
-        for name in re.findall(r"`(.+?)`", known[1]):
-            yield replace(span, name, f"change to {quoted(name)}", choice=True)
+def _meant(diagnostic: Diagnostic) -> Iterator[Fix]:
+    """Other names for the one that is not known."""
+    span = diagnostic.primary.span
+    match diagnostic.meant:
+        case SimilarName(name):
+            yield replace(span, name, f"change to {quoted(name)}")
+        case KnownNames(names):
+            for name in names:
+                yield replace(span, name, f"change to {quoted(name)}", choice=True)
 
 
 _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
@@ -64,6 +59,10 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "unterminated-macro": fix_operands.end_macro,
     "unterminated-string": fix_operands.close_string,
     "unterminated-vector": fix_operands.close_vector,
+    "unused-label": fix_lines.remove_unused,
+    "unused-macro": fix_lines.remove_unused,
+    "unused-position": fix_lines.remove_unused,
+    "unused-vector": fix_lines.remove_unused,
     "wrong-operand": fix_operands.quote,
 }
-"""Fixes of a diagnostic, beside the suggestion of its help."""
+"""Cures of a diagnostic by its code, beside the names it tells."""

@@ -1,6 +1,7 @@
 """Offsets of our texts and positions of the language server protocol, which count code units from 0."""
 
 from collections.abc import Callable, Sequence
+from typing import Final
 
 from lsprotocol import types as lsp
 
@@ -9,6 +10,8 @@ from handeye.source import Source, Span
 
 Units = Callable[[str], int]
 """How many code units of the agreed encoding a text has."""
+_UNNECESSARY: Final = {"unreachable-code", "unused-label", "unused-macro", "unused-position", "unused-vector"}
+"""Codes of what could be left out: editors show it paler."""
 
 
 def position(source: Source, offset: int, units: Units) -> lsp.Position:
@@ -47,7 +50,6 @@ def diagnostic(
     """
     severity = lsp.DiagnosticSeverity.Error if found.severity == "error" else lsp.DiagnosticSeverity.Warning
     said = [found.message, found.primary.text, *found.notes, *([f"help: {found.help}"] if found.help else [])]
-    unused = found.code.startswith("unused-") or found.code == "unreachable-code"
     return lsp.Diagnostic(
         range=at,
         message=where + "\n".join(line for line in said if line),
@@ -58,5 +60,5 @@ def diagnostic(
             lsp.DiagnosticRelatedInformation(location=place, message=text or found.message)
             for place, text in related
         ],
-        tags=[lsp.DiagnosticTag.Unnecessary] if unused and not where else None,
+        tags=[lsp.DiagnosticTag.Unnecessary] if found.code in _UNNECESSARY and not where else None,
     )

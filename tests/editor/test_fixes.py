@@ -1,5 +1,7 @@
 """Quick fixes: a cure makes its diagnostic go away, and brings no other."""
 
+from dataclasses import replace
+
 import pytest
 from documents import diagnosed, document, edited
 
@@ -70,6 +72,27 @@ def test_no_cure_of_an_example_leaves_its_diagnostic_or_adds_errors(code: str) -
         for fix in fixes(document(text), diagnostic):
             after = [d.code for d in diagnosed(edited(text, fix.edits))]
             assert len(after) < len(found) or code not in after or after == ["empty-program"], fix
+
+
+@pytest.mark.parametrize("text", CURED)
+def test_cures_do_not_hang_on_the_words_of_a_diagnostic(text: str) -> None:
+    (diagnostic,) = diagnosed(text)
+    silent = replace(diagnostic, message="", help=None, notes=())
+    assert fixes(document(text), silent) == fixes(document(text), diagnostic)
+
+
+def test_a_near_name_is_put_in_whole_however_long_it_is() -> None:
+    near = "A" * 40 + "B"
+    (fix,) = cures(f"{near}: PARK\nJUMP {near[:-1]}")
+    assert [edit.text for edit in fix.edits] == [near]
+
+
+@pytest.mark.parametrize("code", [code for code in CODES if code.startswith("unused-")])
+def test_everything_unused_can_be_removed(code: str) -> None:
+    text = CODES[code].example
+    (unused,) = (found for found in diagnosed(text) if found.code == code)
+    fix = fixes(document(text), unused)[0]
+    assert code not in {found.code for found in diagnosed(edited(text, fix.edits))}
 
 
 def test_a_macro_is_not_closed_up_over_its_own_call() -> None:

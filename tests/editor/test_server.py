@@ -13,6 +13,11 @@ from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 
+from handeye.codes import CODES
+from handeye.diagnostics import Diagnostic, Label
+from handeye.editor import wire
+from handeye.source import Span
+
 TAUGHT = """\
 [positions]
 PARK = { at = [20.0, 28.0, 8.0, 90, 90, 0] }
@@ -84,6 +89,16 @@ def talk(folder: Path, conversation: Callable[[Client], Awaitable[None]]) -> Non
 def folder(tmp_path: Path) -> Path:
     (tmp_path / "a.toml").write_text(TAUGHT, encoding="utf-8")
     return tmp_path
+
+
+def test_what_could_be_left_out_is_marked_as_such() -> None:
+    primary = Label(span=Span(start=0, end=1))
+    shown = {
+        code: wire.diagnostic(Diagnostic(code=code, message="", primary=primary), span(0, 0, 1), [])
+        for code in CODES
+    }
+    marked = {code for code, found in shown.items() if found.tags == [lsp.DiagnosticTag.Unnecessary]}
+    assert marked == {"unreachable-code", *(code for code in CODES if code.startswith("unused-"))}
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from handeye.al.instructions import AXES, INSTRUCTIONS, SKIPS
 from handeye.al.statements import ByWord, Used, all_statements, pairs
 from handeye.al.syntax import Name, Number, Script, Statement
 from handeye.al.unitwords import no_units
-from handeye.diagnostics import LIMIT, Diagnostic, Label, quoted, suggestion
+from handeye.diagnostics import LIMIT, Diagnostic, Label, alternatives, quoted, told_names
 from handeye.errors import ERRORS
 from handeye.program.taught import Taught
 from handeye.source import Span
@@ -157,13 +157,15 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
         message = f"{quoted(name.text)} follows a number"
         return Diagnostic(code="unit-written", message=message, primary=Label(span=name.span), help=said)
     message = _MESSAGES[refers].format(quoted(name.text))
-    help = suggestion(name.text, known[refers])
+    meant = alternatives(name.text, known[refers])
+    help = told_names(meant)
     other = next((kind for kind, names in known.items() if name.text in names), None)
     if other is not None and refers is Refers.SAVED:
-        help = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference"
+        help, meant = f"{quoted(name.text)} is a {other.value}; `SAVE` saves a difference", None
     elif other is not None:
         message = f"{quoted(name.text)} is a {other.value}, not a {refers.value}"
-    return Diagnostic(code=_CODES[refers], message=message, primary=Label(span=name.span), help=help)
+    primary = Label(span=name.span)
+    return Diagnostic(code=_CODES[refers], message=message, primary=primary, help=help, meant=meant)
 
 
 def _unknown_error(number: Number) -> Diagnostic:
