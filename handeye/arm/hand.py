@@ -11,6 +11,18 @@ from handeye.boxes import Box
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class GraspModel:
+    """Figures of opening and closing the fingers."""
+
+    speed: float
+    """Rate of the opening when nothing is between the fingers, m/s."""
+    centring: float
+    """The same while an object is centred, m/s."""
+    settle: int
+    """Servo periods the fingers press before the gap is read; half of them after centring."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HandModel:
     """Two fingers that open and close together, and what carries them."""
 
@@ -34,6 +46,7 @@ class HandModel:
     """From the tip to the palm, m."""
     palm: Box
     wrist: Box
+    grasp: GraspModel
     lamp: tuple[float, float, float] | None = None
     """Where the lamp is that shows the camera the hand, in T, m."""
 

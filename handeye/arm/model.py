@@ -4,12 +4,12 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import lru_cache
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.arm.hand import HandModel
+from handeye.arm.hand import GraspModel, HandModel
 from handeye.pose import Array, Pose, inverse
 
 Structure = Literal["spherical wrist", "gantry", "cartesian"]
@@ -73,6 +73,28 @@ class ServoModel:
     """s in which the floating arm comes to rest once nobody pushes it."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComplianceModel:
+    """Figures of compliant motions, in which speed follows force: an admittance."""
+
+    gain: float
+    """Speed per force, m/s/N."""
+    speed: float
+    """Greatest speed that force alone makes, m/s."""
+    deadband: float
+    """Force below which the hand does not give way, N."""
+    turn_gain: float
+    """Rate of turning per moment, rad/s/(N m)."""
+    turn_speed: float
+    """Greatest rate that a moment alone makes, rad/s."""
+    turn_deadband: float
+    """Moment below which the hand does not give way, N m."""
+    turn_limit: float
+    """The hand is turned no farther than this, rad."""
+    ramp: int
+    """Servo periods in which a motion that does not press reaches its speed."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ArmModel:
     """An arm of n joints with a two-finger hand.
@@ -88,6 +110,7 @@ class ArmModel:
     """Base of the arm in the world, shape (4, 4)."""
     hand: HandModel
     servo: ServoModel
+    compliance: ComplianceModel
     held: Mapping[str, float] = field(default_factory=dict)
     """Joints that are no part of the inverse kinematics, by name, and where each is held, rad or m."""
 
@@ -118,15 +141,20 @@ class ArmModel:
         return q
 
 
+_WORKING: Final = (ComplianceModel, GraspModel)
+"""Figures of the working phase alone: whatever they are, a plan can be carried out as it was made."""
+
+
 def digest(arm: ArmModel) -> str:
-    """Twelve hexadecimal digits that change with any figure of the model, whatever its fields are called."""
+    """Twelve hexadecimal digits that change with any figure a plan may rest on, whatever its field is called."""
     return hashlib.sha256(repr(_figures(arm)).encode()).hexdigest()[:12]
 
 
 def _figures(value: object) -> object:
-    """The figures of a model as nested lists."""
+    """The figures of a model as nested lists, but for those of the working phase."""
     if is_dataclass(value):
-        return [_figures(getattr(value, each.name)) for each in fields(value)]
+        parts = [getattr(value, each.name) for each in fields(value)]
+        return [_figures(part) for part in parts if not isinstance(part, _WORKING)]
     if isinstance(value, Mapping):
         return sorted(value.items())
     if isinstance(value, tuple):

@@ -51,7 +51,7 @@ def calibrate_camera(
         CalibrationFailed: the lamp was seen too few times.
         Halted: the panic button was hit.
     """
-    drive = ArmDrive(cell=cell, arm=arm, state=DriveState.holding(cell.sense()), halt=halt)
+    drive = ArmDrive(cell=cell, arm=arm, state=DriveState.holding(cell.sense(), arm), halt=halt)
     home = drive.state.q.copy()
     sightings = [sighting for look in looks for sighting in _sightings(drive, drawing, look)]
     for lens in {look.lens for look in looks}:

@@ -6,35 +6,19 @@ gravity model does not make the hand drift as slack joints would.
 
 import math
 from dataclasses import dataclass, field
-from typing import Final
 
 import numpy as np
 
+from handeye.arm.model import ComplianceModel
 from handeye.pose import Array
-from handeye.units import DEGREE, OUNCE_INCH
-
-GAIN: Final = 0.0015
-"""Speed per force, m/s/N: slow enough for the arm's 20 kg of felt inertia."""
-GREATEST: Final = 0.0127
-"""Greatest speed that force alone makes, m/s."""
-NOISE: Final = 0.4
-"""Force below which the hand does not give way, N: twice what joint friction is felt as."""
-TURN_GAIN: Final = 0.1
-"""Rate of turning per moment, rad/s/(N m): slow for a wrist that gives some 160 N m a radian under its servo."""
-TURN_GREATEST: Final = 0.1
-"""Greatest rate that a moment alone makes, rad/s."""
-TURN_NOISE: Final = 20 * OUNCE_INCH
-"""Moment below which the hand does not give way, N m: joint friction is felt as up to 17 ounce-inches."""
-TURN_MOST: Final = 15 * DEGREE
-"""The hand is turned no farther than this, rad: what leans on it more has hit it."""
-RAMP: Final = 6
-"""Servo periods to reach the cruising speed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Course:
     """A straight way and how force changes it. Vectors in W."""
 
+    compliance: ComplianceModel
+    """Figures of the arm that goes it."""
     direction: Array
     """Unit vector, shape (3,)."""
     distance: float
@@ -57,26 +41,27 @@ class Course:
     def advance(self, wrench: Array, tick: int) -> float:
         """Speed along the way (m/s) for an external wrench on the hand, in servo period number `tick`."""
         if self.force is None:
-            return self.speed * min(1.0, (tick + 1) / RAMP)
-        felt = float(-wrench[:3] @ self.direction)
-        return float(np.clip((self.force - felt) * GAIN, -GREATEST, GREATEST))
+            return self.speed * min(1.0, (tick + 1) / self.compliance.ramp)
+        felt, k = float(-wrench[:3] @ self.direction), self.compliance
+        return float(np.clip((self.force - felt) * k.gain, -k.speed, k.speed))
 
     def yielding(self, wrench: Array) -> Array:
         """Velocity (m/s) with which the hand gives way, shape (3,)."""
-        return np.clip(_beyond(self.free * wrench[:3], NOISE) * GAIN, -GREATEST, GREATEST)
+        k = self.compliance
+        return np.clip(_beyond(self.free * wrench[:3], k.deadband) * k.gain, -k.speed, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
         """Rotation vector (rad) of the hand one servo period (s) after `turn`, shape (3,)."""
-        felt = wrench[3:]
-        missing = _beyond(self.spin * felt, TURN_NOISE)
+        felt, k = wrench[3:], self.compliance
+        missing = _beyond(self.spin * felt, k.turn_deadband)
         wanted = float(np.linalg.norm(self.moment))
         if wanted:
             axis = self.moment / wanted
             missing += axis * (wanted + float((felt - missing) @ axis))
-        turn = turn + np.clip(missing * TURN_GAIN, -TURN_GREATEST, TURN_GREATEST) * period
-        return turn * (TURN_MOST / max(float(np.linalg.norm(turn)), TURN_MOST))
+        turn = turn + np.clip(missing * k.turn_gain, -k.turn_speed, k.turn_speed) * period
+        return turn * (k.turn_limit / max(float(np.linalg.norm(turn)), k.turn_limit))
 
 
-def _beyond(felt: Array, noise: float) -> Array:
-    """The force that is felt, less the noise."""
-    return np.asarray(np.sign(felt) * np.maximum(np.abs(felt) - noise, 0.0))
+def _beyond(felt: Array, deadband: float) -> Array:
+    """The force or moment that is felt, less the dead band."""
+    return np.asarray(np.sign(felt) * np.maximum(np.abs(felt) - deadband, 0.0))

@@ -33,7 +33,7 @@ class ExecutionContext:
     world: WorldModel = field(init=False)
 
     def __post_init__(self) -> None:
-        self.state = ExecutionState(drive=DriveState.holding(self.cell.sense()))
+        self.state = ExecutionState(drive=DriveState.holding(self.cell.sense(), self.arm))
         self.drive = ArmDrive(cell=self.cell, arm=self.arm, state=self.state.drive)
         self.world = WorldModel.of(self.plan.program, self.state.world)
 

@@ -31,12 +31,8 @@ from handeye.touch.guards import monitor
 from handeye.touch.hold import at_least, within
 from handeye.units import INCH
 
-HAND_SPEED: Final = 0.05
-"""Speed of the finger gap when nothing is between them, m/s; the hand does .08 free (data sheet of 1974)."""
-CENTRE_SPEED: Final = 0.5 * INCH
-"""Speed of CENTER, m/s of gap."""
-GRASP_TICKS: Final = 20
-"""Periods the fingers press before the gap is read."""
+_SHUT: Final = -0.02
+"""Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""
 PLAN_TOLERANCE: Final = 1e-4
 """A goal or start nearer than this (m, rad) to its planned value is run as planned."""
 
@@ -98,15 +94,16 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
             return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
         outcome = run.drive.follow(samples, guard, displacement / distance)
     else:
-        outcome = run.drive.comply(_course(operation), guard)
+        outcome = run.drive.comply(_course(run, operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     return _finish(run, outcome, operation.guards)
 
 
-def _course(operation: Change) -> Course:
+def _course(run: ExecutionContext, operation: Change) -> Course:
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
     return Course(
+        compliance=run.arm.compliance,
         direction=displacement / distance,
         distance=distance,
         speed=change_speed(operation),
@@ -150,14 +147,14 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
     """Drive the fingers to a gap."""
     _to_gap(run, operation.gap)
-    run.drive.hold(GRASP_TICKS)
+    run.drive.hold(run.arm.hand.grasp.settle)
     return None
 
 
 def _to_gap(run: ExecutionContext, goal: float) -> None:
     drive = run.drive
     start = drive.state.gap = drive.sensed.gap
-    ticks = max(1, round(abs(goal - start) / (HAND_SPEED * drive.period)))
+    ticks = max(1, round(abs(goal - start) / (run.arm.hand.grasp.speed * drive.period)))
     for i in range(1, ticks + 1):
         drive.state.gap = start + (goal - start) * i / ticks
         drive.hold(1)
@@ -165,14 +162,14 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
     """Close until both switches fire or the gap falls below the minimum, then see what is held."""
-    drive = run.drive
+    drive, grasp = run.drive, run.arm.hand.grasp
     drive.state.gap = drive.sensed.gap
     floor = min(operation.minimum, drive.state.gap)
-    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > -0.02:
-        drive.state.gap -= HAND_SPEED * drive.period
+    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
+        drive.state.gap -= grasp.speed * drive.period
         drive.hold(1)
-    drive.state.gap = -0.02
-    drive.hold(GRASP_TICKS)
+    drive.state.gap = _SHUT
+    drive.hold(grasp.settle)
     return _held(drive.sensed.gap, operation.minimum, operation.maximum)
 
 
@@ -188,12 +185,12 @@ def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
 
 def center(run: ExecutionContext, operation: Center) -> Fault | None:
     """Close on an object, moving the arm so that the object stays where it is."""
-    drive = run.drive
+    drive, grasp = run.drive, run.arm.hand.grasp
     X_WT = forward(run.arm, drive.state.q)
     line = X_WT[:3, 1]
     here = drive.dynamics()
     drive.state.gap = drive.sensed.gap
-    centring = Centring(minimum=operation.minimum, speed=CENTRE_SPEED)
+    centring = Centring(minimum=operation.minimum, speed=grasp.centring)
     while not centring.done:
         step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=drive.period)
         drive.state.gap += step.gap
@@ -201,7 +198,7 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
         outcome = drive.shift(here, X_WT)
         if outcome.error is not None:
             return Fault(number=outcome.error, detail=outcome.detail)
-    drive.hold(GRASP_TICKS // 2)
+    drive.hold(grasp.settle // 2)
     if centring.error:
         detail = f"the fingers do not both touch anything; the gap is {drive.sensed.gap / INCH:.2f} in"
         return Fault(number=centring.error, detail=detail)

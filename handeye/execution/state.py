@@ -70,9 +70,12 @@ class DriveState(MutableRecord, kw_only=True):
     """Set-point the arm holds, shape (n,), rad and m."""
     gap: float
     """Set-point of the finger gap, m."""
-    grip: float = 80.0
+    grip: float
+    """The most force each finger may press with, N."""
     load: float = 0.0
+    """Weight that the servo bears, N."""
     tool: float = 0.0
+    """Speed of the screwdriver, rad/s."""
     lamp: bool = False
     cut: bool = False
     """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
@@ -81,9 +84,9 @@ class DriveState(MutableRecord, kw_only=True):
     """External force and moment on the hand in W, less the tare."""
 
     @classmethod
-    def holding(cls, sensed: Sensed) -> "DriveState":
-        """Hold the arm and the fingers where they are."""
-        return cls(q=sensed.q.copy(), gap=sensed.gap)
+    def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
+        """Hold the arm and the fingers where they are, with all the grip its hand has."""
+        return cls(q=sensed.q.copy(), gap=sensed.gap, grip=arm.hand.grip)
 
 
 class ExecutionState(SystemState, kw_only=True):

@@ -110,7 +110,7 @@ class ProgramSystem(System):
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, SimulationError) as error:
             self.state.unable = str(error)
-        put_back(self.state.drive, DriveState.holding(self._cell.devices.sense()))
+        put_back(self.state.drive, DriveState.holding(self._cell.devices.sense(), self.arm))
         self._take_calibration()
 
     def _take_calibration(self) -> None:

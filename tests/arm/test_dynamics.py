@@ -81,8 +81,14 @@ def test_a_robot_whose_figures_do_not_fit_together_is_refused() -> None:
             replace(STANFORD, **wrong)
 
 
-def test_digest_changes_with_any_figure() -> None:
+def test_digest_changes_with_any_figure_that_a_plan_rests_on() -> None:
     assert digest(STANFORD) == digest(replace(STANFORD, X_WB=STANFORD.X_WB.copy()))
     assert digest(STANFORD) != digest(replace(STANFORD, hand=replace(STANFORD.hand, mass=0.25)))
     assert digest(STANFORD) != digest(replace(STANFORD, X_WB=np.eye(4)))
     assert digest(STANFORD) != digest(replace(STANFORD, held={"boom": 0.5}))
+
+
+def test_digest_tells_nothing_of_figures_that_no_plan_rests_on() -> None:
+    yielding = replace(STANFORD.compliance, gain=0.1)
+    gentle = replace(STANFORD.hand, grasp=replace(STANFORD.hand.grasp, settle=1))
+    assert digest(STANFORD) == digest(replace(STANFORD, compliance=yielding, hand=gentle))

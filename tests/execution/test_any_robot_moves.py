@@ -62,7 +62,7 @@ class Bench:
         )
         cell = SimulatedCell(model, self.data, arm=arm, noise=noise)
         self.link = model.joint(f"it/j{len(q)}").bodyid[0]
-        state = DriveState.holding(cell.devices.sense())
+        state = DriveState.holding(cell.devices.sense(), self.arm)
         self.ticks: list[float] = []
         self.drive = ArmDrive(cell=cell.devices, arm=self.arm, state=state, watch=self._watch)
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from pump_bench import Bench, at_standard, bench, written
 
+from handeye.arm.robots.stanford import STANFORD
 from handeye.errors import NO_FORCE, SERVO_LAG
 from handeye.events import GuardTripped
-from handeye.execution.compliance import TURN_MOST
 from handeye.pose import Array
 from handeye.program.program import Position
 from handeye.tasks.water_pump.pump_world import PumpWorld
@@ -76,7 +76,7 @@ def test_the_tool_centre_point_stays_on_its_way_while_the_hand_spins() -> None:
 
 def test_a_hand_that_is_twisted_on_and_on_turns_no_farther_than_the_most() -> None:
     about = turned(twisted("SPIN 1 X\nCHANGE [0 0 -1] 3 .5"))
-    assert about[0] * DEGREE == pytest.approx(np.sin(TURN_MOST), abs=0.02)
+    assert about[0] * DEGREE == pytest.approx(np.sin(STANFORD.compliance.turn_limit), abs=0.02)
 
 
 def test_a_moment_that_nothing_takes_turns_the_hand() -> None:

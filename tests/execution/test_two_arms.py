@@ -54,7 +54,7 @@ CELLS = {"simulated": simulated, "fake": fake}
 
 
 def loop(cell: Workcell) -> ServoLoop:
-    return ServoLoop(cell=cell, arm=STANFORD, state=DriveState.holding(cell.sense()))
+    return ServoLoop(cell=cell, arm=STANFORD, state=DriveState.holding(cell.sense(), STANFORD))
 
 
 @cache

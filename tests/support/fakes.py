@@ -105,7 +105,7 @@ class FakeHand(HandPort):
     """Fingers that close on what stands between them: `thickness` (m, 0 for nothing) where the arm's hand is."""
 
     def __init__(self, arm: FakeArm, gap: float = 0.05) -> None:
-        self.arm, self.gap, self.goal = arm, gap, gap
+        self.arm, self.gap, self.goal, self.grip = arm, gap, gap, 0.0
         self.thickness: Callable[[Array], float] = lambda p: 0.0
 
     def read(self) -> HandReading:
@@ -113,7 +113,7 @@ class FakeHand(HandPort):
         return HandReading(gap=self.gap, touch=(touching, touching))
 
     def drive(self, gap: float, grip: float) -> None:
-        self.goal = gap
+        self.goal, self.grip = gap, grip
 
     def elapse(self, seconds: float) -> None:
         step = STANFORD.hand.gap_speed * seconds

@@ -10,12 +10,12 @@ from typing import Literal
 import mujoco
 import numpy as np
 
-from handeye.arm.hand import HandModel
-from handeye.arm.model import ArmModel, Joint, ServoModel, Structure
+from handeye.arm.hand import GraspModel, HandModel
+from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel, Structure
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import Pose, pose
 from handeye.resources import scenes
-from handeye.units import DEGREE
+from handeye.units import DEGREE, OUNCE_INCH
 
 Triple = tuple[float, float, float]
 
@@ -23,8 +23,14 @@ SMALL_HAND = HandModel(
     length=0.15, mass=0.16, centre=0.12, gap_max=0.08, gap_speed=0.08, grip=30.0,
     finger_width=0.016, finger_thickness=0.010, finger_length=0.06,
     palm=(-0.02, -0.055, -0.08, 0.02, 0.055, -0.06), wrist=(-0.02, -0.02, -0.15, 0.02, 0.02, -0.08),
+    grasp=GraspModel(speed=0.05, centring=0.0127, settle=20),
 )  # fmt: skip
 """Two fingers of 80 g, 6 cm long."""
+
+YIELDING = ComplianceModel(
+    gain=0.0015, speed=0.0127, deadband=0.4,
+    turn_gain=0.1, turn_speed=0.1, turn_deadband=20 * OUNCE_INCH, turn_limit=15 * DEGREE, ramp=6,
+)  # fmt: skip
 
 _ALONG_X = np.array([[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]])
 """A base frame whose z, the first axis, is table x, and whose x is up."""
@@ -61,7 +67,7 @@ def _arm(
     kinds = ("slide" if joint.kind == "prismatic" else "turn" for joint in joints)
     return ArmModel(
         name=name, structure=structure, joints=joints, X_WB=pose(_ALONG_X, base), hand=SMALL_HAND,
-        servo=_servo(*kinds), held=held or {},
+        servo=_servo(*kinds), compliance=YIELDING, held=held or {},
     )  # fmt: skip
 
 

@@ -8,10 +8,10 @@ placeholder.
 from math import pi
 from typing import Final, Literal
 
-from handeye.arm.hand import HandModel
-from handeye.arm.model import ArmModel, Joint, ServoModel
+from handeye.arm.hand import GraspModel, HandModel
+from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
 from handeye.pose import pose, rotation_z
-from handeye.units import DEGREE, INCH, JIFFY
+from handeye.units import DEGREE, INCH, JIFFY, OUNCE_INCH
 
 HAND_LENGTH: Final = 10 * INCH
 """Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""
@@ -107,12 +107,13 @@ _JOINTS: Final = (
 
 # Sizes of the hand as drawn. Fingers of .12 kg: placeholder, as their mass centre (they reach from .175 to .254 m).
 # Opening, 10.5 cm, and its rate, 8 cm/s free (3 loaded): data sheet of 1974. Grip: the strongest the assembly study
-# measured.
+# measured. Grasp: chosen.
 _HAND: Final = HandModel(
     length=HAND_LENGTH, mass=0.24, centre=0.20, gap_max=0.105, gap_speed=0.08, grip=80.0,
     finger_width=0.01905, finger_thickness=0.01016, finger_length=0.0782,
     palm=(-0.0381, -0.0635, -0.1055, 0.0381, 0.0635, -0.0815),
     wrist=(-0.039, -0.050, -0.2540, 0.039, 0.050, -0.1055), lamp=(-0.045, 0.062, -0.088),
+    grasp=GraspModel(speed=0.05, centring=0.5 * INCH, settle=20),
 )  # fmt: skip
 
 # Frequencies: torque held over 1/60 s becomes unstable between 50 and 60 rad/s (measured); at 20 to 30 the arm
@@ -125,6 +126,14 @@ _SERVO: Final = ServoModel(
     short=0.004, settle=8, drag=0.1,
 )  # fmt: skip
 
+# Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Dead band: twice what joint friction is felt as. Gain
+# of turning: slow for a wrist that gives some 160 N m a radian under its servo. Dead band of turning: joint friction is
+# felt as up to 17 ounce-inches. Limit of turning: what leans on the hand more has hit it.
+_COMPLIANCE: Final = ComplianceModel(
+    gain=0.0015, speed=0.0127, deadband=0.4,
+    turn_gain=0.1, turn_speed=0.1, turn_deadband=20 * OUNCE_INCH, turn_limit=15 * DEGREE, ramp=6,
+)  # fmt: skip
+
 STANFORD: Final = ArmModel(
     name="Stanford",
     structure="spherical wrist",
@@ -134,5 +143,6 @@ STANFORD: Final = ArmModel(
     X_WB=pose(rotation_z(pi / 2), (20 * INCH, 10 * INCH, 6 * INCH)),
     hand=_HAND,
     servo=_SERVO,
+    compliance=_COMPLIANCE,
 )
 """The arm of the pump assembly."""

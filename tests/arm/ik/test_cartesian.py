@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from robots import SMALL_HAND
+from robots import SMALL_HAND, YIELDING
 
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
@@ -43,8 +43,9 @@ def slides(names: tuple[str, ...]) -> ArmModel:
     figures = (1.0,) * len(names)
     servo = ServoModel(period=1 / 60, frequency=figures, lag=figures, short=0.004, settle=8, drag=0.1)
     return ArmModel(
-        name="slides", structure="cartesian", joints=tuple(joints), X_WB=X_WB, hand=SMALL_HAND, servo=servo
-    )
+        name="slides", structure="cartesian", joints=tuple(joints), X_WB=X_WB, hand=SMALL_HAND, servo=servo,
+        compliance=YIELDING,
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("names", SUBSETS, ids="".join)

@@ -1,0 +1,59 @@
+"""Opening, closing and CENTER go by the figures of the hand that the arm has, and not by anybody else's."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fakes import FakeCell
+
+from handeye.al import compile_text
+from handeye.arm.hand import GraspModel
+from handeye.arm.robots.stanford import STANFORD
+from handeye.editor.explain import SAMPLE
+from handeye.execution.context import ExecutionContext
+from handeye.execution.executor import Executor
+from handeye.planning.planner import make_plan
+from handeye.ports.workcell import Sensed
+from handeye.source import Source
+from handeye.tasks.water_pump.park import PARK
+from handeye.units import INCH, JIFFY
+
+GRASP = GraspModel(speed=0.06, centring=0.03, settle=4)
+ARM = replace(STANFORD, hand=replace(STANFORD.hand, grip=33.0, grasp=GRASP))
+THICKNESS = 0.02
+"""Of what stands between the fingers, which begin 5 cm apart, m."""
+
+
+def carried_out(statement: str) -> tuple[FakeCell, list[Sensed]]:
+    """A statement carried out by an arm with such a hand, and all that was sensed meanwhile."""
+    program, diagnostics = compile_text(Source(name="grasp.al", text=statement), SAMPLE)
+    assert program is not None, diagnostics
+    plan, problems = make_plan(program, STANFORD)
+    assert plan is not None, problems
+    cell, periods = FakeCell(np.array(PARK)), list[Sensed]()
+    cell.hand.thickness = lambda _: THICKNESS
+    run = ExecutionContext(plan=plan, arm=ARM, cell=cell.devices, camera=None, emit=lambda _: None)
+    run.drive.watch = lambda sensed, _: periods.append(sensed)
+    Executor(run=run).step()
+    return cell, periods
+
+
+@pytest.mark.parametrize(
+    ("statement", "way", "speed", "settle"),
+    [
+        (f"OPEN {0.08 / INCH}", 0.03, GRASP.speed, GRASP.settle),
+        ("CLOSE .1", 0.05 - THICKNESS, GRASP.speed, GRASP.settle),
+        ("CENTER .1", 0.05 - THICKNESS, GRASP.centring, GRASP.settle // 2),
+    ],
+)
+def test_the_fingers_go_at_the_speed_of_their_hand_and_press_as_long_as_it_says(
+    statement: str, way: float, speed: float, settle: int
+) -> None:
+    _, periods = carried_out(statement)
+    assert len(periods) == pytest.approx(way / (speed * JIFFY) + settle, abs=1)
+
+
+@pytest.mark.parametrize("statement", ["OPEN 3", "CLOSE .1", "CENTER .1"])
+def test_the_fingers_press_with_no_more_than_their_hand_can(statement: str) -> None:
+    cell, _ = carried_out(statement)
+    assert cell.hand.grip == 33.0
