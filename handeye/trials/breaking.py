@@ -19,9 +19,9 @@ from handeye.events import AnyEvent, PanicStopped, StageFinished, StageStarted
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, TRACE
 from handeye.runs.snapshot import Snapshot
+from handeye.tasks import task
 from handeye.trace.eventlist import effective, read_events
 from handeye.trace.reading import read_trace
-from handeye.units import JIFFY
 
 POLL: Final = 0.002
 """s between two looks at what a run has written."""
@@ -60,13 +60,13 @@ class UnbrokenRun:
 
 
 def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
-    """Assemble a pump without a break.
+    """Carry out the script of the task from beginning to end, without a break.
 
     Args:
         world: options of the command line that choose the world.
 
     Raises:
-        TrialFailed: it was not assembled.
+        TrialFailed: the referee does not find the work done.
     """
     done = handeye("assemble", *world, "--out", str(folder))
     if done.returncode != 0:
@@ -218,7 +218,8 @@ def _brakes(place: Path) -> list[str]:
     if not isinstance(last, PanicStopped):
         return [f"its last event is {type(last).__name__}"]
     before, end = list(trace.ticks())[-2:]
-    stopped = round((end.time - before.time) / JIFFY) == 1 and abs(last.time - end.time) < JIFFY / 2
+    period = task(trace.head.task).arm.servo.period
+    stopped = round((end.time - before.time) / period) == 1 and abs(last.time - end.time) < period / 2
     return [] if stopped and not np.any(end.effort) else ["the brakes were not set at the next tick"]
 
 

@@ -15,12 +15,12 @@ from typing import Final
 from msgspec.structs import replace
 
 from handeye.al import AL, compile_text
-from handeye.arm.robots.stanford import STANFORD
 from handeye.planning.scripts import plan_source
 from handeye.program.program import Position
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
+from handeye.runs.scripts import default_script
 from handeye.source import Source, read_source
+from handeye.tasks import task
 from handeye.trials.keystrokes import typed
 
 LINES: Final = 2400
@@ -98,10 +98,10 @@ def measure(times: int) -> Iterator[Waiting]:
     save = text.count("\n", 0, text.index("SAVE", len(text) // 2)) + 1
     strokes = typed(text, save, times)
     yield Waiting(what=f"a keystroke in {TYPED_LINES} lines", seconds=tuple(strokes), target=0.050)
-    file = plans() / "water_pump.al"
+    file = default_script()
     source, taught = read_source(file), load_taught(file.with_suffix(".toml"))
     plan = [_seconds(partial(_plan, source, _moved(taught, k))) for k in range(times)]
-    yield Waiting(what="the pump planned", seconds=tuple(plan), target=1.0)
+    yield Waiting(what=f"{task().words.product} planned", seconds=tuple(plan), target=1.0)
 
 
 def script(lines: int, number: int) -> str:
@@ -118,9 +118,9 @@ def script(lines: int, number: int) -> str:
     )
 
 
-def _seconds(task: Callable[[], object]) -> float:
+def _seconds(work: Callable[[], object]) -> float:
     begun = time.perf_counter()
-    task()
+    work()
     return time.perf_counter() - begun
 
 
@@ -131,7 +131,7 @@ def _check(text: str) -> None:
 
 
 def _plan(source: Source, taught: Taught) -> None:
-    assert plan_source(source, taught, STANFORD, AL).plan is not None
+    assert plan_source(source, taught, task().arm, AL).plan is not None
 
 
 def _moved(taught: Taught, times: int) -> Taught:
