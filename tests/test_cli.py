@@ -3,12 +3,14 @@
 import json
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from conftest import Command
+from cyclopts import App
 
+from handeye.cli import app
 from handeye.planfile.plan import VERSION
 
 MISTAKES = {
@@ -19,6 +21,20 @@ MISTAKES = {
     "unreachable-position": "TRANS T [200 38 4 90 90 0]\nMOVE T",
 }
 """Diagnostic code and a script that deserves it."""
+
+
+def commands_of(app: App) -> Iterator[App]:
+    """All commands, those of groups such as `trace` too."""
+    for word in app:
+        if not word.startswith("-"):
+            yield from [app[word]] if app[word].default_command else commands_of(app[word])
+
+
+@pytest.mark.parametrize("command", [*commands_of(app)], ids=lambda command: " ".join(command.name))
+def test_help_says_what_every_argument_and_option_is_for(command: App) -> None:
+    told = command.assemble_argument_collection(parse_docstring=True)
+    assert command.help
+    assert [argument.name for argument in told if argument.show and not argument.parameter.help] == []
 
 
 @pytest.mark.parametrize("code", MISTAKES)
@@ -109,6 +125,9 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
         (("assemble", "--seed", "x"), "Invalid value for --seed"),
         (("assemble", "--camera", "film"), 'Invalid value "film" for --camera'),
         (("trials", "assembly", "--seeds", "9-3"), "'9-3' is neither"),
+        (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
+        (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
+        (("trials", "assembly", "--seeds", "9" * 19), "the largest seed is"),
         (("frobnicate",), 'Unknown command "frobnicate"'),
     ],
 )

@@ -14,7 +14,7 @@ from handeye.errors import HandeyeError
 app = App(
     name="handeye",
     version=__version__,
-    help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.",
+    help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.\n\n`handeye COMMAND --help` tells more.",
     suppress_keyboard_interrupt=False,
     default_parameter=Parameter(negative=""),
     console=screen,

@@ -22,7 +22,10 @@ def register(app: App) -> None:
 
 
 def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
-    """Assemble once and print the timing table beside that of 1973."""
+    """Assemble once and print the timing table beside that of 1973.
+
+    Exit code 0: the program came to its end; 1: it stopped and called the operator.
+    """
     from handeye.report.page import timing as table
     from handeye.report.progress import Progress
     from handeye.trials.assembly import run_plan
@@ -78,7 +81,7 @@ def language(
 ) -> int:
     """Measure the delay of a check, a keystroke and a plan, each time on a new text.
 
-    Exit code 0: each median is under its target; 1: not each.
+    Exit code 0: every median is under its target; 1: one is not.
     """
     from handeye.trials.language import measure
 

@@ -32,8 +32,12 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
 
 
 WholeNumber = Annotated[int, Parameter(converter=_whole)]
+PictureFile = Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")]
+SceneCamera = Annotated[str, Parameter(help="One of the scene's cameras.")]
+Width = Annotated[WholeNumber, Parameter(help="Points of the picture from left to right.")]
+Height = Annotated[WholeNumber, Parameter(help="Points of the picture from top to bottom.")]
 Camera = Annotated[
-    CameraKind, Parameter(help="How to make pictures: OpenGL, ray casting, or whichever works.")
+    CameraKind, Parameter(help="How to make pictures: OpenGL, ray casting, or whichever works here.")
 ]
 Json = Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")]
 Out = Annotated[

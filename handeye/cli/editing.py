@@ -32,6 +32,11 @@ def fmt(
 
     `-` reads standard input and writes standard output. A script with syntax errors stays as it is. Exit code 2:
     there was such a script, or a file cannot be used.
+
+    Parameters
+    ----------
+    files
+        Scripts to format in their places.
     """
     if not files:
         raise InvalidInput("fmt needs the name of a script, or - for standard input")
@@ -72,7 +77,13 @@ def _standard_input() -> Source:
 
 
 def explain(word: str | None = None, /) -> int:
-    """Explain a diagnostic's code, an error number or an instruction; without an argument, list the codes."""
+    """Explain a diagnostic's code, an error number or an instruction; without an argument, list the codes.
+
+    Parameters
+    ----------
+    word
+        Such as label-twice, 23 or CHANGE.
+    """
     from handeye.editor.explain import explanation, listing
 
     text = listing() if word is None else explanation(word)

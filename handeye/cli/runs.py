@@ -34,8 +34,8 @@ Overwrite = Annotated[bool, Parameter(help="Replace the run in the folder of --o
 OnStop = Annotated[
     str | None,
     Parameter(
-        help="When the operator is called: `abort`, `retry:N` (each stage again, N times at most) or `ask`. "
-        "By default asks on a terminal and aborts elsewhere."
+        help="What to do when the operator is called: `abort`, `retry:N` (each stage again, N times at most) or "
+        "`ask`. By default asks on a terminal and aborts elsewhere."
     ),
 ]
 
@@ -100,7 +100,9 @@ def run(
     step: Step = False,
     checkpoints: Annotated[
         Path | None,
-        Parameter(help="Folder of checkpoints, or of a run, where --from and --stage begin and save."),
+        Parameter(
+            help="Folder of checkpoints, or of a run: --from and --stage begin there, and new ones are saved there."
+        ),
     ] = None,
     on_stop: OnStop = None,
 ) -> int:
@@ -110,8 +112,8 @@ def run(
     checkpoint; without one, the stages before it come first.
 
     Exit code 0: the program ended, or paused where asked; 1: it stopped and called the
-    operator; 3: the referee, if asked, disagrees; 2: bad input, or a refused --step command from
-    no terminal; 130: interrupted.
+    operator; 3: the referee, if asked, disagrees; 2: bad input, or a --step command that was piped in
+    was refused; 130: interrupted.
     """
     from handeye.cli.job import Job, work
     from handeye.runs.setup import Setup

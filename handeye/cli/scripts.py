@@ -44,7 +44,10 @@ def check(
     *,
     json: Annotated[bool, Parameter(help="Diagnostics as JSON.")] = False,
     strict: Annotated[
-        bool, Parameter(name="--strict-1973", help="Refuse words and operands that are ours.")
+        bool,
+        Parameter(
+            name="--strict-1973", help="Refuse words and operands that handeye adds to the language of 1973."
+        ),
     ] = False,
     watch: Annotated[
         bool, Parameter(help="Check again whenever the script, a required file or the taught file changes.")

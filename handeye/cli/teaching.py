@@ -22,9 +22,11 @@ if TYPE_CHECKING:
     from handeye.teaching.workplace import Workplace
 
 TaughtFile = Annotated[
-    Path | None, Parameter(name="--taught", help="Taught file; by default the water pump's.")
+    Path | None, Parameter(name="--taught", help="Taught file; by default that of `assemble`.")
 ]
-Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first.")]
+Looking = Annotated[
+    bool, Parameter(name="--look", help="Set the camera up first, as `assemble` does; it takes some minutes.")
+]
 From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell of this checkpoint.")]
 Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this checkpoint.")]
 
@@ -52,7 +54,7 @@ def do(
     Parameters
     ----------
     functions
-        Functions of the arm language; a modifier comes before its motion, with a newline between.
+        Instructions of the arm language; a modifier comes before its motion, with a newline between.
     """
     from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
     from handeye.teaching.answers import converse
@@ -88,7 +90,7 @@ def repl(
 ) -> int:
     """Type functions to collect and check them; DO carries them out. HELP lists the commands.
 
-    Exit code 0: left; 1: the operator was called last; 2: a line was refused that came from no terminal;
+    Exit code 0: left; 1: the operator was called last; 2: bad input, or a line that was piped in was refused;
     130: interrupted.
 
     Parameters
@@ -123,8 +125,8 @@ def teach(
 ) -> int:
     """Move the arm and name positions; new names go into the taught file, and the rest of it stays.
 
-    Exit code 0: left; 2: bad input, or a line was refused that came from no terminal, or something was left
-    unsaved; 130: interrupted.
+    Exit code 0: left; 2: bad input, or a line that was piped in was refused, or something was left unsaved;
+    130: interrupted.
 
     Parameters
     ----------

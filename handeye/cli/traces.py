@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, WholeNumber, note, notes, say, screen
+from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, note, notes, say, screen
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
 
@@ -63,10 +63,10 @@ def photograph(
     /,
     *,
     at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` prints them.")],
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
-    camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
-    width: WholeNumber = 1280,
-    height: WholeNumber = 960,
+    output: PictureFile,
+    camera: SceneCamera = "studio",
+    width: Width = 1280,
+    height: Height = 960,
 ) -> int:
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
     from handeye.cell.photograph import PNG, photograph_png

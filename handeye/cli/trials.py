@@ -1,5 +1,6 @@
 """Commands that try things in many worlds and count."""
 
+import re
 import tempfile
 from pathlib import Path
 from typing import Annotated, Final, Literal
@@ -35,7 +36,7 @@ def assembly_trials(
     camera: Camera = "auto",
     out: Annotated[Path | None, Parameter(help="File for the results, one JSON object a line.")] = None,
 ) -> int:
-    """Assemble the pump in many worlds and count.
+    """Assemble in many worlds and count.
 
     Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed.
     """
@@ -82,6 +83,11 @@ def base_vision_trials(
     showing the lamp a hundred times, as `assemble` does.
 
     Exit code 0: no wrong pose was accepted; 3: one was.
+
+    Parameters
+    ----------
+    count
+        Worlds to try, from --seed on.
     """
     return _vision_trial("base", count, world.spec, camera, eye)
 
@@ -93,7 +99,15 @@ def gasket_vision_trials(
     world: WorldOptions = ANY_WORLD,
     camera: Camera = "auto",
 ) -> int:
-    """Check the gasket in many worlds: on properly, shifted, absent."""
+    """Check the gasket in many worlds: on properly, shifted, absent.
+
+    Exit code 0: no shifted or absent gasket was accepted; 3: one was.
+
+    Parameters
+    ----------
+    count
+        Worlds to try, from --seed on.
+    """
     return _vision_trial("gasket", count, world.spec, camera, "calibrated")
 
 
@@ -110,12 +124,13 @@ def _some(count: int, what: str = "world") -> int:
     return count
 
 
-def _range(text: str) -> list[int]:
+def _range(text: str) -> range:
     """The seeds that `3` or `0-19` names."""
-    first, _, last = text.partition("-")
-    if not first.isdecimal() or (last and not last.isdecimal()) or int(last or first) < int(first):
+    found = re.fullmatch(r"([0-9]{1,19})(?:-([0-9]{1,19}))?", text)
+    first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
+    if last < first:
         raise InvalidInput(f"seeds are given as a number or a range such as 0-19; {text!r} is neither")
-    return list(range(int(first), int(last or first) + 1))
+    return range(first, last + 1)
 
 
 def breaking_trials(

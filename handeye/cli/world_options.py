@@ -23,12 +23,12 @@ class ErrorOptions:
 
     level: Annotated[
         Literal["low", "nominal", "high"],
-        Parameter(help="`low`: every error half as large; `high`: twice."),
+        Parameter(help="How large errors are: `low` is half as large as nominal, `high` twice."),
     ] = "nominal"
     without: Annotated[
         list[str] | None,
         Parameter(
-            help="Names, with commas, of errors or groups to switch off; `handeye world` lists them.",
+            help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names.",
             consume_multiple=False,
         ),
     ] = None
@@ -36,7 +36,7 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             name="--set",
-            help="NAME=VALUE, such as camera.place.x=.3in; may be repeated.",
+            help="A value for an error, or for each of a group, such as camera.place.x=.3in; may be repeated.",
             consume_multiple=False,
         ),
     ] = None
@@ -68,7 +68,7 @@ class WorldOptions:
     """A world, or the first of several."""
 
     seed: Annotated[
-        WholeNumber, Parameter(help="Draws the world: where the base lies, and how large each error is.")
+        WholeNumber, Parameter(help="Number of the world: draws where things lie, and every error.")
     ] = 0
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
 

@@ -1,12 +1,10 @@
 """Commands that show a world: its quantities, a picture of it."""
 
 import sys
-from pathlib import Path
-from typing import Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import App
 
-from handeye.cli.common import Json, WholeNumber, screen
+from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.files import check_place, write_over
 from handeye.tasks import task
@@ -35,10 +33,10 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
 
 def render(
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")],
-    camera: Annotated[str, Parameter(help="One of the scene's cameras.")] = "studio",
-    width: WholeNumber = 1280,
-    height: WholeNumber = 960,
+    output: PictureFile,
+    camera: SceneCamera = "studio",
+    width: Width = 1280,
+    height: Height = 960,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
     """Render a picture of the work cell."""
