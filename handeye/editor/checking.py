@@ -1,12 +1,18 @@
-"""Everything there is to say about a script, the arm's reach included."""
+"""Checks of a script by the planner. An editor's scripts are for the task that is meant where none is named."""
 
 from handeye.al import AL
-from handeye.arm.robots.stanford import STANFORD
+from handeye.arm.model import ArmModel
 from handeye.diagnostics import Diagnostic
 from handeye.planning.scripts import plan_program
 from handeye.program.program import Program
+from handeye.tasks import task
+
+
+def arm() -> ArmModel:
+    """The arm that scripts are checked for."""
+    return task().arm
 
 
 def planning(program: Program) -> list[Diagnostic]:
     """Diagnostics of the planner for a program."""
-    return plan_program(program, STANFORD, AL)[1]
+    return plan_program(program, arm(), AL)[1]

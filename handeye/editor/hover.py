@@ -13,7 +13,7 @@ from handeye.al.scanner import Line, Token, TokenKind
 from handeye.al.syntax import Number, Vector
 from handeye.arm.ik import solve
 from handeye.arm.model import ArmModel
-from handeye.arm.robots.stanford import STANFORD
+from handeye.editor.checking import arm
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
 from handeye.editor.places import Place, instruction, places
@@ -140,7 +140,7 @@ def _position(document: Document, name: str) -> list[str]:
     out = [f"hand at {_hand(X_WT)}" + (", as planned" if position.of else "")]
     if position.of is not None:
         out.append(f"relative to part `{position.of}`: {_written(position)}")
-    return [*out, joints(STANFORD, X_WT)]
+    return [*out, joints(arm(), X_WT)]
 
 
 def joints(arm: ArmModel, X_WT: Pose) -> str:

@@ -15,7 +15,8 @@ from handeye.editor import wire
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit, Found
 from handeye.errors import InvalidInput
-from handeye.program.taught import Taught, load_taught
+from handeye.program.taught import Taught
+from handeye.runs.scripts import taught
 from handeye.source import Source, Span, line_name, read_source
 
 
@@ -29,19 +30,16 @@ class EditedScript:
         self.problem: str | None = None
         path = to_fs_path(uri) if uri.startswith("file:") else None
         self._folder = Path(path).parent if path else None
-        beside = Path(path).with_suffix(".toml") if path else None
-        taught, taught_text, self.taught_uri = Taught(), "", ""
-        if beside is not None and beside.is_file():
-            self.taught_uri = from_fs_path(str(beside)) or ""
-            opened = workspace.text_documents.get(self.taught_uri)
+        known, taught_text, self.taught_uri = Taught(), "", ""
+        if path:
             try:
-                taught_text = read_source(beside).text if opened is None else opened.source
-                taught = load_taught(beside)
+                taught_text = self._taught_text(Path(path).with_suffix(".toml"))
+                known = taught(Path(path))
             except InvalidInput as error:
                 self.problem = str(error)
         source = Source(name=Path(path).name if path else uri, text=text.source)
         read = self._read if path else None
-        self.document = Document(source=source, taught=taught, taught_text=taught_text, read=read)
+        self.document = Document(source=source, taught=known, taught_text=taught_text, read=read)
 
     def diagnostics(self) -> list[Diagnostic]:
         """Diagnostics of the text; of its form alone, if the taught file cannot be used."""
@@ -92,6 +90,14 @@ class EditedScript:
     def requires(self, uri: str) -> bool:
         """True if the script includes a file."""
         return uri in map(self._uri, self.document.whole.required)
+
+    def _taught_text(self, file: Path) -> str:
+        """The text of the taught file, as it is in the editor if it is open there; empty if there is none."""
+        if not file.is_file():
+            return ""
+        self.taught_uri = from_fs_path(str(file)) or ""
+        opened = self._workspace.text_documents.get(self.taught_uri)
+        return read_source(file).text if opened is None else opened.source
 
     def _uri(self, text: Source) -> str:
         return self._uri_of(text.key) if text.key else self.uri
