@@ -61,8 +61,8 @@ class Requirements:
         around = [*self.reading[self.reading.index(key) :], key]
         if len(around) > _SHOWN:
             around[_SHOWN // 2 : -_SHOWN // 2] = ["…"]
-        way = ", which requires ".join(name if name == "…" else quoted(name) for name in around)
-        notes = (way.replace(", which", "", 1),) if len(around) > 2 else ()
+        first, *others = (name if name == "…" else quoted(name) for name in around)
+        notes = (f"{first} requires {', which requires '.join(others)}",) if len(others) > 1 else ()
         return _problem("require-circle", f"{quoted(key)} requires itself", file, notes=notes)
 
 

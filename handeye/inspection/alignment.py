@@ -64,8 +64,11 @@ def _survivor(pairs: Sequence[Pair], at: int) -> int | None:
 
 def does(step: Step) -> dict[str, Any]:
     """The operation of a step as data, but for where it leads."""
-    operation: dict[str, Any] = msgspec.to_builtins(step.operation)
-    return {key: value for key, value in operation.items() if key not in ("raised", "positive")}
+    operation = step.operation
+    found: dict[str, Any] = msgspec.to_builtins(
+        operation.leading_to(None) if operation.branches else operation
+    )
+    return found
 
 
 def _exact(step: Step) -> str:

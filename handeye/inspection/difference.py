@@ -76,11 +76,12 @@ def difference(before: Plan, after: Plan) -> Difference:
     pairs = aligned(before.program.steps, after.program.steps)
     steps = (_step(before, after, pair, pairs) for pair in pairs)
     old, new = before.program.stages, after.program.stages
-    heads = [
-        (what, f"{a}", f"{b}")
-        for what in ("arm", "arm_digest", "speed")
-        if (a := getattr(before, what)) != (b := getattr(after, what))
-    ]
+    compared = (
+        ("arm", before.arm, after.arm),
+        ("arm_digest", before.arm_digest, after.arm_digest),
+        ("speed", f"{before.speed}", f"{after.speed}"),
+    )
+    heads = [head for head in compared if head[1] != head[2]]
     common = [[n for n in names if n in others] for names, others in ((old, new), (new, old))]
     if common[0] != common[1]:
         heads.append(("order of stages", ", ".join(common[0]), ", ".join(common[1])))

@@ -116,7 +116,7 @@ def _step(plan: Plan, number: int, depends: tuple[Dependence, ...]) -> Inspected
         step=number, file=step.file, line=step.line, text=one_line(step.text),
         operation=type(operation).__name__.lower(),
         seconds=None if motion is None else round(sum(motion.times), 6),
-        guards=operation.guards, press=getattr(operation, "press", None),
+        guards=operation.guards, press=operation.press,
         conditions=conditions(operation), depends=depends,
         error=branch.error, raised=branch.target if tests else None,
         counter=branch.counter, positive=branch.target if counts else None,

@@ -49,11 +49,16 @@ def _placed(
     R = X_one[:3, :3].T @ X_other[:3, :3]
     turn = float(np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1)))
     moved = (x, y, z) != (0, 0, 0) or turn > _LEAST_TURN
-    if one.at == other.at or getattr(one, "of", None) != getattr(other, "of", None) or not moved:
+    if one.at == other.at or _part(one) != _part(other) or not moved:
         return PlaceChange(kind="changed", what=what, name=name)
     return PlaceChange(
         kind="moved", what=what, name=name, shift=(x, y, z), turn=turn if turn > _LEAST_TURN else 0.0
     )
+
+
+def _part(place: Position | Part) -> str | None:
+    """The part that a position belongs to."""
+    return place.of if isinstance(place, Position) else None
 
 
 def _pose(place: Position | Part) -> Pose:

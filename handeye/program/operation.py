@@ -5,7 +5,7 @@ from typing import ClassVar, Literal, NamedTuple, Self
 
 from handeye import errors
 from handeye.program.guards import Bounds, Guards
-from handeye.record import Record
+from handeye.record import Record, Vector3
 
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
 """Kinds of what a run keeps: where things are (a target is a position or a part), pictures taken, differences saved,
@@ -74,6 +74,11 @@ class Operation(
     def guards(self) -> Guards:
         """The guards that may end it."""
         return ()
+
+    @property
+    def press(self) -> Vector3 | None:
+        """The force that it exerts while it moves, N, table coordinates."""
+        return None
 
     @property
     def reads(self) -> tuple[Use, ...]:

@@ -82,7 +82,7 @@ def load_taught(path: str | Path) -> Taught:
     except ValueError:  # of a whole number that Python does not read
         raise InvalidInput(f"{path}: a number has too many digits") from None
     except UnfitEntry as fault:
-        line = _line(source, fault.key)
+        line = _line(source, fault)
         raise InvalidInput(f"{path}{'' if line is None else f':{line}'}: {fault.key}: {fault}") from None
 
 
@@ -104,9 +104,9 @@ def _spoilt(error: tomllib.TOMLDecodeError) -> str:
     return said[:1].lower() + said[1:]
 
 
-def _line(source: Source, key: str) -> int | None:
+def _line(source: Source, fault: UnfitEntry) -> int | None:
     """The line, from 1, on which an entry begins, if it is written as people write it."""
-    kind, name = map(re.escape, key.split(".", 1))
+    kind, name = map(re.escape, (fault.kind, fault.name))
     header = rf"\[\s*{kind}\s*\.\s*[\"']?{name}[\"']?\s*\]"
     found = re.search(rf"^[ \t]*(?:{header}|[\"']?{name}[\"']?[ \t]*=)", source.text, re.MULTILINE)
     return None if found is None else source.position(found.end())[0]
@@ -118,17 +118,17 @@ def _faults(taught: Taught) -> Iterator[UnfitEntry]:
         if position.of is not None and position.of not in taught.parts:
             meant = suggestion(position.of, taught.parts)
             said = f"there is no part {quoted(position.of)}"
-            yield UnfitEntry(f"positions.{name}", said if meant is None else f"{said}; {meant}")
+            yield UnfitEntry("positions", name, said if meant is None else f"{said}; {meant}")
     where: dict[str, str] = {}
     for name, held in taught.held.items():
         for at in held.positions:
             if at not in taught.positions:
-                yield UnfitEntry(f"held.{name}", f"there is no position {quoted(at)} in this file")
+                yield UnfitEntry("held", name, f"there is no position {quoted(at)} in this file")
             if where.setdefault(at, name) != name:
-                yield UnfitEntry(f"held.{name}", f"at {at} the hand already holds {where[at]}")
+                yield UnfitEntry("held", name, f"at {at} the hand already holds {where[at]}")
     count = 0
-    for key, solids in (("fixtures", taught.fixtures), ("held", taught.held)):
+    for kind, solids in (("fixtures", taught.fixtures), ("held", taught.held)):
         for name, solid in solids.items():
             count += len(solid.boxes)
             if count > MOST_BOXES:
-                yield UnfitEntry(f"{key}.{name}", f"more than {MOST_BOXES} boxes, the limit")
+                yield UnfitEntry(kind, name, f"more than {MOST_BOXES} boxes, the limit")

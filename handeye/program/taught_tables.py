@@ -74,11 +74,16 @@ Entry = TypeVar("Entry", PositionTable, PartTable, FixtureTable, HeldTable)
 
 
 class UnfitEntry(Exception):
-    """A fault of an entry; `key` is `positions.NAME`."""
+    """A fault of an entry."""
 
-    def __init__(self, key: str, said: str) -> None:
+    def __init__(self, kind: str, name: str, said: str) -> None:
         super().__init__(said)
-        self.key = key
+        self.kind, self.name = kind, name
+
+    @property
+    def key(self) -> str:
+        """`positions.NAME`"""
+        return f"{self.kind}.{self.name}"
 
 
 def read_tables(
@@ -92,27 +97,27 @@ def read_tables(
     for name, table in tables.items():
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             said = "a name consists of letters, digits and _, and does not start with a digit"
-            raise UnfitEntry(f"{kind}.{name}", said)
-        yield name, _read(f"{kind}.{name}", table, type)
+            raise UnfitEntry(kind, name, said)
+        yield name, _read(kind, name, table, type)
 
 
-def _read(key: str, table: dict[str, object], kind: type[Entry]) -> Entry:
+def _read(kind: str, name: str, table: dict[str, object], type: type[Entry]) -> Entry:
     try:
-        entry: Entry = msgspec.convert(table, kind)
+        entry: Entry = msgspec.convert(table, type)
     except msgspec.ValidationError as error:
-        raise UnfitEntry(key, unfit(error)) from None
-    for name in kind.__struct_fields__:
-        if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, name))):
-            raise UnfitEntry(key, f"{name} has a number that is not below a million")
+        raise UnfitEntry(kind, name, unfit(error)) from None
+    for field in type.__struct_fields__:
+        if not all(abs(x) < 1e6 for x in _numbers(getattr(entry, field))):
+            raise UnfitEntry(kind, name, f"{field} has a number that is not below a million")
     if isinstance(entry, PartTable):
         for x, y, diameter in (*entry.holes, *entry.screw_holes):
             if diameter <= 0:
-                raise UnfitEntry(key, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
+                raise UnfitEntry(kind, name, f"the hole at ({x:g}, {y:g}) has diameter {diameter:g}")
     if isinstance(entry, FixtureTable | HeldTable):
         for box in entry.boxes:
             if not all(low < high for low, high in zip(box[:3], box[3:], strict=True)):
                 corners = " to ".join(f"({x:g}, {y:g}, {z:g})" for x, y, z in (box[:3], box[3:]))
-                raise UnfitEntry(key, f"the box from {corners} is empty")
+                raise UnfitEntry(kind, name, f"the box from {corners} is empty")
     return entry
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Command
+from msgspec.structs import replace
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
@@ -83,6 +84,22 @@ def test_a_moved_position_is_told_with_the_motions_it_changes() -> None:
 
 def test_a_turned_position_is_told_in_degrees() -> None:
     assert told(changed("[30 38 4 90 90 0]", "[30 38 4 100 90 0]"))[0] == "~ position U: turned by 10 deg"
+
+
+def test_a_position_that_goes_to_another_part_is_told() -> None:
+    plan = planned(SCRIPT)
+    positions = plan.program.positions
+    there = replace(positions["T"], of="BASE", at=positions["U"].at)
+    other = replace(plan, program=replace(plan.program, positions={**positions, "T": there}))
+    assert told(difference(plan, other))[0] == "~ position T: now of another part"
+
+
+def test_a_plan_at_another_speed_for_another_arm_is_told() -> None:
+    plan = planned(SCRIPT)
+    found = told(difference(plan, replace(plan, arm="other", arm_digest="0123", speed=0.5)))
+    assert found[:3] == [
+        "~ arm: Stanford -> other", f"~ arm_digest: {plan.arm_digest} -> 0123", "~ speed: 0.4 -> 0.5",
+    ]  # fmt: skip
 
 
 def test_an_added_step_does_not_change_those_behind_it() -> None:

@@ -18,6 +18,7 @@ from handeye.program.program import Program
 from handeye.program.taught import Taught
 from handeye.resources import plans
 from handeye.source import Source
+from handeye.units import OUNCE_FORCE
 
 PLACE = "        TRANS   T [25 38 4 90 90 0]\n"
 
@@ -66,6 +67,12 @@ def depends(pump: Plan, line: int) -> list[str]:
 )
 def test_guards_are_told_in_the_units_of_the_script(statements: str, said: str) -> None:
     assert "; ".join(step_of(f"{PLACE}MOVE T\n{statements}\n", 1).conditions) == said
+
+
+def test_the_force_that_a_step_presses_with_is_told_in_newtons() -> None:
+    text = f"{PLACE}MOVE T\nFORCE [0 0 -22]\nCHANGE [1 0 0] .6\n"
+    assert step_of(text, 0).press is None
+    assert step_of(text, 1).press == (0.0, 0.0, -22 * OUNCE_FORCE)
 
 
 def test_a_countdown_says_where_it_leads() -> None:
