@@ -10,7 +10,6 @@ from handeye.al.definition import (
     DEG,
     IN,
     IN_PER_S,
-    MM,
     NIL,
     ONE,
     OZ,
@@ -22,7 +21,18 @@ from handeye.al.definition import (
     Refers,
     Role,
 )
-from handeye.al.operand_kinds import ERROR, MOMENT, also, gap, name_of, named_vector, number, vector, word
+from handeye.al.operand_kinds import (
+    ERROR,
+    LENS,
+    MOMENT,
+    also,
+    gap,
+    name_of,
+    named_vector,
+    number,
+    vector,
+    word,
+)
 from handeye.al.syntax import Name, Number, Text, Vector
 from handeye.program.motion_operations import VIAS
 
@@ -32,7 +42,6 @@ MOST: Final = 1000
 """The most that a counter can be set to."""
 LARGEST_STEP: Final = 1.0
 """in, of a search."""
-LENSES: Final = (25.0, 50.0)  # mm, the two lenses on the turret [paper]
 
 
 _NIL = word(NIL, ours=False)
@@ -326,7 +335,7 @@ _TABLE = (
         op="LENS",
         group=VISION,
         help="turn the lens turret to the 25 or the 50 mm lens",
-        operands=(Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES),),
+        operands=(LENS,),
         ours=True,
     ),
     Instruction(

@@ -3,10 +3,14 @@
 from dataclasses import replace
 from typing import Final
 
-from handeye.al.definition import ANY, BIGGEST, IN, ONE, OZ_IN, Operand, OperandUnit, Refers
+from handeye.al.definition import ANY, BIGGEST, IN, MM, ONE, OZ_IN, Operand, OperandUnit, Refers
 from handeye.al.syntax import Name, Number, Vector
+from handeye.ports import camera
+from handeye.units import MILLIMETRE
 
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
+LENSES: Final = tuple(lens / MILLIMETRE for lens in camera.LENSES)
+"""Focal lengths of the lenses on the turret, mm."""
 
 
 def number(
@@ -63,3 +67,4 @@ ERROR: Final = Operand(
     why="errors have numbers from 1 to 63",
     whole=True,
 )
+LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES)

@@ -3,7 +3,7 @@
 import pytest
 from al_support import LISTING, compiled, diagnose, moves, only
 
-from handeye.al.instructions import LENSES
+from handeye.ports.camera import CLOSE_UP, WIDE
 from handeye.program.flow_operations import Advance, Load, Save, Search, Tool, Wait
 from handeye.program.guards import Against, Force, Torque
 from handeye.program.motion_operations import Change, Close, Restore, Travel, Turn
@@ -84,7 +84,8 @@ def test_units_of_the_other_words_are_converted_to_si() -> None:
 
 
 def test_lenses_are_those_of_the_turret() -> None:
-    assert [len(compiled(f"LENS {mm:g}").steps) for mm in LENSES] == [1, 1]
+    lenses = [only(f"LENS {mm}", Lens).focal_length for mm in (25, 50)]
+    assert lenses == [WIDE, CLOSE_UP] == [*Lens.choices["focal_length"]]
 
 
 def test_close_without_numbers_has_no_limits() -> None:
