@@ -60,7 +60,8 @@ def _unit(quantity: Quantity, word: str) -> Unit:
     unit, wanted = unit_named(word), quantity.measure.dimension
     if unit is None or unit.dimension != wanted:
         known = [name for name, other in UNITS.items() if name and other.dimension == wanted]
-        raise InvalidInput(f"{quantity.name} is not measured in {quoted(word)}; {suggestion(word, known)}")
+        near = suggestion(word, known) or f"known: {', '.join(map(quoted, sorted(known)))}"
+        raise InvalidInput(f"{quantity.name} is not measured in {quoted(word)}; {near}")
     return unit
 
 

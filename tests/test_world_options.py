@@ -36,6 +36,7 @@ def test_a_value_is_in_its_unit_or_in_that_of_the_quantity(
         ("place.x=", "place.x cannot be ``, which is not a number"),
         ("place.x=1e999", "place.x cannot be `1e999`"),
         ("place.x=2deg", "place.x is not measured in `deg`; known: `in`, `m`, `mm`"),
+        (f"place.x=2{'d' * 41}", f"place.x is not measured in `{'d' * 39}…`; known: `in`, `m`, `mm`"),
         ("place.yaw=2dg", "place.yaw is not measured in `dg`; known: `deg`, `rad`"),
         ("place.yaw=2degs", "place.yaw is not measured in `degs`; did you mean `deg`?"),
         ("place.yaw=91", "place.yaw cannot be `91`; it can be -90 to 90 deg"),
