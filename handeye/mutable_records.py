@@ -1,4 +1,7 @@
-"""Mutable records: what an owner lives in, the copy of it that is a snapshot, and putting a snapshot back.
+"""Mutable records: the state of a system that runs, the copy of it that is a snapshot, and putting a snapshot back.
+
+A system keeps everything it remembers in one such record, and nowhere else. Values that never change are a `Record`
+(`handeye/record.py`).
 
 Structures, dictionaries and lists are copied; numbers, texts, tuples, frozen records and arrays are shared. Therefore
 an array that stands in a record is replaced and never changed in place: a copy makes it read-only.
@@ -15,7 +18,7 @@ Kept = TypeVar("Kept", bound="MutableRecord")
 
 
 class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Base of what an owner remembers and changes, and of what goes to disk of it."""
+    """Base of the states of systems, and of the parts of these; a checkpoint holds a copy."""
 
 
 def copied(record: Kept) -> Kept:
@@ -28,7 +31,7 @@ def copied(record: Kept) -> Kept:
 
 
 def put_back(record: Kept, snapshot: Kept) -> None:
-    """Give a record, and the records in it, the values of a snapshot: whoever lives in one goes on with them."""
+    """Give a record, and the records in it, the values of a snapshot: whoever holds one of them sees these values."""
     for name in record.__struct_fields__:
         here, kept = getattr(record, name), getattr(snapshot, name)
         if isinstance(here, MutableRecord) and type(here) is type(kept):

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Pose = NDArray[np.float64]
+"""A homogeneous matrix, shape (4, 4), lengths in metres."""
 
 UPRIGHT = math.radians(2)
-"""Within this of straight down, all of the hand's turn about the vertical is called O, and T is nothing."""
-"""A homogeneous matrix, shape (4, 4), lengths in metres."""
+"""Within this of straight down, all of the hand's turn about the vertical is called O, and T is zero."""
 
 _R_ZERO = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, 0.0, 0.0]])
 

@@ -1,4 +1,7 @@
-"""Records that go to disk: frozen values whose every field has a type that is checked when they are read."""
+"""Records: values that go to disk, and never change. Every field has a type that is checked when it is read.
+
+State that changes while something runs is a `MutableRecord` (`handeye/mutable_records.py`).
+"""
 
 import msgspec
 
@@ -7,4 +10,4 @@ Vector3 = tuple[float, float, float]
 
 
 class Record(msgspec.Struct, frozen=True, gc=False, kw_only=True, forbid_unknown_fields=True):
-    """Base of everything that goes to disk."""
+    """Base of the values that go to disk: programs, plans, events, settings."""

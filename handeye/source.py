@@ -95,12 +95,6 @@ class Source:
         start = self.begins[key] + text._starts[line - 1]
         return Span(start=start + columns[0], end=start + columns[1])
 
-    def line_span(self, number: int) -> Span:
-        """The statement on a line: from its first to its last visible character."""
-        text = self.line(number)
-        start = self._starts[number - 1]
-        return Span(start=start + len(text) - len(text.lstrip()), end=start + len(text.rstrip()))
-
 
 def line_name(line: int, file: str = "") -> str:
     """`12`, or `pins.al:12` in a required file."""

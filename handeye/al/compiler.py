@@ -25,7 +25,7 @@ LANGUAGE: Final = "wave"
 def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[Diagnostic]]:
     """The program of a text in the arm language, and what there is to say about it; spans are of the whole.
 
-    What the text requires is in `source.required`, where `sewing.sewn` puts it. The program has the taught positions
+    What the text requires is in `source.required`, where `includes.sewn` puts it. The program has the taught positions
     and parts in it, and those the text adds. There is none if any diagnostic is an error. Diagnostics are sorted by
     position, at most `diagnostics.LIMIT`.
     """

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.al.definition import Instruction, Refers
-from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import Line, TokenKind, scan
 from handeye.al.syntax import Name
 from handeye.editor.places import instruction, places
@@ -121,11 +120,3 @@ def _in_scope(occurrence: Occurrence, own: set[tuple[str, str]]) -> Occurrence:
     if not inside or (occurrence.name, occurrence.scope) in own:
         return occurrence
     return Occurrence(kind=LABEL, name=occurrence.name, span=occurrence.span, makes=False)
-
-
-KINDS: Final = (
-    *(r.value for r in Refers if r not in (Refers.NEW, Refers.TARGET)),
-    *(k for op, k in _MAKES.items() if op in INSTRUCTIONS and k not in {r.value for r in Refers}),
-    MACRO,
-)
-"""Every kind of name there is."""

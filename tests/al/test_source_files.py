@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from handeye.errors import InvalidInput
-from handeye.source import Source, Span, read_source
+from handeye.source import Source, read_source
 
 
 def test_text_is_read_without_its_byte_order_mark(tmp_path: Path) -> None:
@@ -42,9 +42,3 @@ def test_impossible_names_are_refused_in_words() -> None:
         read_source("a\0b")
     with pytest.raises(InvalidInput, match=r"cannot be read: .*too long"):
         read_source("x" * 5000)
-
-
-def test_span_of_a_line_leaves_out_the_blanks_around_it() -> None:
-    source = Source(name="x", text="A\n  B C \nD")
-    assert source.line_span(2) == Span(start=4, end=7)
-    assert source.line_span(3) == Span(start=9, end=10)
