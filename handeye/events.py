@@ -5,6 +5,7 @@ from typing import Literal
 import msgspec
 
 from handeye.ports.camera import Renderer
+from handeye.program.causes import Cause, InspectionCause, Recorded
 from handeye.program.guards import GuardKind
 from handeye.record import Record
 from handeye.source import line_name
@@ -96,7 +97,8 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
     """An action raised an error."""
 
     number: int
-    detail: str
+    cause: Cause | None
+    """What led to it this time; None: the error says all."""
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
@@ -163,7 +165,8 @@ class PartInspected(Event, frozen=True, kw_only=True):
 
     part: str
     ok: bool
-    sentence: str
+    cause: InspectionCause | Recorded | None
+    """Why it is not as it should be."""
 
 
 class CameraBusy(Event, frozen=True, kw_only=True):
@@ -174,10 +177,12 @@ class CameraBusy(Event, frozen=True, kw_only=True):
 
 
 class OperatorCalled(Event, frozen=True, kw_only=True):
-    """Brakes are set and the operator is told."""
+    """Brakes are set and the operator is told: the program's own message, or of an error, or of what goes wrong."""
 
-    message: str
-    error: int | None
+    message: str = ""
+    """The program's own words."""
+    error: int | None = None
+    cause: Cause | None = None
 
 
 class OperatorAnswered(Event, frozen=True, kw_only=True):

@@ -11,6 +11,7 @@ from handeye.debugger.views import show
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import Choice, OperatorCalled, StepStarted
+from handeye.program.cause_text import call_sentence
 from handeye.runs.operator import Back, OperatorChoice, beginnings
 from handeye.runs.runner import Runner
 
@@ -29,7 +30,7 @@ class Ask:
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """How to go on."""
-        self._say(_question(runner, refused or call.message))
+        self._say(_question(runner, refused or call_sentence(call.message, call.error, call.cause)))
         for line in self.lines:
             word, _, rest = line.strip().partition(" ")
             try:

@@ -16,7 +16,6 @@ _BETWEEN: Final = (happened.StageStarted, happened.OperatorAnswered, happened.Ex
 """Events between two steps."""
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
 """Events in a step that are told otherwise, or not at all."""
-"""Operations that come to a gap; other actions come to a place."""
 
 
 class StepSummary(Record, frozen=True, kw_only=True):

@@ -21,10 +21,11 @@ from handeye.debugger.view_records import (
     Shown,
 )
 from handeye.diagnostics import quoted
-from handeye.errors import ERRORS, InvalidInput
+from handeye.errors import InvalidInput
 from handeye.events import PictureTaken
 from handeye.files import write_whole
 from handeye.pose import Array, Pose, hand_angles, yaw
+from handeye.program.cause_text import error_sentence
 from handeye.program.world_model import planned_pose
 from handeye.record import Vector3
 from handeye.report.pictures import annotated_png
@@ -103,8 +104,7 @@ def _error(runner: Runner) -> ErrorView | None:
     fault = runner.run.state.pending
     if fault is None:
         return None
-    sentence = ERRORS.get(fault.number, "unknown")
-    return ErrorView(number=fault.number, sentence=sentence + (f" ({fault.detail})" if fault.detail else ""))
+    return ErrorView(number=fault.number, sentence=error_sentence(fault.number, fault.cause))
 
 
 def _search(runner: Runner) -> SearchView | None:

@@ -20,6 +20,7 @@ from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Workcell
 from handeye.pose import hand
+from handeye.program.cause_text import cause_sentence
 from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
@@ -68,9 +69,8 @@ def calibrate_camera(
 def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
     outcome = drive.follow(trajectory.sample(drive.period))
     if outcome.error is not None:
-        raise CalibrationFailed(
-            f"while the camera was being calibrated, {outcome.detail or 'the drives were cut'}"
-        )
+        why = "the drives were cut" if outcome.cause is None else cause_sentence(outcome.cause)
+        raise CalibrationFailed(f"while the camera was being calibrated, {why}")
 
 
 def _sightings(drive: ArmDrive, drawing: CameraModel, look: CalibrationLook) -> Iterator[Sighting]:

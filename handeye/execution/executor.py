@@ -23,6 +23,7 @@ from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
 from handeye.execution.state import ExecutionState, Fault, vector
 from handeye.execution.vision_actions import VISION_ACTIONS
+from handeye.program.causes import Cause, Looping
 from handeye.program.operation import Operation
 from handeye.program.program import Step
 
@@ -54,9 +55,9 @@ class Executor:
         self.state.at = self._perform(step)
         run.emit(self._finished(here))
         if step.operation.calls is not None:
-            self._stop(step.operation.calls, None)
+            self._stop(message=step.operation.calls)
         elif self.state.pending is not None and not self._tests(self.state.at):
-            self._call_operator(self.state.pending)
+            self._stop(error=self.state.pending.number, cause=self.state.pending.cause)
         else:
             self._watch_for_circles()
         self._leave()
@@ -104,7 +105,7 @@ class Executor:
             fault = Fault(number=errors.WATCHDOG)
         self.state.pending = fault
         if fault is not None:
-            self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, detail=fault.detail))
+            self.run.emit(ErrorRaised(time=self.run.time, number=fault.number, cause=fault.cause))
 
     def _tests(self, number: int | None) -> bool:
         """True if a step tests for an error."""
@@ -141,16 +142,12 @@ class Executor:
             run.emit(StageFinished(time=run.time, stage=program.stages[self.state.stage], status=status))
             self.state.stage = None
 
-    def _call_operator(self, fault: Fault) -> None:
-        sentence = errors.ERRORS.get(fault.number, "an error")
-        self._stop(sentence + (f" ({fault.detail})" if fault.detail else ""), fault.number)
-
-    def _stop(self, message: str, error: int | None) -> None:
+    def _stop(self, *, message: str = "", error: int | None = None, cause: Cause | None = None) -> None:
         """Set the brakes and tell the operator."""
         run = self.run
         run.drive.state.tool = 0.0
         run.drive.brake(0.1)
-        self.state.stopped = OperatorCalled(time=run.time, message=message, error=error)
+        self.state.stopped = OperatorCalled(time=run.time, message=message, error=error, cause=cause)
         run.emit(self.state.stopped)
         self.state.at, self.state.onward = None, self.state.at
         self.state.pending = None
@@ -160,5 +157,4 @@ class Executor:
         self.state.idle = 0 if run.time > self.state.clock else self.state.idle + 1
         self.state.clock = run.time
         if self.state.idle > IDLE_LIMIT and self.state.at is not None:
-            line = run.plan.program.steps[self.state.at].place
-            self._stop(f"the program loops at line {line}, and nothing moves", None)
+            self._stop(cause=Looping(place=run.plan.program.steps[self.state.at].place))

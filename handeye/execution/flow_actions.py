@@ -6,6 +6,7 @@ from handeye import errors
 from handeye.events import ErrorTested, HandTold, PositionDefined, Saved, SearchAdvanced
 from handeye.execution.context import Action, Decision, ExecutionContext
 from handeye.execution.state import Fault, SearchState, vector
+from handeye.program.causes import NoSearch, PlacesTried
 from handeye.program.flow_operations import (
     Advance,
     Assign,
@@ -54,8 +55,8 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
     """Go on to the next place of the search, to which the next searching motion will go."""
     found = run.state.search
     if found is None or found.count + 1 >= found.limit:
-        tried = "no search was set up" if found is None else f"{found.limit} places tried"
-        return Fault(number=errors.SEARCH_EXHAUSTED, detail=tried)
+        tried = NoSearch() if found is None else PlacesTried(places=found.limit)
+        return Fault(number=errors.SEARCH_EXHAUSTED, cause=tried)
     found.count += 1
     x, y = found.offset()
     run.emit(SearchAdvanced(time=run.time, count=found.count, offset=(round(x, 6), round(y, 6))))

@@ -22,7 +22,8 @@ from handeye.planning.motions import (
     turn_samples,
 )
 from handeye.pose import Array, Pose, translated
-from handeye.program.guards import GuardKind, Guards, unmet
+from handeye.program.causes import GapTooLarge, GapTooSmall, GuardsUnmet, NothingBetween, TravelOutside
+from handeye.program.guards import Guards, unmet
 from handeye.program.motion_operations import Center, Change, Close, Move, Open, Travel, Turn
 from handeye.program.operation import Operation
 from handeye.record import Vector3
@@ -56,9 +57,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
     via = [run.world.position(name) for name in operation.via]
     trajectory = _trajectory(run, operation, via, X_WT)
     if isinstance(trajectory, Unreachable):
-        return Fault(
-            number=errors.NO_SOLUTION, detail=f"{trajectory.name}: {trajectory.why.message(run.arm)}"
-        )
+        return Fault(number=errors.NO_SOLUTION, cause=trajectory.why.cause(run.arm, trajectory.name))
     samples = trajectory.sample(run.drive.period)
     along = directions(samples, run.arm, run.drive.state.q)
     return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
@@ -91,7 +90,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
     if not operation.complies:
         samples = change_samples(run.arm, run.drive.state.q, operation)
         if isinstance(samples, IKResult):
-            return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
+            return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
         outcome = run.drive.follow(samples, guard, displacement / distance)
     else:
         outcome = run.drive.comply(_course(run, operation), guard)
@@ -123,7 +122,7 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     """Go round the vertical through a position."""
     samples = turn_samples(run.arm, run.drive.state.q, run.world.position(operation.centre), operation)
     if isinstance(samples, IKResult):
-        return Fault(number=errors.NO_SOLUTION, detail=samples.message(run.arm))
+        return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
     along = directions(samples, run.arm, run.drive.state.q)
     return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
 
@@ -131,7 +130,7 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
     """Turn a motion's outcome into the language's convention: no trip where one was expected is an error."""
     if outcome.error is not None:
-        return Fault(number=outcome.error, detail=outcome.detail)
+        return Fault(number=outcome.error, cause=outcome.cause)
     if outcome.trip is not None:
         trip = outcome.trip
         run.emit(
@@ -140,8 +139,7 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
         return None
     if not guards:
         return None
-    beside = any(guard.kind is GuardKind.MOMENT for guard in guards)
-    return Fault(number=unmet(guards), detail="or the moment" if beside else "")
+    return Fault(number=unmet(guards), cause=GuardsUnmet(guards=tuple(guard.kind for guard in guards)))
 
 
 def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
@@ -175,11 +173,9 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
 
 def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
     if not at_least(gap, minimum):
-        detail = f"the gap is {gap / INCH:.2f} in, the minimum {minimum / INCH:.2f} in"
-        return Fault(number=errors.NOTHING_HELD, detail=detail)
+        return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=minimum))
     if maximum is not None and not within(gap, minimum, maximum):
-        detail = f"the gap is {gap / INCH:.2f} in, the maximum {maximum / INCH:.2f} in"
-        return Fault(number=errors.WRONG_THICKNESS, detail=detail)
+        return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))
     return None
 
 
@@ -197,11 +193,10 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
         X_WT = translated(X_WT, step.hand * line)
         outcome = drive.shift(here, X_WT)
         if outcome.error is not None:
-            return Fault(number=outcome.error, detail=outcome.detail)
+            return Fault(number=outcome.error, cause=outcome.cause)
     drive.hold(grasp.settle // 2)
     if centring.error:
-        detail = f"the fingers do not both touch anything; the gap is {drive.sensed.gap / INCH:.2f} in"
-        return Fault(number=centring.error, detail=detail)
+        return Fault(number=centring.error, cause=NothingBetween(gap=round(drive.sensed.gap, 6)))
     run.state.finger_line = line
     return _held(drive.sensed.gap, operation.minimum, None)
 
@@ -210,10 +205,9 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
     """See how far the last straight motion went."""
     if operation.minimum <= run.state.travel <= operation.maximum:
         return None
-    allowed = f"{operation.minimum / INCH:.2f} to {operation.maximum / INCH:.2f} in"
-    return Fault(
-        number=errors.WRONG_TRAVEL, detail=f"it went {run.state.travel / INCH:.2f} in; allowed: {allowed}"
-    )
+    gone = round(run.state.travel, 6)
+    cause = TravelOutside(travel=gone, minimum=operation.minimum, maximum=operation.maximum)
+    return Fault(number=errors.WRONG_TRAVEL, cause=cause)
 
 
 MOTION_ACTIONS: Final[dict[type[Operation], Action]] = {

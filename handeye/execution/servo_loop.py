@@ -23,8 +23,8 @@ from handeye.execution.compliance import Course
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.pose import Array, Pose, displaced, translated
+from handeye.program.causes import Cause, HandAstray, HandStuck, JointBehind
 from handeye.touch.guards import Monitor, Reading, Trip
-from handeye.units import INCH
 
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
@@ -42,7 +42,8 @@ class Outcome:
     """The guard that ended it."""
     error: int | None = None
     """An error of the motion itself (servo lag, watchdog)."""
-    detail: str = ""
+    cause: Cause | None = None
+    """What led to it this time."""
 
 
 REACHED = Outcome()
@@ -123,7 +124,7 @@ class ServoLoop:
             if lag.any():
                 self.state.q = self.sensed.q.copy()
                 joint = self.arm.joints[int(np.argmax(lag))].name
-                return Outcome(error=errors.SERVO_LAG, detail=f"{joint} stayed behind its set-point")
+                return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
             along = _row(direction, i)
             trip = guard.check(self._reading(along)) if guard is not None else None
             if trip is not None:
@@ -148,7 +149,7 @@ class ServoLoop:
             turn = course.turned(turn, self.state.wrench, self.period)
             step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.state.q)
             if step.q is None:
-                return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
+                return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
             yield from self._approach(self.dynamics(), step.q, estimate=True)
             if self.state.cut:
                 return CUT
@@ -158,13 +159,13 @@ class ServoLoop:
                 return Outcome(trip=trip)
         if guard is not None:  # its error says that nothing was met
             return REACHED
-        return Outcome(error=errors.SERVO_LAG, detail=f"the hand moved {gone / INCH:.2f} in and no farther")
+        return Outcome(error=errors.SERVO_LAG, cause=HandStuck(moved=round(gone, 6)))
 
     def shifting(self, here: Dynamics, X_WT: Pose) -> Motion[Outcome]:
         """One period towards a pose close by."""
         step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
-            return Outcome(error=errors.JOINT_LIMIT, detail=step.message(self.arm))
+            return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
         yield from self._approach(here, step.q, estimate=False)
         return CUT if self.state.cut else REACHED
 
@@ -251,7 +252,7 @@ class ServoLoop:
         off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
-        return Outcome(error=errors.SERVO_LAG, detail=f"the hand is {off / INCH:.2f} in from its set-point")
+        return Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)))
 
     @property
     def sensed(self) -> Sensed:

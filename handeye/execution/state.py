@@ -16,6 +16,7 @@ from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
+from handeye.program.causes import Cause
 from handeye.program.world_model import WorldState
 from handeye.system_state import SystemState
 from handeye.touch.spiral import spiral
@@ -27,10 +28,10 @@ from handeye.vision.gasket import GasketInspection
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fault:
-    """An error number that an action raises, with the words for this occasion."""
+    """An error number that an action raises, and what led to it this time."""
 
     number: int
-    detail: str = ""
+    cause: Cause | None = None
 
 
 class SearchState(MutableRecord, kw_only=True):

@@ -11,6 +11,7 @@ from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
 from handeye.ports.camera import TvCamera
 from handeye.pose import Array, Pose, planar, yaw
+from handeye.program.causes import NoGeneral, NoPicture
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
@@ -83,7 +84,7 @@ def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
 
 
 def _no_picture(number: int, picture: str) -> Fault:
-    return Fault(number=number, detail=f"no picture {picture} was taken")
+    return Fault(number=number, cause=NoPicture(picture=picture))
 
 
 def general(run: ExecutionContext, operation: General) -> Fault | None:
@@ -95,7 +96,7 @@ def general(run: ExecutionContext, operation: General) -> Fault | None:
     with run.vision.running():
         found = locate_general(shot.picture, shot.view, part)
     if isinstance(found, Failure):
-        return Fault(number=errors.PART_NOT_SEEN, detail=found.reason)
+        return Fault(number=errors.PART_NOT_SEEN, cause=found.cause)
     run.state.general[operation.part] = found
     run.state.found[operation.picture] = Found(general=found)
     run.world.measure(operation.part, planar(found.x, found.y, part.at[2], part.at[3]))
@@ -111,11 +112,11 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
         return _no_picture(errors.FEATURES_NOT_SEEN, operation.picture)
     general = run.state.general.get(operation.part)
     if general is None:
-        return Fault(number=errors.FEATURES_NOT_SEEN, detail="no GENERAL found the part before")
+        return Fault(number=errors.FEATURES_NOT_SEEN, cause=NoGeneral())
     with run.vision.running():
         found = locate_specific(shot.picture, shot.view, part, general)
     if isinstance(found, Failure):
-        return Fault(number=errors.FEATURES_NOT_SEEN, detail=found.reason)
+        return Fault(number=errors.FEATURES_NOT_SEEN, cause=found.cause)
     run.state.found[operation.picture] = Found(specific=found)
     x, y, angle = (round(value, 9) for value in found.pose)
     run.world.measure(operation.part, planar(x, y, part.at[2], angle))
@@ -134,8 +135,8 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     with run.vision.running():
         seen = inspect_gasket(before.picture, after.picture, after.view, part, pose)
     run.state.found[operation.after] = Found(inspection=seen)
-    run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, sentence=seen.sentence))
-    return None if seen.ok else Fault(number=errors.GASKET_WRONG, detail=seen.sentence)
+    run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, cause=seen.cause))
+    return None if seen.ok else Fault(number=errors.GASKET_WRONG, cause=seen.cause)
 
 
 VISION_ACTIONS: Final[dict[type[Operation], Action]] = {

@@ -3,11 +3,19 @@
 Joints are counted from 0; SI units.
 """
 
-from dataclasses import dataclass
+from handeye.record import Record
 
 
-@dataclass(frozen=True, slots=True)
-class BeyondRange:
+class ReasonRecord(Record, frozen=True, tag_field="reason", tag=True):
+    """Base of the reasons."""
+
+    @property
+    def named_joints(self) -> tuple[int, ...]:
+        """Joints that people are told of by name."""
+        return ()
+
+
+class BeyondRange(ReasonRecord, frozen=True):
     """Base of the reasons in which a joint would have to stand beyond its range, rad or m."""
 
     joint: int
@@ -17,28 +25,28 @@ class BeyondRange:
     """The end of its range that this passes."""
 
     @property
+    def named_joints(self) -> tuple[int, ...]:
+        return (self.joint,)
+
+    @property
     def excess(self) -> float:
         """The distance beyond that end."""
         return abs(self.amount - self.limit)
 
 
-@dataclass(frozen=True, slots=True)
-class OutOfReach(BeyondRange):
+class OutOfReach(BeyondRange, frozen=True):
     """A sliding joint would have to stand beyond its range, and no other branch can mend it."""
 
 
-@dataclass(frozen=True, slots=True)
-class TooNear(BeyondRange):
+class TooNear(BeyondRange, frozen=True):
     """A boom would have to be drawn in farther than it can: the hand would be too near to the column."""
 
 
-@dataclass(frozen=True, slots=True)
-class JointLimit(BeyondRange):
+class JointLimit(BeyondRange, frozen=True):
     """A turning joint would have to stand beyond its range."""
 
 
-@dataclass(frozen=True, slots=True)
-class InnerCylinder:
+class InnerCylinder(ReasonRecord, frozen=True):
     """The wrist would come nearer to the axis of the column than the shoulder's offset."""
 
     radius: float
@@ -52,16 +60,14 @@ class InnerCylinder:
         return self.least - self.radius
 
 
-@dataclass(frozen=True, slots=True)
-class FixedOrientation:
+class FixedOrientation(ReasonRecord, frozen=True):
     """The hand would have to be turned, and no joint turns it."""
 
     angle: float
     """By how much, rad."""
 
 
-@dataclass(frozen=True, slots=True)
-class FixedDirection:
+class FixedDirection(ReasonRecord, frozen=True):
     """The hand would have to leave the line or plane that the sliding joints span."""
 
     joints: tuple[int, ...]
@@ -69,25 +75,30 @@ class FixedDirection:
     off: float
     """How far, m."""
 
+    @property
+    def named_joints(self) -> tuple[int, ...]:
+        return self.joints
 
-@dataclass(frozen=True, slots=True)
-class HeldJoint:
+
+class HeldJoint(ReasonRecord, frozen=True):
     """A joint would have to move that is held where it is."""
 
     joint: int
     at: float
     """rad or m"""
 
+    @property
+    def named_joints(self) -> tuple[int, ...]:
+        return (self.joint,)
 
-@dataclass(frozen=True, slots=True)
-class InLine:
+
+class InLine(ReasonRecord, frozen=True):
     """The axes of two joints come into line on the way, where the hand cannot keep its orientation."""
 
     joints: tuple[int, int]
 
 
-@dataclass(frozen=True, slots=True)
-class TooFast:
+class TooFast(ReasonRecord, frozen=True):
     """A joint would have to move faster than it can."""
 
     joint: int
@@ -95,9 +106,12 @@ class TooFast:
     """rad/s or m/s"""
     limit: float
 
+    @property
+    def named_joints(self) -> tuple[int, ...]:
+        return (self.joint,)
 
-@dataclass(frozen=True, slots=True)
-class BelowTable:
+
+class BelowTable(ReasonRecord, frozen=True):
     """The hand would be below the table top."""
 
     depth: float

@@ -2,6 +2,7 @@
 
 from handeye.errors import ERRORS
 from handeye.inspection.wording import counted
+from handeye.program.cause_text import call_sentence
 from handeye.runs import stops
 from handeye.runs.advance import Pause
 from handeye.runs.stops import AnyStop
@@ -14,7 +15,9 @@ def pause_sentence(pause: Pause) -> str:
         return _met(pause.met)
     if pause.kind == "panic":
         return f"stopped by the panic button{' on the way back' if pause.back else ''}; the brakes are set"
-    return "the program came to its end" if pause.kind == "end" else pause.message
+    if pause.kind == "end":
+        return "the program came to its end"
+    return call_sentence(pause.message, pause.error, pause.cause)
 
 
 def stop_name(stop: AnyStop) -> str:

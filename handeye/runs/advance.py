@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from handeye.execution.servo_loop import Halted
+from handeye.program.causes import Cause
 from handeye.record import Record
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
@@ -23,8 +24,10 @@ class Pause(Record, frozen=True, kw_only=True):
     """The stop condition, if one was met."""
     error: int | None = None
     """The error that the operator is called for."""
+    cause: Cause | None = None
+    """Cause of that error, or of a call for none."""
     message: str = ""
-    """The words of the program to the operator, or of the cell that cannot go on."""
+    """The program's own words to the operator, or those of the cell that cannot go on."""
     back: bool = False
     """The panic button was hit on the way back in time."""
 
@@ -83,7 +86,7 @@ def ended(runner: Runner, done: int = 0) -> Pause:
         return Pause(kind="trouble", done=done, message=runner.trouble)
     call = runner.call
     if call is not None:
-        return Pause(kind="operator", done=done, error=call.error, message=call.message)
+        return Pause(kind="operator", done=done, error=call.error, cause=call.cause, message=call.message)
     return Pause(kind="end", done=done)
 
 

@@ -13,11 +13,12 @@ from handeye.arm.line import pivot
 from handeye.arm.samples import Samples
 from handeye.cell.pushing import pushed
 from handeye.diagnostics import quoted
-from handeye.errors import ERRORS, InvalidInput
+from handeye.errors import InvalidInput
 from handeye.execution.servo_loop import Halted, Outcome
 from handeye.files import write_whole
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED
+from handeye.program.cause_text import error_sentence
 from handeye.program.motion_operations import Change
 from handeye.program.program import Position
 from handeye.program.taught import Taught
@@ -143,7 +144,7 @@ class Teacher:
             raise InvalidInput("stopped by the panic button; the brakes are set") from None
         if outcome is not None and outcome.error is not None:
             self._brake()
-            raise InvalidInput(f"{ERRORS[outcome.error]} ({outcome.detail}); the brakes are set")
+            raise InvalidInput(f"{error_sentence(outcome.error, outcome.cause)}; the brakes are set")
 
     def _brake(self) -> None:
         self.afloat = False

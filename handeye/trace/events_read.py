@@ -28,11 +28,25 @@ def read_event(data: bytes) -> AnyEvent:
 
 def _bring_up_to_date(event: dict[str, Any]) -> bool:
     """Write an event as it would be written today; False: there is nothing to be done."""
-    if event.get("event") == "RunStarted" and "seed" in event:
-        event["world"] = {"seed": event.pop("seed"), "drawing": 1}  # one generator in a fixed order, no level
-        event["camera"] = _renderer(str(event.get("camera")))
-        return True
-    return False
+    match event:
+        case {"event": "RunStarted", "seed": seed}:
+            del event["seed"]
+            event["world"] = {"seed": seed, "drawing": 1}  # one generator in a fixed order, no level
+            event["camera"] = _renderer(str(event.get("camera")))
+        case {"event": "ErrorRaised", "detail": words}:
+            del event["detail"]
+            event["cause"] = _recorded(words)
+        case {"event": "PartInspected", "sentence": words, "ok": ok}:
+            del event["sentence"]
+            event["cause"] = None if ok is True else _recorded(words)
+        case _:
+            return False
+    return True
+
+
+def _recorded(words: Any) -> dict[str, Any] | None:
+    """The words of an older handeye in the place of a cause; none: it said nothing."""
+    return None if words == "" else {"cause": "Recorded", "words": words}
 
 
 def _renderer(name: str) -> dict[str, str]:

@@ -6,10 +6,10 @@ from typing import Final
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from handeye import errors
 from handeye import events as happened
 from handeye.events import Event
 from handeye.ports.camera import Renderer
+from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence
 from handeye.program.guards import GuardKind
 from handeye.units import DEGREE, INCH, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
 
@@ -86,7 +86,7 @@ def sentence(event: Event) -> str:
         case happened.GuardTripped():
             return _tripped(event)
         case happened.ErrorRaised():
-            return f"error {event.number}: {_meaning(event)}"
+            return f"error {event.number}: {error_sentence(event.number, event.cause)}"
         case happened.ErrorTested():
             return f"error {event.number} {'occurred' if event.occurred else 'did not occur'}"
         case happened.SearchAdvanced():
@@ -104,12 +104,13 @@ def sentence(event: Event) -> str:
         case happened.PartSeen():
             return _seen(event)
         case happened.PartInspected():
-            return f"{event.part}: {event.sentence}"
+            return f"{event.part}: {inspection_sentence(event.cause)}"
         case happened.CameraBusy():
             return f"the camera {_CAMERA.get(event.action, event.action)}: {event.seconds:g} s"
         case happened.OperatorCalled():
             number = "" if event.error is None else f" (error {event.error})"
-            return f"brakes set, the operator is called: {event.message}{number}"
+            called = call_sentence(event.message, event.error, event.cause)
+            return f"brakes set, the operator is called: {called}{number}"
         case happened.OperatorAnswered():
             return f"the operator chooses {_CHOICES[event.choice]}"
         case happened.ExperimentMade():
@@ -153,11 +154,6 @@ def _ended(event: happened.StepFinished) -> str:
     if event.hand is None or event.gap is None:
         return "the step is done"
     return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:.2f} in"
-
-
-def _meaning(event: happened.ErrorRaised) -> str:
-    meaning = errors.ERRORS.get(event.number, "an error")
-    return f"{meaning} ({event.detail})" if event.detail else meaning
 
 
 def _seen(event: happened.PartSeen) -> str:

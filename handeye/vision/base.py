@@ -13,6 +13,7 @@ import numpy as np
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.pose import Array
+from handeye.program.causes import NoHoles, NoOutline, OutsidePicture, SightCause
 from handeye.program.program import Part
 from handeye.units import DEGREE, INCH
 from handeye.vision.beam import Scan
@@ -51,8 +52,7 @@ Rectangle = tuple[float, float, float, float]
 class Failure:
     """Nothing was found."""
 
-    reason: str
-    """One sentence for people."""
+    cause: SightCause
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,7 +124,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
         box = localise(scan, _window(view, part, region, outline, shrink), OUTLINE_STEP, fits)
         if box is not None:
             return _general(scan, view, part, box)
-    return Failure(reason="nothing of the part's size stands out from the background where it should be")
+    return Failure(cause=NoOutline())
 
 
 def _window(view: View, part: Part, region: tuple[float, float], outline: Rectangle, shrink: float) -> Array:
@@ -185,7 +185,7 @@ def locate_specific(
     scan = Scan(picture)
     box = _close_box(view, general)
     if box is None:
-        return Failure(reason="the part is not in the field of the close picture: is the camera aimed at it?")
+        return Failure(cause=OutsidePicture())
     levels = Levels.measure(scan, box)
     most: list[int] = []
     for search in SEARCHES:
@@ -195,15 +195,7 @@ def locate_specific(
         location = pair and _confirm(scan, view, part, pair, levels, search)
         if location:
             return location
-    return Failure(reason=_explain(max(most)))
-
-
-def _explain(holes: int) -> str:
-    if holes == 0:
-        return "no hole is found: is the picture in focus, and is the part in it?"
-    if holes == 1:
-        return "only one hole is found; the part cannot be located by one"
-    return f"{holes} dark blobs are found, but no two are the part's largest holes: is the picture in focus?"
+    return Failure(cause=NoHoles(blobs=max(most)))
 
 
 def _close_box(view: View, general: GeneralLocation) -> BoundingBox | None:

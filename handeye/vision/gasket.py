@@ -15,6 +15,15 @@ import numpy as np
 from handeye.errors import InvalidInput
 from handeye.ports.camera import Picture
 from handeye.pose import Array
+from handeye.program.causes import (
+    BaseHoleUnseen,
+    GasketHoleOff,
+    GasketHoleUnseen,
+    GasketWrong,
+    InspectionCause,
+    LargeHole,
+    NoGasket,
+)
 from handeye.program.program import Hole, Part
 from handeye.units import INCH
 from handeye.vision.beam import Scan
@@ -45,15 +54,19 @@ CLEAR: Final = 0.06 * INCH
 class GasketInspection:
     """Findings on the gasket. Centres are (u, v) in the picture, largest hole first."""
 
-    ok: bool
-    sentence: str
-    """For the operator."""
+    cause: InspectionCause | None
+    """Why it is not on properly; None: it is."""
     expected: tuple[tuple[float, float], ...]
     """Where the centres of the large holes should be, by the pose of the base."""
     found: tuple[tuple[float, float] | None, ...]
     """Where they are found in the difference."""
     shift: float | None
     """The most that the border of a hole is displaced, m; None if no border is found."""
+
+    @property
+    def ok(self) -> bool:
+        """It is on properly."""
+        return self.cause is None
 
 
 def difference(before: Picture, after: Picture) -> Picture:
@@ -79,25 +92,20 @@ def inspect(
     expected = tuple((float(u), float(v)) for u, v in view.project(places))
     pairs = list(zip(places, part.holes, strict=False))
     if np.median([_around(new, view, place, hole) for place, hole in pairs]) < ABSENT:
-        return GasketInspection(
-            ok=False,
-            sentence="no gasket: the picture after shows nothing new where it should be",
-            expected=expected,
-            found=(None, None),
-            shift=None,
-        )
-    checks = [_check(new, old, view, place, hole) for place, hole in pairs]
-    faults = [f"{name} {check.fault}" for name, check in zip(_NAMES, checks, strict=True) if check.fault]
+        return GasketInspection(cause=NoGasket(), expected=expected, found=(None, None), shift=None)
+    checks = [
+        _check(name, new, old, view, place, hole) for name, (place, hole) in zip(_NAMES, pairs, strict=True)
+    ]
+    faults = tuple(check.fault for check in checks if check.fault is not None)
     return GasketInspection(
-        ok=not faults,
-        sentence="; ".join(faults) or "the gasket is on properly",
+        cause=GasketWrong(faults=faults) if faults else None,
         expected=expected,
         found=tuple(check.found for check in checks),
         shift=max((check.shift for check in checks if check.shift is not None), default=None),
     )
 
 
-_NAMES: Final = ("the largest hole", "the second hole")
+_NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
 
 
 class _Steps(NamedTuple):
@@ -110,29 +118,28 @@ class _Steps(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Check:
-    """Finding on one hole; `fault` is empty if all is well."""
+    """Finding on one hole; no fault if all is well."""
 
-    fault: str
+    fault: BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff | None = None
     found: tuple[float, float] | None = None
     shift: float | None = None
 
 
-def _check(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Check:
+def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Check:
     steps = _levels(new, old, view, place, hole)
     rough = _centre(old, view, place, hole, steps.before, steps.face)
     # the second time from the middle of the hole, where beams meet its border squarely
     fitted = rough and _centre(old, view, np.array([*rough, place[2]]), hole, steps.before, steps.face)
     if fitted is None:
-        return _Check(fault="of the base is not found in the picture before")
+        return _Check(fault=BaseHoleUnseen(hole=name))
     base = np.array([*fitted, place[2]])
     moved = _centre(new, view, base, hole, steps.after)
     bulge = _bulge(new, old, view, base, hole, steps)
     if moved is None or bulge is None:
-        return _Check(fault="of the gasket is not found")
+        return _Check(fault=GasketHoleUnseen(hole=name))
     off = math.dist(moved, fitted)
-    fault = ""
-    if off > CENTRE_SHIFT or bulge > RIM_SHIFT:
-        fault = f"of the gasket is off by about {max(bulge, off) / INCH:.2f} in"
+    wrong = off > CENTRE_SHIFT or bulge > RIM_SHIFT
+    fault = GasketHoleOff(hole=name, off=round(max(bulge, off), 6)) if wrong else None
     u, v = view.project(np.array([*moved, place[2]]))[0]
     return _Check(fault=fault, found=(float(u), float(v)), shift=max(bulge, off))
 

@@ -68,7 +68,7 @@ ACTIONS = ["CHANGE [0 0 -1] 2", "STOP 9\nCHANGE [0 0 1] 2", "MOVE PARK", "CENTER
 def test_row_34_a_missed_servo_period_aborts_the_action(script: str) -> None:
     run = late_in(script, 20)
     assert run.errors == [WATCHDOG]
-    assert run.called.message == "the computer missed a servo period: drives cut, brakes set"
+    assert run.told == "the computer missed a servo period: drives cut, brakes set"
 
 
 def test_row_34_the_arm_stands_still_at_once_with_its_brakes_set() -> None:

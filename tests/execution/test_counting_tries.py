@@ -47,14 +47,14 @@ def test_pin_an_inch_lower_than_taught_is_found_at_the_second_try_and_goes_in() 
     run = bench(LISTING, positions=picking(1.0), lay=at_standard()).go()
     assert run.errors == [NOTHING_HELD, NO_FORCE]
     assert run.run.state.counters == {"TRIES": 1}
-    assert run.called.message == "NO HOLE"
+    assert run.told == "NO HOLE"
     assert run.place("pin0")[2] == pytest.approx(SEATED, abs=0.005)
 
 
 def test_pin_that_is_not_there_is_tried_for_twice_and_the_operator_called() -> None:
     run = bench(LISTING, positions=picking(4.0), lay=at_standard()).go()
     assert run.errors == [NOTHING_HELD] * 2
-    assert run.called.message == "NO PIN"
+    assert run.told == "NO PIN"
 
 
 def test_place_sets_the_hand_down_on_what_it_meets() -> None:

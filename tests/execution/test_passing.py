@@ -5,9 +5,12 @@ import pytest
 from pump_bench import Bench, bench, written
 
 from handeye.errors import NO_SOLUTION
-from handeye.events import Adjusted
+from handeye.events import Adjusted, ErrorRaised, to_line
 from handeye.pose import Array, planar
+from handeye.program.causes import BeyondArm
 from handeye.program.program import Part, Position
+from handeye.program.reasons import InnerCylinder
+from handeye.trace.events_read import read_event
 from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
@@ -52,4 +55,9 @@ def test_a_place_that_has_come_out_of_reach_is_told_by_its_name() -> None:
     run.run.world.state.moved["OVER"] = written(20, 15, 5, 90)
     run.go()
     assert run.called.error == NO_SOLUTION
-    assert "(OVER: the wrist would have to be" in run.called.message
+    assert "(OVER: the wrist would have to be" in run.told
+    (raised,) = run.all(ErrorRaised)
+    assert isinstance(raised.cause, BeyondArm)
+    assert isinstance(raised.cause.reason, InnerCylinder)
+    assert raised.cause == run.called.cause
+    assert read_event(to_line(raised)) == raised

@@ -34,5 +34,5 @@ def test_a_free_rotor_turns_and_meets_no_such_resistance() -> None:
 def test_row_56_a_jammed_rotor_stops_the_motion_and_the_operator_is_told() -> None:
     run = turning(friction=5.0)
     assert run.all(GuardTripped)[-1].guard == "against"
-    assert run.called.message == "THE ROTOR IS HARD TO TURN"
+    assert run.told == "THE ROTOR IS HARD TO TURN"
     assert abs(turned(run)) < 2

@@ -39,7 +39,7 @@ def test_without_feeling_the_hand_comes_down_on_the_base_and_the_operator_is_cal
     """The fingers have .23 in to spare in the small hole."""
     script = "OPEN 1.85\nMOVE WEB\nCLOSE .9 1.4"
     run = bench(script, world=base_off(*OFF)).go()
-    assert run.called.message.startswith("the arm did not follow its set-points")
+    assert run.told.startswith("the arm did not follow its set-points")
     assert run.hand()[2] > run.place("base")[2] + 1.7
 
 
@@ -47,7 +47,7 @@ def test_without_search_a_pin_a_tenth_off_misses_and_the_operator_is_called() ->
     script = without("SEARCH", INSERT).replace("AOJ   L1", 'WAIT "NO HOLE"')
     positions = {"P": TAUGHT.positions["P1"], "T": shifted("T1", -0.1, 0.0)}
     run = bench("OPEN 1\n" + script, positions=positions, lay=at_standard()).go()
-    assert run.called.message == "NO HOLE"
+    assert run.told == "NO HOLE"
     assert run.place("pin0")[2] > SEATED + 0.5
 
 

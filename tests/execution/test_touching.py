@@ -30,12 +30,12 @@ def test_the_motion_ends_when_an_enabled_finger_touches(way: int, finger: int, m
 def test_the_finger_that_is_not_enabled_does_not_end_it() -> None:
     run = reaching("TOUCH 2\nCHANGE [0 -1 0] 1.5\nSKIPN 25\nWAIT NOT FELT")
     assert (run.all(GuardTripped), run.errors) == ([], [NO_TOUCH])
-    assert run.called.message == "NOT FELT"
+    assert run.told == "NOT FELT"
 
 
 def test_a_move_that_touches_nothing_raises_error_25() -> None:
     run = bench("OPEN 2\nTOUCH 3\nMOVE T", positions={"T": written(25, 38, 6, 0)}).go()
-    assert (run.called.error, run.called.message) == (
+    assert (run.called.error, run.told) == (
         NO_TOUCH,
         "the motion ended without a finger touching anything",
     )

@@ -104,7 +104,7 @@ def test_the_base_is_found_by_sight_and_refined_by_touch(whole: Whole) -> None:
 
 def test_the_gasket_is_accepted_by_sight(whole: Whole) -> None:
     (seen,) = [e for e in whole.during("check the gasket") if isinstance(e, PartInspected)]
-    assert seen.ok, seen.sentence
+    assert seen.ok, seen.cause
 
 
 def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole: Whole) -> None:

@@ -22,6 +22,7 @@ from handeye.execution.executor import Executor
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.pose import Array, Pose, planar, pose, translated
+from handeye.program.cause_text import call_sentence
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
@@ -133,8 +134,13 @@ class Bench:
         return self.executor.state.at is None and self.executor.state.stopped is None
 
     @property
-    def called(self) -> OperatorCalled:
+    def told(self) -> str:
         """What the operator was told."""
+        return call_sentence(self.called.message, self.called.error, self.called.cause)
+
+    @property
+    def called(self) -> OperatorCalled:
+        """The call of the operator."""
         assert self.executor.state.stopped is not None, self.events[-5:]
         return self.executor.state.stopped
 

@@ -3,6 +3,7 @@
 from handeye import events as happened
 from handeye.events import AnyEvent
 from handeye.ports.camera import Renderer
+from handeye.program.causes import GapTooSmall
 from handeye.trace.account import account
 from handeye.variation import WorldSpec
 
@@ -37,7 +38,7 @@ def test_an_account_of_a_stage() -> None:
         happened.PictureTaken(time=10.5, picture="WIDE", lens=0.025),
         _ended(10.5, 0.1, None),
         _step(10.5, 14, "CHANGE  [0 0 -1] 0.6"),
-        happened.ErrorRaised(time=11.5, number=23, detail=""),
+        happened.ErrorRaised(time=11.5, number=23, cause=None),
         _ended(11.5, 0.08476, 0.08476),
         _step(11.5, 15, "SKIPE   23"),
         happened.ErrorTested(time=11.5, number=23, occurred=True),
@@ -87,7 +88,7 @@ def test_a_stop_and_what_the_operator_chose_stand_out() -> None:
     events: list[AnyEvent] = [
         happened.StageStarted(time=10.0, stage="find the hole"),
         _step(10.0, 12, "CLOSE   .1"),
-        happened.ErrorRaised(time=11.0, number=2, detail="the gap is 0.02 in, the minimum 0.10 in"),
+        happened.ErrorRaised(time=11.0, number=2, cause=GapTooSmall(gap=0.000508, minimum=0.00254)),
         _ended(11.0, 0.1, None),
         happened.OperatorCalled(time=11.1, message="nothing is held", error=2),
         happened.OperatorAnswered(time=11.1, choice="retry", step=4),

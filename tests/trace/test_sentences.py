@@ -9,11 +9,16 @@ from hypothesis import strategies as st
 from handeye import events as happened
 from handeye.events import AnyEvent, Event
 from handeye.ports.camera import Renderer
+from handeye.program.causes import ArmNames, BeyondArm, JointName
+from handeye.program.reasons import BelowTable, HeldJoint, JointLimit
 from handeye.trace.sentences import LEVELS, inches, sentence
 from handeye.variation import Overrides, WorldSpec
 
 KINDS = typing.get_args(AnyEvent)
 overrides = st.builds(Overrides, without=st.just(("arm",)), set=st.dictionaries(st.text(), st.floats()))
+arms = st.builds(ArmNames, joints=st.tuples(*[st.builds(JointName)] * 6))
+placed = st.builds(JointLimit, joint=st.integers(0, 5)) | st.builds(HeldJoint, joint=st.integers(0, 5))
+st.register_type_strategy(BeyondArm, st.builds(BeyondArm, arm=arms, reason=placed | st.builds(BelowTable)))
 st.register_type_strategy(WorldSpec, st.builds(WorldSpec, overrides=overrides))
 
 

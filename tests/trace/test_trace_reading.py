@@ -19,6 +19,7 @@ from handeye.trace.channels import FORMAT, METADATA
 from handeye.trace.events_read import read_event
 from handeye.trace.reading import read_trace
 from handeye.trace.records import Unsound, check
+from handeye.trace.sentences import sentence
 from handeye.variation import WorldSpec
 
 
@@ -212,7 +213,46 @@ def test_the_cell_of_a_trace_of_an_older_handeye_is_not_built_again(
     )
 
 
-@pytest.mark.parametrize("data", [b'{"event":"RunStarted","seed":-1}', b'{"event":"Gone"}', b"[3]", b"{"])
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (
+            b'{"event":"ErrorRaised","time":1.0,"number":2,"detail":"the gap is 0.02 in"}',
+            "error 2: the fingers closed beyond the minimum gap: nothing, or something too thin, is between them "
+            "(the gap is 0.02 in)",
+        ),
+        (
+            b'{"event":"ErrorRaised","time":1.0,"number":5,"detail":""}',
+            "error 5: the computer missed a servo period: drives cut, brakes set",
+        ),
+        (
+            b'{"event":"PartInspected","time":1.0,"part":"BASE","ok":true,"sentence":"the gasket is on properly"}',
+            "BASE: the gasket is on properly",
+        ),
+        (
+            b'{"event":"PartInspected","time":1.0,"part":"BASE","ok":false,"sentence":"no gasket: none"}',
+            "BASE: no gasket: none",
+        ),
+        (
+            b'{"event":"OperatorCalled","time":1.0,"message":"nothing is held (0.02 in)","error":2}',
+            "brakes set, the operator is called: nothing is held (0.02 in) (error 2)",
+        ),
+    ],
+)
+def test_an_event_that_was_recorded_with_its_words_is_told_in_them(data: bytes, said: str) -> None:
+    assert sentence(read_event(data)) == said
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b'{"event":"RunStarted","seed":-1}',
+        b'{"event":"Gone"}',
+        b'{"event":"ErrorRaised","time":1.0,"number":2,"detail":3}',
+        b"[3]",
+        b"{",
+    ],
+)
 def test_what_never_was_an_event_is_none_either(data: bytes) -> None:
     with pytest.raises(msgspec.DecodeError):
         read_event(data)

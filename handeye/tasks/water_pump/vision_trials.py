@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from handeye.cell.still_cell import StillCell
 from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
+from handeye.program.cause_text import cause_sentence
 from handeye.program.program import Hole, Part
 from handeye.tasks.task import Count
 from handeye.tasks.water_pump.dimensions import dimensions
@@ -157,7 +158,7 @@ def base_trials(n: int, first: WorldSpec, *, renderer: str = "auto", camera: str
         still = StillPump(world, renderer=renderer)
         location, _ = locate(still.camera, _known(camera, still, part), part)
         if isinstance(location, Failure):
-            failures.append(f"{world.drawn.spec.seed}: {location.reason}")
+            failures.append(f"{world.drawn.spec.seed}: {cause_sentence(location.cause)}")
             continue
         error = _error(location.pose, (world.base.x, world.base.y, world.base.yaw))
         wrong += _is_wrong(location, still, part)

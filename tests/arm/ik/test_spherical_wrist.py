@@ -1,3 +1,4 @@
+import msgspec
 import numpy as np
 import pytest
 from arm_in_mujoco import postures
@@ -6,6 +7,8 @@ from handeye.arm.ik import IKResult, branches, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import hand, pose, rotation_z
+from handeye.program.cause_text import cause_sentence
+from handeye.program.causes import BeyondArm
 from handeye.program.reasons import InnerCylinder, JointLimit, OutOfReach, TooNear
 from handeye.units import DEGREE, INCH
 
@@ -63,6 +66,21 @@ def test_a_wrist_inside_the_inner_cylinder_has_no_solution() -> None:
     assert result.message(STANFORD) == (
         "the wrist would have to be 5.0 in from the axis of joint 1; it cannot come nearer than 6.1 in"
     )
+
+
+@pytest.mark.parametrize("goal", [(20, 15, 8), (20, 66, 3), (20, 20, 14)])
+def test_a_failure_is_a_cause_that_goes_to_disk_and_is_told_in_the_same_words(
+    goal: tuple[float, float, float],
+) -> None:
+    result = solve(STANFORD, at(*goal), PARK)
+    cause = result.cause(STANFORD, "OVER")
+    assert msgspec.json.decode(msgspec.json.encode(cause), type=BeyondArm) == cause
+    assert cause_sentence(cause) == f"OVER: {result.message(STANFORD)}"
+
+
+def test_a_cause_holds_plain_numbers_whatever_a_solver_computed_with() -> None:
+    result = IKResult(reason=OutOfReach(np.int64(2), np.float64(1.4), 1.27))
+    assert b'"joint":2,"amount":1.4,' in msgspec.json.encode(result.cause(STANFORD))
 
 
 def test_beyond_the_boom_is_out_of_reach() -> None:

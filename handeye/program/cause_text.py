@@ -1,0 +1,113 @@
+"""Sentences for causes: the one place that makes them, in inches."""
+
+from typing import assert_never
+
+from handeye.errors import ERRORS
+from handeye.program import causes as c
+from handeye.program.causes import Cause
+from handeye.program.guards import GuardKind
+from handeye.program.reason_text import sentence as reason_sentence
+from handeye.units import INCH
+
+
+def error_sentence(number: int, cause: Cause | None) -> str:
+    """An error for people, and in brackets what led to it this time."""
+    meaning = ERRORS.get(number, "an error")
+    words = "" if cause is None else cause_sentence(cause)
+    return f"{meaning} ({words})" if words else meaning
+
+
+def call_sentence(message: str, error: int | None, cause: Cause | None) -> str:
+    """A call of the operator for people: the program's own message, if it has one."""
+    if message:
+        return message
+    if error is not None:
+        return error_sentence(error, cause)
+    return "" if cause is None else cause_sentence(cause)
+
+
+def cause_sentence(cause: Cause) -> str:
+    """A cause for people; empty if the meaning of its error says all."""
+    match cause:
+        case c.BeyondArm():
+            goal = f"{cause.goal}: " if cause.goal else ""
+            return goal + reason_sentence(cause.arm, cause.reason)
+        case c.JointBehind():
+            return f"{cause.joint} stayed behind its set-point"
+        case c.HandAstray():
+            return f"the hand is {_inches(cause.distance)} from its set-point"
+        case c.HandStuck():
+            return f"the hand moved {_inches(cause.moved)} and no farther"
+        case c.GuardsUnmet():
+            return "or the moment" if GuardKind.MOMENT in cause.guards else ""
+        case c.TravelOutside():
+            allowed = f"{cause.minimum / INCH:.2f} to {_inches(cause.maximum)}"
+            return f"it went {_inches(cause.travel)}; allowed: {allowed}"
+        case c.GapTooSmall():
+            return f"the gap is {_inches(cause.gap)}, the minimum {_inches(cause.minimum)}"
+        case c.GapTooLarge():
+            return f"the gap is {_inches(cause.gap)}, the maximum {_inches(cause.maximum)}"
+        case c.NothingBetween():
+            return f"the fingers do not both touch anything; the gap is {_inches(cause.gap)}"
+        case c.NoPicture():
+            return f"no picture {cause.picture} was taken"
+        case c.NoGeneral():
+            return "no GENERAL found the part before"
+        case c.NoOutline() | c.OutsidePicture() | c.NoHoles():
+            return _not_found(cause)
+        case c.NoGasket() | c.GasketWrong():
+            return inspection_sentence(cause)
+        case c.NoSearch():
+            return "no search was set up"
+        case c.PlacesTried():
+            return f"{cause.places} places tried"
+        case c.Looping():
+            return f"the program loops at line {cause.place}, and nothing moves"
+        case c.Recorded():
+            return cause.words
+    assert_never(cause)
+
+
+def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
+    """Outcome of an inspection for people; None: all is well."""
+    match cause:
+        case None:
+            return "the gasket is on properly"
+        case c.NoGasket():
+            return "no gasket: the picture after shows nothing new where it should be"
+        case c.GasketWrong():
+            return "; ".join(f"the {fault.hole} hole {_hole(fault)}" for fault in cause.faults)
+        case c.Recorded():
+            return cause.words
+    assert_never(cause)
+
+
+def _not_found(cause: c.SightCause) -> str:
+    match cause:
+        case c.NoOutline():
+            return "nothing of the part's size stands out from the background where it should be"
+        case c.OutsidePicture():
+            return "the part is not in the field of the close picture: is the camera aimed at it?"
+        case c.NoHoles(blobs=0):
+            return "no hole is found: is the picture in focus, and is the part in it?"
+        case c.NoHoles(blobs=1):
+            return "only one hole is found; the part cannot be located by one"
+        case c.NoHoles():
+            found = f"{cause.blobs} dark blobs are found"
+            return f"{found}, but no two are the part's largest holes: is the picture in focus?"
+    assert_never(cause)
+
+
+def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str:
+    match fault:
+        case c.BaseHoleUnseen():
+            return "of the base is not found in the picture before"
+        case c.GasketHoleUnseen():
+            return "of the gasket is not found"
+        case c.GasketHoleOff():
+            return f"of the gasket is off by about {_inches(fault.off)}"
+    assert_never(fault)
+
+
+def _inches(length: float) -> str:
+    return f"{length / INCH:.2f} in"

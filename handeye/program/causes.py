@@ -1,0 +1,205 @@
+"""Causes of errors and of calls of the operator: facts, which `handeye.program.cause_text` puts into words.
+
+SI units.
+"""
+
+from typing import Literal
+
+from handeye.program.guards import GuardKind
+from handeye.program.reason_text import NamedArm
+from handeye.program.reasons import Reason
+from handeye.record import Record
+
+LargeHole = Literal["largest", "second"]
+"""The holes by which vision locates a part."""
+
+
+class CauseRecord(Record, frozen=True, kw_only=True, tag_field="cause", tag=True):
+    """Base of the causes."""
+
+
+# -- the arm ----------------------------------------------------------------------------------------
+
+
+class JointName(Record, frozen=True, kw_only=True):
+    """A joint, as people are told of it."""
+
+    name: str
+    kind: str
+
+
+class ArmNames(Record, frozen=True, kw_only=True):
+    """An arm, as people are told of it."""
+
+    name: str
+    joints: tuple[JointName, ...]
+
+    @classmethod
+    def of(cls, arm: NamedArm) -> "ArmNames":
+        """The names of an arm."""
+        joints = tuple(JointName(name=joint.name, kind=joint.kind) for joint in arm.joints)
+        return cls(name=arm.name, joints=joints)
+
+
+class BeyondArm(CauseRecord, frozen=True, kw_only=True):
+    """The arm cannot be there, or not go there."""
+
+    goal: str = ""
+    """The position that it cannot go to, if it is one with a name."""
+    reason: Reason
+    arm: ArmNames
+
+    def __post_init__(self) -> None:
+        """Raises ValueError if it tells of a joint that the arm does not have."""
+        if not all(0 <= joint < len(self.arm.joints) for joint in self.reason.named_joints):
+            raise ValueError(f"the {self.arm.name} arm has {len(self.arm.joints)} joints")
+
+
+class JointBehind(CauseRecord, frozen=True, kw_only=True):
+    """A joint did not keep up with its set-point."""
+
+    joint: str
+
+
+class HandAstray(CauseRecord, frozen=True, kw_only=True):
+    """The hand is not at its set-point at the end of a motion."""
+
+    distance: float
+
+
+class HandStuck(CauseRecord, frozen=True, kw_only=True):
+    """The hand moved only so far while it pressed."""
+
+    moved: float
+
+
+class GuardsUnmet(CauseRecord, frozen=True, kw_only=True):
+    """A motion ended without meeting any of its guards."""
+
+    guards: tuple[GuardKind, ...]
+
+
+class TravelOutside(CauseRecord, frozen=True, kw_only=True):
+    """The last straight motion did not go as far as it should, or farther."""
+
+    travel: float
+    minimum: float
+    maximum: float
+
+
+# -- the hand ---------------------------------------------------------------------------------------
+
+
+class GapTooSmall(CauseRecord, frozen=True, kw_only=True):
+    """The gap of the closed fingers is below the minimum."""
+
+    gap: float
+    minimum: float
+
+
+class GapTooLarge(CauseRecord, frozen=True, kw_only=True):
+    """The gap of the closed fingers is above the maximum."""
+
+    gap: float
+    maximum: float
+
+
+class NothingBetween(CauseRecord, frozen=True, kw_only=True):
+    """Centring ended before both fingers touched."""
+
+    gap: float
+
+
+# -- vision -----------------------------------------------------------------------------------------
+
+
+class NoPicture(CauseRecord, frozen=True, kw_only=True):
+    """The picture to be looked at was not taken."""
+
+    picture: str
+
+
+class NoGeneral(CauseRecord, frozen=True, kw_only=True):
+    """The part was not found roughly before it was to be located by its holes."""
+
+
+class NoOutline(CauseRecord, frozen=True, kw_only=True):
+    """Nothing of the part's size stands out in the picture."""
+
+
+class OutsidePicture(CauseRecord, frozen=True, kw_only=True):
+    """The part is not in the field of the close picture."""
+
+
+class NoHoles(CauseRecord, frozen=True, kw_only=True):
+    """The two largest holes of the part are not among the dark blobs that were found."""
+
+    blobs: int
+
+
+class NoGasket(CauseRecord, frozen=True, kw_only=True):
+    """The picture after shows nothing new where the gasket should be."""
+
+
+class HoleFault(Record, frozen=True, kw_only=True, tag_field="fault", tag=True):
+    """Base of the faults at one hole of an inspected part."""
+
+    hole: LargeHole
+
+
+class BaseHoleUnseen(HoleFault, frozen=True, kw_only=True):
+    """The base's hole is not found in the picture before."""
+
+
+class GasketHoleUnseen(HoleFault, frozen=True, kw_only=True):
+    """The gasket's hole is not found in what the picture after has more."""
+
+
+class GasketHoleOff(HoleFault, frozen=True, kw_only=True):
+    """The gasket's hole is not where the base's is."""
+
+    off: float
+
+
+class GasketWrong(CauseRecord, frozen=True, kw_only=True):
+    """There is a gasket, and it does not lie as it should."""
+
+    faults: tuple[BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff, ...]
+
+
+# -- the program ------------------------------------------------------------------------------------
+
+
+class NoSearch(CauseRecord, frozen=True, kw_only=True):
+    """No search was set up."""
+
+
+class PlacesTried(CauseRecord, frozen=True, kw_only=True):
+    """The search has been at all its places."""
+
+    places: int
+
+
+class Looping(CauseRecord, frozen=True, kw_only=True):
+    """The program runs in a circle in which no time passes."""
+
+    place: str
+    """Its line, as people are told: `12`, or `pins.al:12`."""
+
+
+class Recorded(CauseRecord, frozen=True, kw_only=True):
+    """Words that an older handeye recorded where there is a fact today."""
+
+    words: str
+
+
+SightCause = NoOutline | OutsidePicture | NoHoles
+"""Causes for which vision does not find a part."""
+InspectionCause = NoGasket | GasketWrong
+"""Causes for which a part does not pass its inspection."""
+Cause = (
+    BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside
+    | GapTooSmall | GapTooLarge | NothingBetween | NoPicture | NoGeneral | SightCause | InspectionCause
+    | NoSearch | PlacesTried | Looping | Recorded
+)  # fmt: skip
+"""All there are."""

@@ -1,0 +1,110 @@
+"""A cause travels as a fact and is put into words by whoever shows it."""
+
+import math
+from typing import get_args
+
+import msgspec
+import pytest
+
+from handeye import errors
+from handeye.program import causes as c
+from handeye.program.cause_text import call_sentence, cause_sentence, error_sentence, inspection_sentence
+from handeye.program.guards import GuardKind
+from handeye.program.reasons import HeldJoint, InnerCylinder, JointLimit, Reason
+from handeye.units import DEGREE, INCH
+
+ARM = c.ArmNames(
+    name="toy",
+    joints=(c.JointName(name="rail", kind="prismatic"), c.JointName(name="wrist", kind="revolute")),
+)
+WORDS: list[tuple[c.Cause, str]] = [
+    (
+        c.BeyondArm(goal="OVER", reason=InnerCylinder(4 * INCH, 6 * INCH), arm=ARM),
+        "OVER: the wrist would have to be 4.0 in from the axis of joint 1; it cannot come nearer than 6.0 in",
+    ),
+    (
+        c.BeyondArm(reason=JointLimit(1, 100 * DEGREE, 90 * DEGREE), arm=ARM),
+        "joint 2 (wrist) would have to be 100.0 degrees; it ends at 90.0 degrees",
+    ),
+    (c.JointBehind(joint="boom"), "boom stayed behind its set-point"),
+    (c.HandAstray(distance=0.2 * INCH), "the hand is 0.20 in from its set-point"),
+    (c.HandStuck(moved=0.5 * INCH), "the hand moved 0.50 in and no farther"),
+    (c.GuardsUnmet(guards=(GuardKind.FORCE,)), ""),
+    (c.GuardsUnmet(guards=(GuardKind.FORCE, GuardKind.MOMENT)), "or the moment"),
+    (
+        c.TravelOutside(travel=0.3 * INCH, minimum=0.1 * INCH, maximum=0.2 * INCH),
+        "it went 0.30 in; allowed: 0.10 to 0.20 in",
+    ),
+    (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
+    (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),
+    (c.NothingBetween(gap=0.1 * INCH), "the fingers do not both touch anything; the gap is 0.10 in"),
+    (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
+    (c.NoGeneral(), "no GENERAL found the part before"),
+    (c.NoOutline(), "nothing of the part's size stands out from the background where it should be"),
+    (c.OutsidePicture(), "the part is not in the field of the close picture: is the camera aimed at it?"),
+    (c.NoHoles(blobs=0), "no hole is found: is the picture in focus, and is the part in it?"),
+    (c.NoHoles(blobs=1), "only one hole is found; the part cannot be located by one"),
+    (
+        c.NoHoles(blobs=3),
+        "3 dark blobs are found, but no two are the part's largest holes: is the picture in focus?",
+    ),
+    (c.NoGasket(), "no gasket: the picture after shows nothing new where it should be"),
+    (
+        c.GasketWrong(
+            faults=(c.GasketHoleOff(hole="largest", off=0.3 * INCH), c.GasketHoleUnseen(hole="second"))
+        ),
+        "the largest hole of the gasket is off by about 0.30 in; the second hole of the gasket is not found",
+    ),
+    (
+        c.GasketWrong(faults=(c.BaseHoleUnseen(hole="second"),)),
+        "the second hole of the base is not found in the picture before",
+    ),
+    (c.NoSearch(), "no search was set up"),
+    (c.PlacesTried(places=9), "9 places tried"),
+    (c.Looping(place="pins.al:12"), "the program loops at line pins.al:12, and nothing moves"),
+    (c.Recorded(words="as it was said"), "as it was said"),
+]
+
+
+@pytest.mark.parametrize(("cause", "words"), WORDS)
+def test_a_cause_is_put_into_words(cause: c.Cause, words: str) -> None:
+    assert cause_sentence(cause) == words
+
+
+def test_no_kind_of_cause_is_left_out_here() -> None:
+    assert {type(cause) for cause, _ in WORDS} == set(get_args(c.Cause))
+
+
+@pytest.mark.parametrize("cause", [cause for cause, _ in WORDS])
+def test_a_cause_goes_to_disk_and_comes_back(cause: c.Cause) -> None:
+    assert msgspec.json.decode(msgspec.json.encode(cause), type=c.Cause) == cause
+    assert msgspec.msgpack.decode(msgspec.msgpack.encode(cause), type=c.Cause) == cause
+
+
+@pytest.mark.parametrize("kind", get_args(Reason))
+def test_every_reason_has_a_tag_of_its_own(kind: type[Reason]) -> None:
+    assert kind.__struct_config__.tag == kind.__name__
+
+
+@pytest.mark.parametrize("reason", [HeldJoint(2, 0.1), HeldJoint(-1, 0.1), JointLimit(7, math.pi, 1.0)])
+def test_a_cause_tells_of_no_joint_that_its_arm_lacks(reason: Reason) -> None:
+    with pytest.raises(ValueError, match=r"^the toy arm has 2 joints$"):
+        c.BeyondArm(reason=reason, arm=ARM)
+
+
+def test_an_error_is_told_with_what_led_to_it() -> None:
+    meaning = errors.ERRORS[errors.NO_FORCE]
+    assert error_sentence(errors.NO_FORCE, None) == meaning
+    assert error_sentence(errors.NO_FORCE, c.GuardsUnmet(guards=(GuardKind.FORCE,))) == meaning
+    assert error_sentence(errors.SEARCH_EXHAUSTED, c.PlacesTried(places=9)).endswith(" (9 places tried)")
+
+
+def test_a_call_of_the_operator_is_told_by_its_message_its_error_or_its_cause() -> None:
+    assert call_sentence("NO PIN", None, None) == "NO PIN"
+    assert call_sentence("", errors.WATCHDOG, None) == errors.ERRORS[errors.WATCHDOG]
+    assert call_sentence("", None, c.Looping(place="3")) == "the program loops at line 3, and nothing moves"
+
+
+def test_an_inspection_without_a_cause_went_well() -> None:
+    assert inspection_sentence(None) == "the gasket is on properly"
+    assert inspection_sentence(c.Recorded(words="off")) == "off"
