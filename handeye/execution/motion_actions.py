@@ -30,7 +30,6 @@ from handeye.record import Vector3
 from handeye.touch.centring import Centring
 from handeye.touch.guards import monitor
 from handeye.touch.hold import at_least, within
-from handeye.units import INCH
 
 _SHUT: Final = -0.02
 """Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""

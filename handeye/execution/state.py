@@ -4,7 +4,7 @@ The plan, the arm and the cell are no part of it: they are given anew when a run
 copy of the record (`handeye.mutable_records`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 
 import msgspec
 import numpy as np
@@ -18,7 +18,7 @@ from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.causes import Cause
 from handeye.program.world_model import WorldState
-from handeye.system_state import SystemState
+from handeye.system_state import Natural, SystemState
 from handeye.touch.spiral import spiral
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
@@ -38,8 +38,8 @@ class SearchState(MutableRecord, kw_only=True):
     """A spiral search under way."""
 
     step: float
-    limit: int
-    count: int = 0
+    limit: Natural
+    count: Natural = 0
 
     def offset(self) -> tuple[float, float]:
         """Horizontal offset of the present place, m."""
@@ -128,8 +128,10 @@ def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
 
     Raises:
         InvalidInput: it tells of steps, stages, parts, pictures or positions that the plan does not have, or its
-            vectors and pictures are of another size.
+            vectors and pictures are of another size, or a number in it is not finite.
     """
+    if not _finite(state):
+        raise InvalidInput("the state of the run holds a value that is not a finite number")
     if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
         raise InvalidInput("the state of the run does not fit this plan")
 
@@ -157,6 +159,20 @@ def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
         and all(X.shape == (4, 4) for X in state.world.measured.values())
         and all(shot.picture.shape == (ROWS, COLUMNS) for shot in state.shots.values())
     )
+
+
+def _finite(value: object) -> bool:
+    """True if every number in a state, or in a part of one, is finite."""
+    match value:
+        case float() | np.ndarray():
+            return bool(np.isfinite(value).all())
+        case dict():
+            return all(map(_finite, value.values()))
+        case tuple() | list():
+            return all(map(_finite, value))
+        case msgspec.Struct():
+            return all(_finite(getattr(value, name)) for name in value.__struct_fields__)
+    return not is_dataclass(value) or all(_finite(getattr(value, field.name)) for field in fields(value))
 
 
 def vector(p: Array) -> tuple[float, float, float]:

@@ -5,6 +5,7 @@ import zlib
 from pathlib import Path
 
 import msgspec
+import numpy as np
 import pytest
 from short_runs import GRASP, begin, history, through
 
@@ -119,6 +120,7 @@ def test_another_arm_is_refused(runner: Runner) -> None:
         ({"calibration": 3}, "not a sound checkpoint"),
         ({"more": 1}, "unknown field"),
         ({"snapshot": {"position": -1}}, "not a sound checkpoint"),
+        ({"events": [{"event": "ErrorRaised", "time": 1.0, "number": 2, "detail": ""}]}, "unknown field"),
     ],
 )
 def test_a_sealed_file_with_nonsense_in_it_is_refused(
@@ -153,6 +155,10 @@ def test_only_figures_and_pictures_are_taken_for_arrays(data: bytes, dtype: str)
         (("state", "found"), {"../../x": {}}, "does not fit this plan"),
         (("state", "drive", "q"), ["<f8", [5], b"\0" * 40], "does not fit this plan"),
         (("state", "drive", "tare"), ["<f8", [7], b"\0" * 56], "does not fit this plan"),
+        (("state", "goal"), ["<f8", [3], np.full(3, np.nan).tobytes()], "not a finite number"),
+        (("state", "saved"), {"C1": ["<f8", [3], np.full(3, np.inf).tobytes()]}, "not a finite number"),
+        (("state", "drive", "load"), float("inf"), "not a finite number"),
+        (("state", "world", "moved"), {"P1": {"at": [float("nan")] * 6, "of": None}}, "not a finite number"),
         (("cell", "mechanisms", "stanford", "q"), [0.0] * 5, "another number of joints"),
         (("cell", "mechanisms", "stanford", "q"), [float("nan")] * 6, "not a finite number"),
         (("cell", "mechanisms", "threads", "driven"), 9, "another scene"),
