@@ -1,9 +1,13 @@
 """The import rules of docs/design.md, read off the source."""
 
 import ast
+import subprocess
+import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
+from import_reading import imports, run_time_imports
 
 PACKAGE = Path(__file__).parent.parent / "handeye"
 
@@ -36,6 +40,18 @@ LAYERS = [
 
 MODULES = sorted(".".join(p.relative_to(PACKAGE).with_suffix("").parts) for p in PACKAGE.rglob("*.py"))
 SKILLS = {"arm", "vision", "touch", "al"}
+WORKING_PHASE = {"execution", "planning", *SKILLS}
+ARITHMETIC = {
+    "abc", "collections", "contextlib", "cv2", "dataclasses", "enum", "functools", "hashlib", "itertools", "math",
+    "msgspec", "numpy", "scipy", "types", "typing",
+}  # fmt: skip
+MAKERS = {
+    "cell.opengl": {"importlib"},  # one of two libraries of OpenGL, whichever is there
+    "tasks.__init__": {"importlib.import_module"},  # a task when it is asked for
+    "trials.keystrokes": {"importlib.util.find_spec"},
+    "versions": {"importlib.metadata.version"},
+}
+"""Modules that name another one at run time, and by which means."""
 
 
 def layer(module: str) -> int:
@@ -46,35 +62,86 @@ def layer(module: str) -> int:
     return found[0]
 
 
-def imports(module: str) -> set[str]:
-    """Full names of everything a module imports."""
-    path = PACKAGE / (module.replace(".", "/") + ".py")
-    found: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.Import):
-            found.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            found.update(f"{node.module}.{alias.name}" for alias in node.names)
-    return found
+def source(module: str) -> str:
+    """The text of a module."""
+    return (PACKAGE / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8")
 
 
+@cache
+def outside(module: str) -> set[str]:
+    """Packages that are not ours and that a module imports."""
+    return {name.split(".")[0] for name in imports(source(module), module)} - {"handeye"}
+
+
+@cache
 def own(module: str) -> set[str]:
     """Modules of ours that a module imports."""
+    return owned(imports(source(module), module))
+
+
+def owned(names: set[str]) -> set[str]:
+    """Modules of ours that full names are of. The version of handeye is known to all of them."""
     result = set()
-    for name in imports(module):
-        if name.startswith("handeye."):
+    for name in names - {"handeye.__version__"}:
+        if name.split(".")[0] == "handeye":
             parts = name.split(".")[1:]
             while parts and ".".join(parts) not in MODULES and ".".join([*parts, "__init__"]) not in MODULES:
                 parts.pop()
             result.add(".".join(parts) if ".".join(parts) in MODULES else ".".join([*parts, "__init__"]))
-    return result - {"__init__"}
+    return result
 
 
 def called(module: str) -> set[str]:
     """Names of the methods that a module calls."""
-    tree = ast.parse((PACKAGE / (module.replace(".", "/") + ".py")).read_text())
+    tree = ast.parse(source(module))
     calls = [node.func for node in ast.walk(tree) if isinstance(node, ast.Call)]
     return {function.attr for function in calls if isinstance(function, ast.Attribute)}
+
+
+@pytest.mark.parametrize(
+    ("sneaky", "reached"),
+    [
+        ("def f():\n    import mujoco", "mujoco"),
+        ("def f():\n    from mujoco import mj_step", "mujoco.mj_step"),
+        ("if TYPE_CHECKING:\n    from handeye.cell.arm import SimulatedArm", "cell.arm"),
+        ("try:\n    import handeye.judge.measured as m\nexcept ImportError:\n    pass", "judge.measured"),
+        ("from handeye import cell", "cell.__init__"),
+        ("from handeye.tasks import task", "tasks.task"),
+        ("from handeye.tasks import register", "tasks.__init__"),
+        ("from ..cell import arm", "cell.arm"),
+        ("from .. import judge", "judge.__init__"),
+        ("from ...handeye.tasks.water_pump.cell import build_cell", "tasks.water_pump.cell"),
+        ("from handeye import assemble", "__init__"),
+        ("from handeye import *", "__init__"),
+        ("import handeye\nhandeye.cell.arm", "__init__"),
+        ("import handeye.units\nhandeye.cell.arm", "__init__"),
+    ],
+)
+def test_an_import_is_seen_however_it_is_written(sneaky: str, reached: str) -> None:
+    found = imports(sneaky, "execution.drive")
+    assert reached in found | owned(found)
+
+
+@pytest.mark.parametrize(
+    "sneaky",
+    [
+        "__import__('mujoco')",
+        "import importlib\nimportlib.import_module('mujoco')",
+        "from importlib import import_module as bring",
+        "import sys\nsys.modules['mujoco']",
+        "from sys import modules",
+        "exec('import mujoco')",
+        "import builtins",
+        "import pkgutil\npkgutil.resolve_name('mujoco:mj_step')",
+    ],
+)
+def test_an_import_by_a_name_made_at_run_time_is_seen(sneaky: str) -> None:
+    assert run_time_imports(sneaky)
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_nobody_imports_by_a_name_made_at_run_time(module: str) -> None:
+    assert run_time_imports(source(module)) == MAKERS.get(module, set())
 
 
 @pytest.mark.parametrize("module", MODULES)
@@ -95,12 +162,21 @@ def test_planner_and_executor_know_no_language(module: str) -> None:
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"cell", "judge", "tasks"}])
 def test_only_the_cell_and_the_referee_know_mujoco(module: str) -> None:
-    assert {name for name in imports(module) if name.split(".")[0] == "mujoco"} == set()
+    assert "mujoco" not in outside(module)
 
 
-@pytest.mark.parametrize(
-    "module", [m for m in MODULES if m.split(".")[0] in SKILLS | {"execution", "planning"}]
-)
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in WORKING_PHASE - {"al"}])
+def test_the_working_phase_needs_nothing_but_arithmetic_from_outside(module: str) -> None:
+    """Nothing that could look into the simulator: no files, no processes, no foreign functions."""
+    assert outside(module) <= ARITHMETIC
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] == "ports"])
+def test_nothing_stands_in_the_wall_but_what_ports_are_made_of(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] not in FOUNDATIONS | {"ports"}} == set()
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in WORKING_PHASE])
 def test_the_working_phase_sees_the_cell_through_its_ports_only(module: str) -> None:
     assert {o for o in own(module) if o.split(".")[0] in {"cell", "judge", "tasks"}} == set()
 
@@ -134,3 +210,48 @@ def test_nobody_knows_a_task_but_by_its_name(module: str) -> None:
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"arm", "tasks"}])
 def test_nobody_but_a_task_names_its_robot(module: str) -> None:
     assert {other for other in own(module) if other.startswith("arm.robots.")} <= {"arm.robots.__init__"}
+
+
+WITHOUT_A_SIMULATOR = """
+import sys
+from importlib import import_module
+
+class Wall:
+    def find_spec(self, name, path=None, target=None):
+        first, second, *_ = [*name.split("."), ""]
+        if first == "mujoco" or (first == "handeye" and second in {"cell", "tasks", "judge"}):
+            raise ImportError(f"{name} is behind the wall")
+
+sys.meta_path.insert(0, Wall())
+for module in sys.argv[1:]:
+    import_module("handeye." + module)
+
+import numpy as np
+from fakes import FakeCell
+from handeye.al import compile_text
+from handeye.arm.robots.stanford import STANFORD
+from handeye.execution.context import ExecutionContext
+from handeye.execution.executor import Executor
+from handeye.planning.planner import make_plan
+from handeye.program.taught import Taught
+from handeye.source import Source
+
+SCRIPT = "TRANS P [25 38 6 90 90 0]\\nMOVE P\\nCLOSE 0\\nFREE 1,X\\nCHANGE Z,1\\nOPEN 1"
+program, _ = compile_text(Source(name="wall.al", text=SCRIPT), Taught(positions={}, parts={}))
+plan, _ = make_plan(program, STANFORD)
+cell = FakeCell(np.array(plan.motions[0].knots[0])).devices
+executor = Executor(run=ExecutionContext(plan=plan, arm=STANFORD, cell=cell, camera=None, emit=lambda _: None))
+while executor.state.at is not None:
+    executor.step()
+assert executor.finish(), executor.state.stopped
+"""
+
+
+def test_a_plan_is_made_and_carried_out_where_there_is_no_simulator() -> None:
+    rooms = [m.removesuffix(".__init__") for m in MODULES if m.split(".")[0] in WORKING_PHASE]
+    paths = [str(PACKAGE.parent), str(PACKAGE.parent / "tests" / "support")]
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys; sys.path[:0] = {paths}\n{WITHOUT_A_SIMULATOR}", *rooms],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
