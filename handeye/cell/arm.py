@@ -10,6 +10,7 @@ from handeye.cell.device_errors import ArmErrors
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import figures, finite
 from handeye.cell.watchdog import Watchdog
+from handeye.errors import InvalidInput
 from handeye.ports.arm import ArmPort, ArmReading
 from handeye.pose import Array
 from handeye.record import Record
@@ -77,13 +78,22 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._torque: Array | None = None
         self._braked = True
         self._put(None)
-        self._reading = ArmReading(q=posture, qd=np.zeros(len(posture)), braked=True)
+        self._read(posture, np.zeros(len(posture)), braked=True)
 
     def read(self) -> ArmReading:
         return self._reading
 
     def drive(self, torque: Array | None) -> None:
-        self._torque = None if torque is None else finite(torque, "the torque")
+        if torque is not None:
+            joints = len(self.dofs)
+            if np.shape(torque) != (joints,):
+                raise InvalidInput(
+                    f"torques of shape {np.shape(torque)} were put out to an arm of {joints} joints"
+                )
+            torque = finite(
+                np.array(torque, dtype=float), "the torque"
+            )  # a copy, which nobody else can change
+        self._torque = torque
         self.watchdog.answer(braked=torque is None)
 
     def before(self, seconds: float) -> None:
@@ -101,11 +111,17 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def after(self) -> None:
         errors, data, count = self._errors, self._data, len(self.dofs)
         noise = self._noise.standard_normal(2 * count)
-        self._reading = ArmReading(
-            q=errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count],
-            qd=np.asarray(data.qvel[self.dofs] + errors.tachometer_noise * noise[count:]),
+        self._read(
+            errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count],
+            np.asarray(data.qvel[self.dofs] + errors.tachometer_noise * noise[count:]),
             braked=self._braked,
         )
+
+    def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
+        """Keep readings until time has passed again; nobody who has them can change them."""
+        self._reading = ArmReading(q=q.copy(), qd=qd.copy(), braked=braked)
+        self._reading.q.setflags(write=False)
+        self._reading.qd.setflags(write=False)
 
     def state(self) -> ArmState:
         read = self._reading
@@ -123,8 +139,10 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         if lengths != {len(self.dofs)}:
             raise ValueError("its arm has another number of joints")
         finite([*state.q, *state.qd, *(state.command or ()), state.unanswered], "the arm")
+        if state.unanswered < 0:
+            raise ValueError("its watchdog waits for what is past")
 
     def restore(self, state: ArmState) -> None:
-        self._reading = ArmReading(q=np.array(state.q), qd=np.array(state.qd), braked=state.braked)
+        self._read(np.array(state.q), np.array(state.qd), braked=state.braked)
         self._torque = None if state.command is None else np.array(state.command)
         self.watchdog.tripped, self.watchdog.unanswered = state.tripped, state.unanswered

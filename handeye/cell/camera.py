@@ -13,6 +13,7 @@ from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
+from handeye.errors import InvalidInput
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
 from handeye.record import Record
 from handeye.vision.camera_model import CameraModel, View
@@ -75,6 +76,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         return TURRET
 
     def aim(self, pan: float, tilt: float) -> float:
+        finite((pan, tilt), "the aim of the camera")
         if (pan, tilt) == self._pots:
             return 0.0
         self._pots = (pan, tilt)
@@ -83,6 +85,11 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         return SLEW
 
     def focus(self, distance: float) -> float:
+        nearest = max(lens.focal_length for lens in self._model.lenses)
+        if not distance > nearest:
+            raise InvalidInput(
+                f"the camera cannot be focused at {distance:g} m; it must be over {nearest:g} m"
+            )
         if distance == self._focus:
             return 0.0
         self._focus = distance

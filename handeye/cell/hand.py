@@ -89,7 +89,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
             start = here
         moved = min(max(goal - start, -step), step)
         self._set_point = start + moved
-        self._press(min(max(grip, 0.0), self._hand.grip), ahead=moved * (_LAG / seconds - 0.5))
+        self._press(min(max(grip, 0.0), self._hand.grip), ahead=moved * max(0.0, _LAG / seconds - 0.5))
 
     def _press(self, grip: float, ahead: float) -> None:
         """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.

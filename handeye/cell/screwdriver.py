@@ -60,6 +60,10 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         finite([speed], "the speed of the screwdriver")
         self._command = speed
 
+    def before(self, seconds: float) -> None:
+        if self._watchdog.tripped:
+            self._command = 0.0
+
     def after(self) -> None:
         true = -float(sum(self._data.actuator_force[motor] for motor in self._motors))
         self._torque = float(true + self._torque_noise * self._noise.standard_normal())

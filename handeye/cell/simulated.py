@@ -49,6 +49,9 @@ class SimulatedCell(Clock):
         Args:
             mechanisms: whatever else acts on the model, in the order in which it does: threads, more arms.
             noise: the generator that all sensors but the camera draw from.
+
+        Raises:
+            ValueError: two of them have one name, by which their states are found.
         """
         self._model, self._data, self._noise = model, data, noise
         self.arm = arm
@@ -60,6 +63,11 @@ class SimulatedCell(Clock):
             *mechanisms,
             *(() if camera is None else (camera,)),
         )
+        names = [part.name for part in self._mechanisms]
+        if len({*names}) < len(names):
+            raise ValueError(
+                f"devices and mechanisms of a cell have names of their own; these are {', '.join(names)}"
+            )
         self._changes = sorted({field for part in self._mechanisms for field in part.changes})
         self.devices = Workcell(
             clock=self, arm=arm, hand=hand, screwdriver=screwdriver, lamp=lamp, camera=camera

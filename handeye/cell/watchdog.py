@@ -23,6 +23,6 @@ class Watchdog:
         self.tripped = self.tripped and not braked
 
     def wait(self, seconds: float) -> None:
-        """Time is about to pass in which the drives hold what was put out last."""
+        """Time (s) is about to pass in which the drives hold what was put out last; too much of it trips at once."""
         self.unanswered += seconds
         self.tripped = self.tripped or self.unanswered > self.period * (1 + _LATE)

@@ -22,7 +22,8 @@ class ArmPort(ABC):
     """Motors, brakes and sensors of an arm.
 
     A watchdog guards it: an arm that is not driven anew before the clock has advanced by a servo period has its
-    drives cut and its brakes set, and stays so until the program sets the brakes itself.
+    drives cut and its brakes set, and stays so until the program sets the brakes itself. Where the clock advances by
+    more than that at once, they are cut from the beginning. The hand is not cut: it keeps hold of what it has.
     """
 
     @abstractmethod
@@ -34,5 +35,5 @@ class ArmPort(ABC):
         """Put out joint torques, shape (n,), N m or N, held for a servo period; None: drives off, brakes set.
 
         Raises:
-            InvalidInput: a torque is not a finite number.
+            InvalidInput: there are more or fewer torques than joints, or one is not a finite number.
         """

@@ -49,11 +49,19 @@ class TvCamera(ABC):
 
     @abstractmethod
     def aim(self, pan: float, tilt: float) -> float:
-        """Slew to these potentiometer readings (rad); seconds it takes."""
+        """Slew to these potentiometer readings (rad); seconds it takes.
+
+        Raises:
+            InvalidInput: one of them is not a finite number.
+        """
 
     @abstractmethod
     def focus(self, distance: float) -> float:
-        """Set the focus for a distance (m); seconds it takes."""
+        """Set the focus for a distance (m); seconds it takes.
+
+        Raises:
+            InvalidInput: no lens can be focused so near.
+        """
 
     @abstractmethod
     def pots(self) -> tuple[float, float]:

@@ -1,5 +1,6 @@
 """The clock of a cell: the only way to let time pass, for all of its devices at once."""
 
+import math
 from abc import ABC, abstractmethod
 from typing import Final
 
@@ -7,6 +8,8 @@ from handeye.errors import InvalidInput
 
 _ROUNDING: Final = 1e-6
 """Share of a step by which a period may miss a whole number of steps: what floating-point numbers lose."""
+_DIGITS: Final = ".12g"
+"""Of a period in a message: a period that is given as it is written there is taken."""
 
 
 class Clock(ABC):
@@ -25,7 +28,7 @@ class Clock(ABC):
         """Let time pass.
 
         Raises:
-            InvalidInput: not a whole number of the cell's physics steps.
+            InvalidInput: not a whole number of the cell's physics steps, or not one of them.
         """
 
 
@@ -33,13 +36,15 @@ def whole_steps(seconds: float, step: float) -> int:
     """How many physics steps (s) there are in a period (s).
 
     Raises:
-        InvalidInput: not a whole number of them, or none.
+        InvalidInput: not a whole number of them, or not one.
     """
+    if not (math.isfinite(seconds) and seconds > 0):
+        raise InvalidInput(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
     steps = round(seconds / step)
     if steps < 1 or abs(seconds / step - steps) > _ROUNDING:
         low = max(1, int(seconds / step))
         raise InvalidInput(
-            f"a period of {seconds:g} s is not a whole number of physics steps of {step:g} s; "
-            f"use {low * step:g} or {(low + 1) * step:g}"
+            f"a period of {seconds:{_DIGITS}} s is not a whole number of physics steps of {step:{_DIGITS}} s; "
+            f"use {low * step:{_DIGITS}} or {(low + 1) * step:{_DIGITS}}"
         )
     return steps

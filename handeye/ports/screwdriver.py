@@ -4,7 +4,11 @@ from abc import ABC, abstractmethod
 
 
 class ScrewdriverPort(ABC):
-    """The motor of a screwdriver."""
+    """The motor of a screwdriver.
+
+    The watchdog of the arm that carries it cuts it, too: it stands still until the program has set the brakes of the
+    arm and then a speed anew.
+    """
 
     @abstractmethod
     def torque(self) -> float:

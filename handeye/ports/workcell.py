@@ -13,7 +13,7 @@ from handeye.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensed:
-    """All readings at the end of a servo period; of devices that the cell has not, zero and False."""
+    """All readings at the end of a servo period; of devices that the cell does not have, zero and False."""
 
     time: float
     q: Array

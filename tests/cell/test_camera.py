@@ -86,6 +86,24 @@ def test_a_lens_that_is_not_there_is_refused():
         camera().lens(0.075)
 
 
+@pytest.mark.parametrize("aim", [(math.nan, 0.7), (0.1, math.inf)])
+def test_an_aim_that_is_not_a_number_is_refused(aim: tuple[float, float]):
+    tv = camera()
+    with pytest.raises(
+        InvalidInput, match=r"^the aim of the camera holds a value that is not a finite number$"
+    ):
+        tv.aim(*aim)
+    assert tv.pots() == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("distance", [-1.0, 0.0, 0.05, math.nan])
+def test_a_focus_nearer_than_any_lens_can_have_is_refused(distance: float):
+    with pytest.raises(
+        InvalidInput, match=r"^the camera cannot be focused at .* m; it must be over 0\.05 m$"
+    ):
+        camera().focus(distance)
+
+
 def test_the_pots_tell_the_aim_but_for_the_error_of_the_world():
     world = PumpWorld.sample(5)
     tv = camera(world)

@@ -111,6 +111,18 @@ def test_row_34_the_screwdriver_is_cut_with_the_arm(cell: SimulatedCell) -> None
     assert abs(cell.truth.data.joint("spindle").qvel[0]) < 0.5
 
 
+def test_row_34_a_screwdriver_that_was_cut_stands_still_until_it_is_told_anew(cell: SimulatedCell) -> None:
+    turning = Drive(torque=gravity(STANFORD, cell.devices.arm.read().q), tool=10.0)
+    run(cell, turning, 20)
+    cell.advance(JIFFY)
+    cell.devices.arm.drive(None)
+    cell.advance(30 * JIFFY)
+    still = cell.truth.data.joint("spindle").qvel[0]
+    run(cell, turning, 20)
+    assert abs(still) < 0.5
+    assert abs(cell.truth.data.joint("spindle").qvel[0]) > 5.0
+
+
 def test_an_arm_holds_its_torque_for_a_servo_period_in_any_number_of_pieces(cell: SimulatedCell) -> None:
     cell.devices.arm.drive(gravity(STANFORD, cell.devices.arm.read().q))
     for _ in range(16):

@@ -65,7 +65,7 @@ class FakeArm(ArmPort):
     def __init__(self, q: Array) -> None:
         self.q, self.qd = np.array(q, dtype=np.float64), np.zeros(len(q))
         self.walls: list[Wall] = []
-        self.braked, self.cut, self.torque, self.driven = True, False, None, True
+        self.braked, self.cut, self.torque, self.unanswered = True, False, None, 0.0
 
     @property
     def tcp(self) -> Array:
@@ -76,12 +76,13 @@ class FakeArm(ArmPort):
         return ArmReading(q=self.q.copy(), qd=self.qd.copy(), braked=self.braked)
 
     def drive(self, torque: Array | None) -> None:
-        self.torque, self.driven = torque, True
+        self.torque, self.unanswered = torque, 0.0
         self.cut = self.cut and torque is not None
 
     def elapse(self, seconds: float) -> None:
-        self.cut = self.cut or not self.driven
-        self.driven, self.braked = self.torque is None, self.cut or self.torque is None
+        self.unanswered += 0.0 if self.torque is None else seconds
+        self.cut = self.cut or self.unanswered > STANFORD.servo.period * (1 + 1e-6)
+        self.braked = self.cut or self.torque is None
         if self.braked:
             self.qd = np.zeros(len(self.q))
         else:
