@@ -9,7 +9,7 @@ from conftest import Command
 pytestmark = pytest.mark.slow
 
 DOC = (Path(__file__).parents[2] / "docs" / "teaching.md").read_text(encoding="utf-8")
-TALKS = re.findall(r"^```\n\$ handeye (repl|teach)(.*)\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
+TALKS = re.findall(r"^```\n\$ handeye (repl|teach)([^\n]*)\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
 FILE, NEW = re.findall(r"^```toml\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
 PROMPTS = {"repl": "*", "teach": "teach>"}
 
@@ -17,6 +17,10 @@ PROMPTS = {"repl": "*", "teach": "teach>"}
 def without_figures(text: str) -> str:
     """Text in which every figure with a point is a `#`: the last digit is the processor's."""
     return re.sub(r"-?\d+\.\d+|-0\b", "#", text)
+
+
+def test_the_page_has_two_talks_with_repl_and_one_with_teach() -> None:
+    assert [word for word, _, _ in TALKS] == ["repl", "repl", "teach"]
 
 
 @pytest.mark.parametrize(("word", "rest", "talk"), TALKS)
@@ -28,6 +32,7 @@ def test_what_is_typed_in_the_walk_gets_the_answers_that_stand_there(
     typed = [line.removeprefix(prompt).strip() for line in talk.splitlines() if line.startswith(prompt)]
     answered = [line for line in talk.splitlines() if not line.startswith(prompt)]
     _, out, _ = command(word, *rest.split(), typed="".join(f"{line}\n" for line in typed))
+    assert typed
     assert without_figures(out).splitlines() == without_figures("\n".join(answered)).splitlines()
 
 
