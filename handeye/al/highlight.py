@@ -14,14 +14,9 @@ from pygments.token import (
     Whitespace,
 )
 
-from handeye.al.definition import Refers, Role
-from handeye.al.instructions import FREE, INSTRUCTIONS
+from handeye.al.word_groups import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
 
 _NAME = r"[A-Za-z_]\w*"
-_JUMPS = [i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.LABEL for o in i.operands)]
-_MODIFIERS = [i.op for i in INSTRUCTIONS.values() if i.role in (Role.MODIFIER, Role.SHIFT)]
-_OTHERS = [op for op in INSTRUCTIONS if op not in (*FREE, *_JUMPS, *_MODIFIERS)]
-_WORDS = sorted({o.word for i in INSTRUCTIONS.values() for o in i.operands if o.word})
 
 
 def _ops(ops: list[str]) -> words:
@@ -41,16 +36,16 @@ class ArmLexer(RegexLexer):
             (r";.*", Comment.Single),
             (rf"({_NAME})([ \t]*)(:)", bygroups(Name.Label, Whitespace, Punctuation)),
             (rf"(?i:(DEFINE))\b([ \t]*)({_NAME})?", bygroups(Keyword.Declaration, Whitespace, Name.Function)),
-            (_ops(sorted(FREE)), Keyword, "free"),
-            (_ops(_JUMPS), Keyword, "jump"),
-            (_ops(_MODIFIERS), Keyword.Type, "operands"),
-            (_ops(_OTHERS), Keyword, "operands"),
+            (_ops(FREE_TEXT), Keyword, "free"),
+            (_ops(JUMPS), Keyword, "jump"),
+            (_ops(MODIFIERS), Keyword.Type, "operands"),
+            (_ops(OTHERS), Keyword, "operands"),
             (_NAME, Name.Function, "operands"),
             (r"\S+", Error),
         ],
         "operands": [
             (r"[ \t]+", Whitespace),
-            (words(_WORDS, prefix=r"(?i:", suffix=r")\b"), Keyword.Pseudo),
+            (words(OPERAND_WORDS, prefix=r"(?i:", suffix=r")\b"), Keyword.Pseudo),
             (_NAME, Name.Variable),
             (r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])", Number.Float),
             (r'"[^"\n]*"', String.Double),

@@ -6,6 +6,7 @@ from typing import Final
 
 from handeye.al.includes import key_of, own_key, required_by
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.word_groups import OPERAND_WORDS
 from handeye.diagnostics import quoted
 from handeye.editor.document import Document
 from handeye.editor.occurrences import LABEL, MACRO, PARK, PART, POSITION, Occurrence, same
@@ -13,7 +14,6 @@ from handeye.errors import InvalidInput
 from handeye.source import Span
 
 _NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-_WORDS: Final = {operand.word for i in INSTRUCTIONS.values() for operand in i.operands if operand.word}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +84,9 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
         raise InvalidInput(
             f"{quoted(new)} is not a name: names consist of letters, digits and `_`, and do not start with a digit"
         )
-    if (name.kind in (MACRO, LABEL) and new.upper() in (*INSTRUCTIONS, "DEFINE")) or new.upper() in _WORDS:
+    if (
+        name.kind in (MACRO, LABEL) and new.upper() in (*INSTRUCTIONS, "DEFINE")
+    ) or new.upper() in OPERAND_WORDS:
         raise InvalidInput(f"{quoted(new)} is a word of the language")
     others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
     if new != name.name and any(_meets(other, name, new) for other in others):

@@ -8,8 +8,7 @@ import sys
 from collections.abc import Iterable
 from typing import Final
 
-from handeye.al.definition import Refers, Role
-from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.word_groups import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
 
 _NAME: Final = r"[A-Za-z_]\w*"
 _NUMBER: Final = r"(?<![\w.])[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])"
@@ -18,10 +17,6 @@ Rule = dict[str, object]
 
 def grammar() -> Rule:
     """The grammar as data."""
-    free = [i.op for i in INSTRUCTIONS.values() if any(o.free for o in i.operands)]
-    jumps = [i.op for i in INSTRUCTIONS.values() if any(o.refers is Refers.LABEL for o in i.operands)]
-    modifiers = [i.op for i in INSTRUCTIONS.values() if i.role in (Role.MODIFIER, Role.SHIFT)]
-    others = [op for op in INSTRUCTIONS if op not in (*free, *jumps, *modifiers)]
     return {
         "name": "Arm language",
         "scopeName": "source.armal",
@@ -35,10 +30,10 @@ def grammar() -> Rule:
                 rf"(?i:\b(DEFINE)\b)(?:\s+({_NAME}))?",
                 {"1": "keyword.other.define.armal", "2": "entity.name.function.armal"},
             ),
-            _line(_word(free), "keyword.control.armal", _FREE_TEXT),
-            _line(_word(jumps), "keyword.control.armal", [_LABEL, {"include": "#operands"}]),
-            _line(_word(modifiers), "storage.modifier.armal", [{"include": "#operands"}]),
-            _line(_word(others), "keyword.other.armal", [{"include": "#operands"}]),
+            _line(_word(FREE_TEXT), "keyword.control.armal", _ANY_WORDS),
+            _line(_word(JUMPS), "keyword.control.armal", [_LABEL, {"include": "#operands"}]),
+            _line(_word(MODIFIERS), "storage.modifier.armal", [{"include": "#operands"}]),
+            _line(_word(OTHERS), "keyword.other.armal", [{"include": "#operands"}]),
             _line(rf"\b({_NAME})", "entity.name.function.armal", [{"include": "#operands"}]),
         ],
         "repository": {
@@ -69,16 +64,15 @@ def _word(words: Iterable[str]) -> str:
 
 _STRING: Final[Rule] = {"name": "string.quoted.double.armal", "match": '"[^"]*"?'}
 _LABEL: Final[Rule] = _match(rf"\b({_NAME})\s*(?=;|$)", {"1": "entity.name.label.armal"})
-_FREE_TEXT: Final[list[Rule]] = [_STRING, {"name": "string.unquoted.armal", "match": r'[^\s;"]+'}]
+_ANY_WORDS: Final[list[Rule]] = [_STRING, {"name": "string.unquoted.armal", "match": r'[^\s;"]+'}]
 
 
 def _operands() -> list[Rule]:
-    words = sorted({o.word for i in INSTRUCTIONS.values() for o in i.operands if o.word})
     return [
         _STRING,
         {"name": "constant.numeric.armal", "match": _NUMBER},
         {"name": "punctuation.section.vector.armal", "match": r"[\[\],]"},
-        _match(_word(words), {"1": "keyword.operator.word.armal"}),
+        _match(_word(OPERAND_WORDS), {"1": "keyword.operator.word.armal"}),
         {"name": "variable.other.armal", "match": rf"\b{_NAME}"},
         {"name": "invalid.illegal.armal", "match": r"\S"},
     ]
