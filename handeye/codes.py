@@ -214,7 +214,7 @@ CODES: Final[dict[str, Code]] = {
     ),
     "wait-for-time": _warning("a WAIT should let time pass, but calls the operator", "PARK\nWAIT 2"),
     "wrist-in-line": _planning(
-        "joints 4 and 6 come into line on a straight motion, where the hand cannot keep its angles",
+        "the axes of two joints come into line on a straight motion, where the hand cannot keep its angles",
         "TRANS AHEAD [14 40 24 180 0 0]\nMOVE AHEAD\nCHANGE [0 0 -1] 4",
     ),
     "wrong-operand": _error("an operand has the wrong kind", "OPEN T"),

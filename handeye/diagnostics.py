@@ -44,7 +44,7 @@ class MissingMark:
 
 
 Meant = SimilarName | KnownNames | MissingMark
-"""What the writer may have meant at a mistake, for whoever mends it; people are told in the help."""
+"""The meaning that a mistake may have had, for a program that mends it; the help tells people."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,7 +58,7 @@ class Diagnostic:
     notes: tuple[str, ...] = ()
     help: str | None = None
     meant: Meant | None = None
-    """At the primary place."""
+    """In the place of what the primary label marks, or behind it."""
 
     def __post_init__(self) -> None:
         assert self.code in CODES, self.code

@@ -107,7 +107,7 @@ class Role(Enum):
 
 
 MOTION, MODIFIER, SHIFT, SKIP, JUMP, DECLARATION, STEP = Role
-"""For those who ask often: a member of an enumeration takes its time to be found."""
+"""The members by themselves, for code that asks often: looking one up in its enumeration takes time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

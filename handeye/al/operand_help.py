@@ -33,7 +33,7 @@ def origin(definition: Instruction, operand: Operand) -> str:
 
 
 def part(definition: Instruction) -> str:
-    """Say what an instruction is, and of whom."""
+    """Say what an instruction is, and who made it."""
     said = f"A {definition.role.value}, {'ours' if definition.ours else 'of the period'}."
     return (
         f"{said} Modifies {', '.join(f'`{word}`' for word in definition.fits)}." if definition.fits else said

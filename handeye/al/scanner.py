@@ -19,7 +19,7 @@ class TokenKind(Enum):
 
 
 NAME, NUMBER, STRING, MARK, JUNK = TokenKind
-"""For those who ask often: a member of an enumeration takes its time to be found."""
+"""The members by themselves, for code that asks often: looking one up in its enumeration takes time."""
 
 
 class Token(Located, frozen=True, gc=False):

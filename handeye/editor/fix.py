@@ -30,12 +30,12 @@ def cured(text: str, fix: Fix) -> str:
 
 
 def replace(span: Span, text: str, title: str, *, choice: bool = False) -> Fix:
-    """One place is written otherwise."""
+    """The cure that puts another text in one place."""
     return Fix(title=title, edits=(Edit(span=span, text=text),), choice=choice)
 
 
 def insert(at: int, text: str, title: str) -> Fix:
-    """Something is put in."""
+    """The cure that puts a text in at an offset."""
     return replace(Span(start=at, end=at), text, title)
 
 

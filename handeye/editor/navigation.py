@@ -39,7 +39,7 @@ class Edit:
 
 
 def definition(document: Document, offset: int) -> list[Found]:
-    """Definitions of the name at an offset; a difference may be saved in several places, a file begins."""
+    """Definitions of the name at an offset: each place where a difference is saved; the beginning of a file."""
     for file in required_by(document.text):
         key = key_of(file.text, own_key(document.source))
         if file.span.start <= offset <= file.span.end:
@@ -56,10 +56,10 @@ def references(document: Document, offset: int) -> list[Found]:
 
 
 def renamable(document: Document, offset: int) -> Occurrence:
-    """The name at an offset, if it may be called otherwise.
+    """The name at an offset, if it can be renamed.
 
     Raises:
-        InvalidInput: there is no name, or it is a word of the language, or it is made where no edit reaches.
+        InvalidInput: there is no name, or it is a word of the language, or it is defined where no edit reaches.
     """
     name = document.name_at(offset)
     if name is None:
@@ -74,10 +74,10 @@ def renamable(document: Document, offset: int) -> Occurrence:
 
 
 def rename(document: Document, offset: int, new: str) -> list[Edit]:
-    """Edits of the script, the taught file and the required ones that call a thing otherwise.
+    """Edits of the script, the taught file and the required files that rename a thing.
 
     Raises:
-        InvalidInput: it cannot be called otherwise, or not so.
+        InvalidInput: it cannot be renamed, or cannot have that name.
     """
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:

@@ -33,7 +33,7 @@ class Occurrence:
     scope: str = ""
     """The macro within which a label is known; empty: the text."""
     fixed: bool = False
-    """A word of the language, which cannot be called otherwise."""
+    """A word of the language, which cannot be renamed."""
 
 
 def occurrences(text: str, parts: Iterable[str] = (), macros: Iterable[str] = ()) -> list[Occurrence]:

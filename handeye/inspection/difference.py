@@ -20,7 +20,7 @@ _ALIKE = 1e-9
 
 
 class MotionChange(Record, frozen=True, kw_only=True):
-    """A motion that comes out otherwise."""
+    """A motion that is not as it was."""
 
     before: float | None
     """Planned duration, s; None if there was no motion."""

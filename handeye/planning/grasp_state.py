@@ -1,4 +1,4 @@
-"""The state of the hand, as far as the text tells: how wide it is open, and what it holds."""
+"""The state of the hand, as far as the program tells: how wide it is open, and what it holds."""
 
 from dataclasses import dataclass, field
 
@@ -15,7 +15,7 @@ class GraspState:
     program: Program
     hand: HandModel
     gap: float = 0.0
-    """m; after a grasp the least that the script says the thing is thick, for nothing tells more."""
+    """m; after a grasp the least thickness that the program asks of the thing, for it says no more."""
     held: str | None = None
     taken: int | None = None
     """The step by which it is held."""

@@ -21,7 +21,7 @@ from handeye.program.program import Program, Step
 from handeye.record import Vector3
 
 SPARSE: Final = 8
-"""Of so many configurations of a motion, one is enough for what a load asks of the joints."""
+"""One of so many configurations of a motion is checked for what a load asks of the joints."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class Checks:
         self._surroundings = Surroundings(self.program)
 
     def forget(self) -> None:
-        """The next step is come to by a jump: whatever the hand held, it may hold something else."""
+        """The next step is reached by a jump: whatever the hand held, it may hold something else."""
         self._grip, self._load = GraspState(self.program, self.arm.hand), None
 
     def follow(self, number: int, step: Step) -> None:

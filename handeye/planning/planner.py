@@ -77,7 +77,7 @@ class _Walk:
     checks: Checks
     q: Array = field(init=False)
     known: bool = True
-    """The arm is where `q` says: not come to by a jump, nor left before what it cannot reach."""
+    """The arm is where `q` says; False behind a jump, and behind a motion that cannot be made."""
     motions: dict[int, PlannedMotion] = field(default_factory=dict)
 
     def go(self, start: Array | None) -> None:
@@ -187,7 +187,7 @@ _PLANNED: Final[dict[type[Operation], Callable[[_Walk, int, Step, Any], None]]] 
     Turn: _Walk.turn,
     Here: _Walk.define,
 }
-"""Deeds of the planner at steps that move the arm, or that ask where it is."""
+"""The planner's methods for steps that move the arm, or that ask where it is."""
 
 
 def _joints(q: Array) -> Joints:

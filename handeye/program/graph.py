@@ -10,7 +10,7 @@ from handeye.program.program import Step
 
 A = TypeVar("A", bound=Operation)
 FAR: Final = 100
-"""Steps that are looked at for what was done last."""
+"""The most steps that are searched for what was done last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Graph:
     kinds: dict[type[Operation], list[int]] = field(init=False)
     """Steps with each kind of operation."""
     reached: set[int] = field(init=False)
-    """Steps that can be come to."""
+    """Steps that can be reached."""
 
     def __post_init__(self) -> None:
         kinds: dict[type[Operation], list[int]] = {}
@@ -74,9 +74,9 @@ class Graph:
         return reachable([before for number in numbers for before in self.back[number]], self.back)
 
     def last(self, number: int, *kinds: type[Operation]) -> list[int]:
-        """The steps of these kinds that can be the last before a step; none if it can come without one.
+        """The steps of these kinds that can be the last before a step; none if the step can come without one of them.
 
-        Nor if they lie `FAR` back. Steps that nothing comes to count for nothing.
+        None either if the search looks at more than `FAR` steps. Steps that cannot be reached do not count.
         """
         found: list[int] = []
         seen: set[int] = set()
@@ -147,7 +147,7 @@ class Graph:
         return set(range(len(self.steps))) - reachable(out, self.back)
 
     def loop(self, start: int, known: set[int]) -> set[int]:
-        """The steps that can be come to from `start`; none if any of those already known is among them.
+        """The steps that can be reached from `start`; none if any of those already known is among them.
 
         All of them are known from now on.
         """
@@ -160,7 +160,7 @@ class Graph:
 def reachable(
     first: Iterable[int | None], edges: Sequence[Iterable[int | None]], without: Iterable[int] = ()
 ) -> set[int]:
-    """Everything that can be come to along edges, by number, the beginning included."""
+    """Everything that can be reached along edges, by number, the beginning included."""
     found = set(without)
     waiting = list(first)
     while waiting:

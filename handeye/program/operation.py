@@ -46,10 +46,10 @@ class Operation(
 
     family: ClassVar[Family] = "other"
     moves: ClassVar[bool] = False
-    """The arm, or its hand, stands otherwise afterwards."""
+    """It leaves the arm, or its hand, in another place."""
     takes_time: ClassVar[bool] = False
     needs: ClassVar[Device | None] = None
-    """The device besides the arm that it is carried out with."""
+    """The device that it is carried out with, if the arm is not enough."""
     planned: ClassVar[bool] = False
     """It cannot be carried out without a planned motion."""
     only_checks: ClassVar[bool] = False
@@ -82,12 +82,12 @@ class Operation(
 
     @property
     def reads(self) -> tuple[Use, ...]:
-        """Everything it is carried out by."""
+        """Everything that decides how it is carried out."""
         return self.used(self.reading)
 
     @property
     def writes(self) -> tuple[Use, ...]:
-        """Everything that may be otherwise afterwards."""
+        """Everything that it may change."""
         return self.used(self.writing)
 
     @property

@@ -20,14 +20,14 @@ LEAST: Final = 1e-6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlwaysFails:
-    """A step that is in vain."""
+    """A step that never does what it is for."""
 
     code: str
     step: int
     message: str
     help: str
     cause: int | None = None
-    """The step that makes it so."""
+    """The step that is the reason."""
 
 
 def in_vain(graph: Graph) -> Iterator[AlwaysFails]:

@@ -197,7 +197,7 @@ class _Flow:
             yield found.step, self.problem(found.code, found.step, found.message, *cause, help=found.help)
 
     def incoming(self) -> tuple[dict[int, set[int]], dict[int, set[int]]]:
-        """For each test: the errors that can be pending when it is come to, and the actions that raise them."""
+        """For each test: the errors that can be pending when it is reached, and the actions that raise them."""
         steps, onward = self.graph.steps, self.graph.onward
         tests = self.graph.which(Test)
         raised: dict[int, set[int]] = {number: set() for number in tests}
