@@ -28,7 +28,7 @@ def main(words: list[str]) -> int:
         print(f"setting up failed: {' '.join(map(str, error.cmd))}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
-        print("\nsetting up was interrupted; the next start goes on with it", file=sys.stderr)
+        print("\nsetting up was interrupted; the next start completes it", file=sys.stderr)
         return 130
     if not testing:
         return run(["-m", "handeye", *words])

@@ -45,23 +45,23 @@ PANIC = Pause(kind="panic")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Job:
-    """A run to be begun or gone on with, and what is wanted of it."""
+    """A run to begin or to resume, and the options for it."""
 
     start: Checkpoint
     folder: RunFolder | None = None
-    """The folder of a run that is gone on with."""
+    """Folder of a run that is resumed."""
     out: Path | None = None
-    """Folder for a run that is begun."""
+    """Folder for a new run."""
     overwrite: bool = False
     """The run in that folder, if any, may be lost."""
     checkpoints: Path | None = None
-    """Where states at the beginning of stages are kept besides."""
+    """Another folder for checkpoints at the beginning of stages."""
     stops: Sequence[AnyStop] = ()
-    """Where it ends, for now."""
+    """Places where it pauses and the command ends."""
     breaks: Sequence[str] = ()
-    """Where it stops besides, as after --break."""
+    """Breakpoints, as typed after --break."""
     halfway: bool = False
-    """It is to stop where somebody will want to go on from."""
+    """Save a checkpoint where it pauses, if it has no folder."""
     step: bool = False
     """Ask before every step."""
     on_stop: str | None = None
@@ -101,7 +101,7 @@ class _Work:
         self.progress = Progress(listing_of(job.start.setup).stages, notes)
         self.refused = False
         self.left: Path | None = None
-        """The file that a state was last kept in, outside the folder of the run."""
+        """The checkpoint that was saved last, outside the folder of the run."""
 
     def do(self) -> int:
         """All of it; the exit code."""
@@ -261,7 +261,7 @@ def work(job: Job) -> int:
 
 
 def _warn(runner: Runner) -> None:
-    """Tell if a run that is gone on with need not come out as it would have."""
+    """Tell why a resumed run may come out otherwise than it would have."""
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
     if begun is None:
         return

@@ -135,7 +135,7 @@ def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
 
     if file.is_dir():
         growing = part(file / TRACE)
-        if growing.exists():  # newer than the whole one of before the run was gone on with
+        if growing.exists():  # newer than the whole one, which is of before the run was resumed
             note(f"the run in {file} was interrupted; this is what its trace holds")
             file = growing
         elif (file / TRACE).exists():

@@ -36,7 +36,8 @@ class ErrorOptions:
         list[str] | None,
         Parameter(
             name="--set",
-            help="A value for an error, or for each of a group, such as camera.place.x=.3in; may be repeated.",
+            help="NAME=VALUE: a value for a quantity, or for each of a group, such as camera.place.x=.3in; may be "
+            "repeated.",
             consume_multiple=False,
         ),
     ] = None

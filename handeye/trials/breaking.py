@@ -1,4 +1,4 @@
-"""Breaking runs off, again and again, and seeing whether what is gone on with comes out as if nothing had happened."""
+"""Runs interrupted in many ways and resumed, compared with a run that nobody interrupted."""
 
 import random
 import signal
@@ -30,7 +30,7 @@ LIMIT: Final = 900.0
 
 
 class TrialFailed(HandeyeError):
-    """A run could not be made, so that nothing can be said about breaking it off."""
+    """A run could not be carried out, so that nothing can be said about interrupting it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +44,7 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnbrokenRun:
-    """A run that nobody broke off, to compare with."""
+    """A run that nobody interrupted, to compare with."""
 
     folder: Path
     seed: int
@@ -79,35 +79,35 @@ def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
 
 
 def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
-    """Kill a run in the middle of each stage, go on with it, and compare the traces byte for byte."""
+    """Kill a run in the middle of each stage, resume it, and compare the traces byte for byte."""
 
     def one(number: int) -> Verdict:
         stage, place = whole.stages[number], folder / f"killed-{number + 1}"
-        process = _begun(whole, place)
+        process = _started(whole, place)
         _wait_for(place / EVENTS, _middle(whole, stage), process)
         process.kill()
         process.wait()
-        return Verdict(name=stage, faults=tuple(_gone_on_with(whole, place)))
+        return Verdict(name=stage, faults=tuple(_resumed(whole, place)))
 
     yield from _each(one, range(len(whole.stages)), jobs)
 
 
 def interrupted(whole: UnbrokenRun, folder: Path, count: int, jobs: int) -> Iterator[Verdict]:
-    """Press Ctrl-C at random moments of the working phase; brakes, exit code, and what comes when it goes on."""
+    """Press Ctrl-C at random moments of the working phase; compare exit code, brakes and the resumed run."""
     moments = random.Random(whole.seed)  # noqa: S311 - moments, not secrets
     plans = [(n, moments.randrange(1, len(whole.events) - 4), moments.uniform(0, 0.1)) for n in range(count)]
 
     def one(plan: tuple[int, int, float]) -> Verdict:
         number, line, later = plan
         place = folder / f"interrupted-{number + 1}"
-        process = _begun(whole, place)
+        process = _started(whole, place)
         _wait_for(place / EVENTS, line, process)
         time.sleep(later)
         process.send_signal(signal.SIGINT)
         code = _ended(process)
         faults = [] if code == 130 else [f"exit code {code} instead of 130"]
         faults += _brakes(place)
-        faults += _gone_on_with(whole, place)
+        faults += _resumed(whole, place)
         return Verdict(name=f"after event {line}", faults=tuple(faults))
 
     yield from _each(one, plans, jobs)
@@ -141,7 +141,7 @@ def _each(
             yield verdict.result()
 
 
-# -- breaking off -------------------------------------------------------------------------------------
+# -- interrupting -------------------------------------------------------------------------------------
 
 
 def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
@@ -159,7 +159,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
         raise TrialFailed(f"`handeye {words[0]}` was not done after {LIMIT:.0f} s") from None
 
 
-def _begun(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
+def _started(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
     return subprocess.Popen(  # noqa: S603 - our own program
         [sys.executable, "-m", "handeye", "assemble", *whole.world, "--out", str(place)],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -198,8 +198,8 @@ def _middle(whole: UnbrokenRun, stage: str) -> int:
 # -- judging ------------------------------------------------------------------------------------------
 
 
-def _gone_on_with(whole: UnbrokenRun, place: Path) -> list[str]:
-    """Go on with a run that was broken off; what is not as in the run that was not."""
+def _resumed(whole: UnbrokenRun, place: Path) -> list[str]:
+    """Resume an interrupted run; its differences from the uninterrupted one."""
     done = handeye("resume", str(place))
     if done.returncode != 0:
         return [f"resume ended with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"]

@@ -1,4 +1,4 @@
-"""Stepping through a run with detours, and seeing whether what counts of it is the run without them."""
+"""Runs stepped through with detours, compared with the run without them."""
 
 import random
 from collections.abc import Iterator

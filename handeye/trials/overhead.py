@@ -27,7 +27,7 @@ class Overhead:
     """Events and servo periods written down, and the trace closed."""
     checkpoints: float
     kept: int
-    """How many checkpoints that is."""
+    """Number of checkpoints."""
     ticks: int
     trace_bytes: int
 
@@ -70,7 +70,7 @@ class _Timed(Observer):
 
 
 def measure(setup: Setup, folder: Path) -> Overhead:
-    """Carry out a plan once, traced and kept in `folder`; what each of these took."""
+    """Carry out a plan once, traced and saved in `folder`; time it all."""
     start = Checkpoint(setup=setup)
     keeping = open_new(folder, start)
     runner = Runner(start, observers=lambda runner: [_Timed(keeping.watch(runner, start, again=False))])
