@@ -34,14 +34,11 @@ class _Links:
 
 def mass_matrix(arm: ArmModel, q: Array) -> Array:
     """M(q), drive inertia included; shape (..., n) to (..., n, n)."""
-    return _mass_matrix(arm, _links(arm, q))
-
-
-def inverse_dynamics(arm: ArmModel, q: Array, qd: Array, qdd: Array) -> Array:
-    """Torques M qdd + h(q, qd) that give these accelerations, friction apart; each of shape (..., n)."""
-    links = _links(arm, q)
-    inertial = (_mass_matrix(arm, links) @ np.asarray(qdd, dtype=np.float64)[..., None])[..., 0]
-    return np.asarray(inertial + _bias(arm, links, np.asarray(qd, dtype=np.float64)))
+    k, links = constants(arm), _links(arm, q)
+    linear, angular = links.linear, links.angular
+    M = (linear * k.mass[:, None, None]) @ np.swapaxes(linear, -1, -2)
+    M += angular @ links.inertia @ np.swapaxes(angular, -1, -2)
+    return np.asarray(M.sum(axis=-3) + np.diag(k.armature))
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
@@ -66,14 +63,6 @@ def _links(arm: ArmModel, q: Array) -> _Links:
         R=R, p=p, centre=centre, linear=linear * carried, angular=angular[..., None, :, :] * carried,
         inertia=(rotation * k.inertia[:, None, :]) @ np.swapaxes(rotation, -1, -2),
     )  # fmt: skip
-
-
-def _mass_matrix(arm: ArmModel, links: _Links) -> Array:
-    k = constants(arm)
-    linear, angular = links.linear, links.angular
-    M = (linear * k.mass[:, None, None]) @ np.swapaxes(linear, -1, -2)
-    M += angular @ links.inertia @ np.swapaxes(angular, -1, -2)
-    return np.asarray(M.sum(axis=-3) + np.diag(k.armature))
 
 
 def _bias(arm: ArmModel, links: _Links, qd: Array | None) -> Array:

@@ -14,14 +14,11 @@ import numpy as np
 
 from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
-from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
 from handeye.pose import Array, Pose, translated
 from handeye.program.reasons import BelowTable
 from handeye.units import INCH
-
-__all__ = ["Samples", "Trajectory", "arc", "check_samples", "four_three_four", "move", "straight"]
 
 DIRECT_KNOT: Final = 1 / 9
 """Share of the way at which a motion without departure or approach has its knots: 5 degrees of 45, as in the

@@ -6,13 +6,7 @@ from typing import ClassVar, Generic, TypeVar
 import msgspec
 import mujoco
 
-from handeye.record import Record
-
 S = TypeVar("S", bound=msgspec.Struct)
-
-
-class NoState(Record, frozen=True):
-    """The state of a mechanism that remembers nothing."""
 
 
 class Mechanism(ABC, Generic[S]):

@@ -7,8 +7,9 @@ from handeye.arm.computed_torque import Motion, external_wrench, prepare, torque
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.line import straight
 from handeye.arm.robots.stanford import STANFORD
-from handeye.arm.trajectory import move, straight
+from handeye.arm.trajectory import move
 from handeye.pose import hand
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
 

@@ -3,9 +3,8 @@ import pytest
 
 from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
-from handeye.arm.line import pivot
+from handeye.arm.line import arc, pivot, straight
 from handeye.arm.robots.stanford import STANFORD
-from handeye.arm.trajectory import arc, straight
 from handeye.pose import hand, rotation, rotation_z
 from handeye.program.reasons import InLine, JointLimit, OutOfReach
 from handeye.units import DEGREE, INCH, JIFFY

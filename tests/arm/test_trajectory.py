@@ -5,7 +5,8 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.robots.stanford import STANFORD
-from handeye.arm.trajectory import Trajectory, check_samples, four_three_four, move
+from handeye.arm.samples import check_samples
+from handeye.arm.trajectory import Trajectory, four_three_four, move
 from handeye.pose import hand
 from handeye.program.reasons import BelowTable, InnerCylinder, OutOfReach
 from handeye.units import DEGREE, INCH, JIFFY

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from pump_bench import TAUGHT, bench, shifted
+from pump_bench import TAUGHT, Bench, bench, shifted
 
 from handeye.events import PositionDefined, StepFinished
 from handeye.mutable_records import copied
@@ -15,10 +15,10 @@ ASTRAY = {"P1": TAUGHT.positions["P1"], "OFF": shifted("P1", y=0.1)}
 """A pin, and where somebody who taught it a tenth of an inch off thinks it is."""
 
 
-def hand_after(run: object, text: str) -> np.ndarray:
+def hand_after(run: Bench, text: str) -> np.ndarray:
     """Where the hand was (in) when the last step of this text had been done."""
-    steps = run.run.plan.program.steps  # type: ignore[attr-defined]
-    ends = [e for e in run.all(StepFinished) if steps[e.step].text == text]  # type: ignore[attr-defined]
+    steps = run.run.plan.program.steps
+    ends = [e for e in run.all(StepFinished) if steps[e.step].text == text]
     return np.array(ends[-1].hand) / INCH
 
 

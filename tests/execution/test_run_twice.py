@@ -27,7 +27,7 @@ from handeye.tasks.water_pump.eye import DRAWING
 pytestmark = pytest.mark.slow
 
 PLANNERS = {("planning.planner", "*"), ("planning.motions", "move_trajectory"), ("arm.ik.solvers", "solve")}
-"""What makes motions to places: the planner, the path over the goal, the joints that reach it."""
+"""Makers of motions to places: the planner, the path over the goal, the joints that reach it."""
 
 UNDISTURBED = "MOVE P\nMOVE T\nOPEN 1\nMOVE P DIRECT\nPARK"
 SHIFTED = "MOVE T\nCHANGE X .5\nSAVE H\nMOVE T\nRESTORE H"

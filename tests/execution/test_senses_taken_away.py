@@ -12,7 +12,7 @@ pytestmark = pytest.mark.slow
 
 FEEL = stage("feel for the grasp")
 OFF = (0.33, -0.25)
-"""What the vision of 1973 may be wrong by (in)."""
+"""Error that the vision of 1973 may have (in)."""
 
 
 @pytest.mark.parametrize("seed", range(4))

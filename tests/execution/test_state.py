@@ -13,7 +13,7 @@ GIVEN = {
     ArmDrive: {"cell", "arm", "watch", "halt"},
     WorldModel: {"parts", "positions"},
 }
-"""What each is given anew when a run is taken up; `vision` counts processor time, which differs from run to run."""
+"""Given anew to each when a run is taken up; `vision` counts processor time, which differs from run to run."""
 
 
 def test_what_works_holds_what_it_is_given_and_its_state() -> None:

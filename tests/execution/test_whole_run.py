@@ -38,13 +38,13 @@ STAGES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Whole:
-    """What a run came to, and everything that happened."""
+    """A run that has ended, and everything that happened."""
 
     finished: Finished
     events: tuple[Event, ...]
 
     def during(self, stage: str) -> list[Event]:
-        """What happened in a stage."""
+        """Events of a stage."""
         names = [e.stage if isinstance(e, StageStarted) else None for e in self.events]
         start = names.index(stage)
         ends = [i for i, e in enumerate(self.events) if isinstance(e, StageFinished) and i > start]

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from handeye.arm.dynamics import inverse_dynamics, mass_matrix
+from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
 from handeye.ports.arm import ArmPort, ArmReading
@@ -91,13 +91,13 @@ class FakeArm(ArmPort):
     def _move(self, torque: Array, seconds: float, steps: int = 16) -> None:
         """Semi-implicit steps under a held torque; the arm's matrices are taken once for all of them."""
         M = mass_matrix(STANFORD, self.q)
-        bias = inverse_dynamics(STANFORD, self.q, self.qd, np.zeros(6))
         J, X = jacobian(STANFORD, self.q), self.tcp
         q0, damping = self.q.copy(), np.array([joint.damping for joint in STANFORD.joints])
+        frictionless = bias(STANFORD, self.q, self.qd) - damping * self.qd
         for _ in range(steps):
             p, v = X + (J @ (self.q - q0))[:3], (J @ self.qd)[:3]
             push = sum((wall.force(p, v) for wall in self.walls), np.zeros(3))
-            tau = torque - bias - damping * self.qd + J[:3].T @ push
+            tau = torque - frictionless - damping * self.qd + J[:3].T @ push
             self.qd = self.qd + np.linalg.solve(M, tau) * seconds / steps
             self.q = self.q + self.qd * seconds / steps
 

@@ -78,7 +78,7 @@ def test_an_against_guard_looks_where_the_motion_goes(direction: np.ndarray) -> 
 
 
 def answers(*torques: float) -> list[bool]:
-    """Whether a guard for .3 N m trips, period by period."""
+    """Trips of a guard for .3 N m, period by period."""
     guard = watching(Torque(torque=0.3))
     readings = [Reading(force=100 * DOWN, direction=DOWN, tool_torque=torque) for torque in torques]
     return [guard.check(reading) is not None for reading in readings]

@@ -1,4 +1,4 @@
-"""What every solver has to give, whatever the structure of its arm."""
+"""Every solver gives the same, whatever the structure of its arm."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ BRANCHES = {"spherical wrist": 4, "gantry": 2, "cartesian": 1}
 
 
 def apart(arm: ArmModel, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """How far configurations are from each other at most, whole turns apart."""
+    """Greatest distance of two configurations in any joint, whole turns left out."""
     turns = np.where(constants(arm).prismatic, 0.0, 2 * np.pi * np.round((a - b) / (2 * np.pi)))
     return np.abs(a - b - turns).max(axis=-1)
 
