@@ -40,8 +40,8 @@ WITHIN: Final = (INCH / 3, INCH / 4)
 WRONG: Final = 5.0
 """A hole found more than this many picture points off is another thing, whatever the camera's error."""
 RIGHT: Final = "right"
-GASKETS: Final = (RIGHT, "shifted .15", "shifted .3", "absent")
-"""Cases: on properly within .02 in and .3 deg; off by inches in any direction; no gasket."""
+GASKETS: Final[dict[str, float | None]] = {RIGHT: 0.0, "shifted .15": 0.15, "shifted .3": 0.3, "absent": None}
+"""Cases, and how far off the gasket lies, in: on properly within .02 in and .3 deg; off in any direction; not there."""
 SPOTS: Final = 20
 ARM_ERROR: Final = 0.1 * INCH
 SPOT_ERROR: Final = 0.5
@@ -222,12 +222,13 @@ def _with_gasket(
     on_base = planar(0.0, 0.0, base_top(), 0.0)
     X_WP = planar(*base) @ on_base
     stand = still.pose("gasket")
+    off = GASKETS[case]
     if case == RIGHT:
         still.put("gasket", planar(*_jittered((*X_WP[:3, 3], base[3]), rng, 0.02)))
-    elif case != "absent":
+    elif off is not None:
         direction = rng.uniform(0, 2 * math.pi)
-        off = float(case.split()[1]) * INCH
-        still.put("gasket", translated(X_WP, (off * math.cos(direction), off * math.sin(direction), 0.0)))
+        away = off * INCH
+        still.put("gasket", translated(X_WP, (away * math.cos(direction), away * math.sin(direction), 0.0)))
     after, _ = still.camera.digitise(hold_target=True)
     still.put("gasket", stand)
     return after
