@@ -6,7 +6,6 @@ from typing import Final
 from handeye import events as happened
 from handeye.debugger.listing import one_line
 from handeye.events import AnyEvent
-from handeye.program.operation import Operation
 from handeye.record import Record
 from handeye.runs.system import Listing
 from handeye.trace.sentences import inches, sentence
@@ -76,7 +75,6 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
-    operation = getattr(program.steps[step.step], "operation", None)  # other systems have none
-    if isinstance(operation, Operation) and operation.needs == "hand" and last.gap is not None:
+    if program.steps[step.step].needs == "hand" and last.gap is not None:
         return f"gap {last.gap / INCH:.2f} in"
     return "" if last.hand is None else f"hand at {inches(last.hand)}"

@@ -19,7 +19,7 @@ def check_devices(program: Program, cell: Workcell) -> None:
     """
     devices = {"hand": cell.hand, "screwdriver": cell.screwdriver, "camera": cell.camera}
     for step in program.steps:
-        needed = step.operation.needs
+        needed = step.needs
         if needed is not None and devices[needed] is None:
             called = _CALLED.get(needed, needed)
             raise InvalidInput(f"line {step.place} needs a {called}, which this cell does not have")

@@ -7,7 +7,7 @@ operations, joined by planned motions, make the plan.
 from msgspec import field
 
 from handeye.boxes import Box
-from handeye.program.operation import Kind
+from handeye.program.operation import Device, Kind
 from handeye.program.operations import AnyOperation
 from handeye.record import Record
 from handeye.source import Source, line_name
@@ -55,6 +55,11 @@ class Step(Record, frozen=True, kw_only=True, omit_defaults=True):
         """The steps that may follow, `next` first."""
         branch = self.operation.branch
         return (self.next,) if branch is None else (self.next, branch.target)
+
+    @property
+    def needs(self) -> Device | None:
+        """The device that its operation works, if there is one besides the arm."""
+        return self.operation.needs
 
     @property
     def place(self) -> str:

@@ -12,6 +12,7 @@ from handeye.events import AnyEvent, Choice, RunStarted
 from handeye.execution.stopwatch import Stopwatch
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
+from handeye.program.operation import Device
 from handeye.record import Record
 from handeye.runs.setup import Setup
 from handeye.system_state import SystemState
@@ -43,6 +44,10 @@ class StepFacts(Protocol):
     @property
     def macro(self) -> str:
         """The macro whose call it comes from; empty: none."""
+
+    @property
+    def needs(self) -> Device | None:
+        """The device that it works, if there is one besides the arm."""
 
     @property
     def ways(self) -> tuple[int | None, ...]:

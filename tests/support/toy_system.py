@@ -40,6 +40,7 @@ class Line(Record, frozen=True, kw_only=True):
     ways: tuple[int | None, ...]
     file: ClassVar[str] = ""
     macro: ClassVar[str] = ""
+    needs: ClassVar[None] = None
 
     @property
     def word(self) -> str:
