@@ -72,7 +72,7 @@ def write_picture(runner: Runner, file: Path) -> str:
 def _topic(what: str, topics: Collection[str]) -> str:
     found = [name for name in topics if name.startswith(what.casefold())]
     if what.casefold() not in topics and len(found) != 1:
-        near = meant(what, TOPICS) or f"; there are {', '.join(TOPICS)}"
+        near = meant(what, topics) or f"; there are {', '.join(topics)}"
         raise InvalidInput(f"there is no {quoted(what)} to show{near}")
     return found[0]
 
@@ -151,8 +151,8 @@ def _positions(runner: Runner) -> dict[str, PositionView]:
 
 
 def _picture(runner: Runner) -> PictureShown | None:
-    taken = (event.picture for event in reversed(runner.events) if isinstance(event, PictureTaken))
-    name = next(taken, None)
+    taken = [event.picture for event in runner.events if isinstance(event, PictureTaken)]
+    name = next((name for name in reversed(taken) if name in runner.run.state.shots), None)
     return None if name is None else PictureShown(name=name, file=None)
 
 

@@ -89,8 +89,8 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
         elif isinstance(event, CameraBusy):
             busy += event.seconds
         elif isinstance(event, StageFinished):
-            seconds[here] += event.time - begun - busy
-            status[here] = event.status
+            seconds[event.stage] += event.time - begun - busy
+            status[event.stage] = event.status
             here = ""
     if here:
         seconds[here] += now - begun - busy

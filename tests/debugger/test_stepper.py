@@ -460,6 +460,13 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
     assert history(runner.events) == whole
 
 
+def test_a_picture_of_which_only_the_event_is_left_is_not_shown(say: Say, runner: Runner) -> None:
+    runner.events.append(PictureTaken(time=0.0, picture="../../GONE", lens=0.05))
+    shown, written = say("show picture", "picture gone.png")
+    assert shown.show.picture is None
+    assert written.error == "the program has taken no picture yet"
+
+
 def test_a_run_in_trouble_goes_nowhere_but_back(say: Say, runner: Runner) -> None:
     say("s 2")
     runner._broken = "the simulation lost its footing"

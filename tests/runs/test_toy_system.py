@@ -59,6 +59,11 @@ def test_it_is_broken_at_a_line_a_label_and_a_stage() -> None:
     assert told == ["breakpoint at label AGAIN", "breakpoint at line 4", "breakpoint at stage 2, ask"]
 
 
+def test_what_there_is_to_show_of_it_is_told_by_its_own_topics() -> None:
+    told = Stepper(Runner(begin_toy())).do("show joints")
+    assert told.error == "there is no `joints` to show; there are time, state"
+
+
 def test_it_is_put_back_in_time_and_goes_the_same_way_again() -> None:
     runner = Runner(begin_toy())
     advance(runner)
