@@ -1,0 +1,70 @@
+"""The pages name commands and options that exist, and the README counts the plan as it is."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from cyclopts import App
+
+from handeye.cli import app
+from handeye.planfile.store import read_plan
+
+ROOT = Path(__file__).parent.parent
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
+COMMAND = re.compile(r"(?:`|^\$ )handeye ([a-z]+)(?: ([a-z]+)\b)?", re.MULTILINE)
+"""A command behind a prompt or a backquote, with the word after it."""
+OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
+WITH_PYTEST = {"--update"}
+
+
+def options(commands: App) -> Iterator[str]:
+    """Names of the options of a command and of all below it."""
+    for word in commands:
+        if word.startswith("-"):
+            yield word
+        elif commands[word].default_command is None:
+            yield from options(commands[word])
+        else:
+            for argument in commands[word].assemble_argument_collection(parse_docstring=True):
+                yield from argument.names
+
+
+OPTIONS = frozenset(options(app))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_command_a_page_names_exists(page: Path) -> None:
+    named = set(COMMAND.findall(page.read_text(encoding="utf-8")))
+    groups = {word for word in app if app[word].default_command is None}
+    assert {word for word, _ in named} - {*app} == set()
+    assert {
+        (group, word) for group, word in named if group in groups and word and word not in app[group]
+    } == set()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_option_a_page_names_exists(page: Path) -> None:
+    named = set(OPTION.findall(page.read_text(encoding="utf-8")))
+    assert named - OPTIONS - WITH_PYTEST == set()
+
+
+def test_the_readme_names_every_command() -> None:
+    named = re.sub(r"\\\|", " ", (ROOT / "README.md").read_text(encoding="utf-8"))
+    assert {
+        word for word in app if not word.startswith("-") and not re.search(rf"`[^`\n]*\b{word}\b", named)
+    } == set()
+
+
+def test_the_readme_counts_steps_stages_and_motions_as_the_plan_has_them() -> None:
+    counted = re.search(
+        r"(\d+) steps in (\d+) stages, with (\d+) planned motions",
+        (ROOT / "README.md").read_text(encoding="utf-8"),
+    )
+    assert counted is not None
+    plan = read_plan(ROOT / "plans" / "water_pump.plan.json")
+    assert tuple(map(int, counted.groups())) == (
+        len(plan.program.steps),
+        len(plan.program.stages),
+        len(plan.motions),
+    )
