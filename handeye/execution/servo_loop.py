@@ -82,11 +82,15 @@ class ServoLoop:
         """Servo period, s."""
         return self.arm.servo.period
 
+    def _periods(self, seconds: float) -> int:
+        """Servo periods in a time (s): one at least, if it is any time at all."""
+        return max(1, round(seconds / self.period)) if seconds > 0 else 0
+
     # -- motions, a servo period at a time -----------------------------------------------------------
 
     def braking(self, seconds: float) -> Motion[None]:
         """Set the brakes; the set-point becomes where the arm then is."""
-        for _ in range(round(seconds / self.period)):
+        for _ in range(self._periods(seconds)):
             yield from self._wait(None)
         self.state.q = self.sensed.q.copy()
 
@@ -95,7 +99,7 @@ class ServoLoop:
 
         The set-point becomes where the arm then is.
         """
-        for _ in range(round(seconds / self.period)):
+        for _ in range(self._periods(seconds)):
             q, qd = self.sensed.q, self.sensed.qd
             yield from self._wait(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
         self.state.q = self.sensed.q.copy()

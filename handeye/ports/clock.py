@@ -33,7 +33,7 @@ class Clock(ABC):
 
 
 def whole_steps(seconds: float, step: float) -> int:
-    """How many physics steps (s) there are in a period (s).
+    """The number of physics steps (s each) in a period (s).
 
     Raises:
         InvalidInput: not a whole number of them, or not one.

@@ -1,6 +1,6 @@
-"""Is the gasket on properly? What a picture taken after has, and the picture before has not, tells.
+"""Is the gasket on properly? A picture taken after is compared with one taken before.
 
-In the difference of the two pictures the gasket is a bright blob with two dark holes. Where either base or
+In their difference the gasket is a bright blob with two dark holes. Where either base or
 gasket has a hole there is little difference, so that a displaced gasket shows the *union* of both holes: its
 centre moves by half the displacement only, but its border on one side by all of it. Hence two tests, of
 centre and of rim.

@@ -31,7 +31,7 @@ SEED: Final = 4
 
 
 class HoleSearch(NamedTuple):
-    """How hard to look."""
+    """One way to look for holes: how closely, and for how clear a border."""
 
     spacing: int
     """Points between beams."""
