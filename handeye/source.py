@@ -12,6 +12,7 @@ import msgspec
 
 from handeye.errors import InvalidInput
 from handeye.files import read_whole
+from handeye.plain_text import printable
 
 LARGEST: Final = 1_000_000
 """Bytes of the largest file taken for a text: the longest program there can be, with a hundred for each statement."""
@@ -98,8 +99,7 @@ class Source:
 
 def line_name(line: int, file: str = "") -> str:
     """`12`, or `pins.al:12` in a required file."""
-    shown = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in file)
-    return f"{shown}:{line}" if file else f"{line}"
+    return f"{printable(file)}:{line}" if file else f"{line}"
 
 
 def read_source(path: str | Path) -> Source:

@@ -27,6 +27,7 @@ FOUNDATIONS = {
     "world_options",
     "versions",
     "mutable_records",
+    "plain_text",
 }
 LAYERS = [
     {*FOUNDATIONS},

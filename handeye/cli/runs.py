@@ -9,6 +9,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, note
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
+from handeye.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
@@ -198,7 +199,7 @@ def resume(
     stops = _stops(listing_of(start.setup), to=to, until=until, breaks=breaks or [])
     _check_order(listing_of(start.setup), start.stage, to)
     _check_ahead(start, stops, breaks or [])
-    done = "no steps" if start.position < 1 else f"{start.position} step{'' if start.position == 1 else 's'}"
+    done = "no steps" if start.position < 1 else counted(start.position, "step")
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
     note(f"resuming after {done}: {stage}")
     return work(

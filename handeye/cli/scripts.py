@@ -24,6 +24,7 @@ from handeye.cli.common import (
 from handeye.diagnostics import arranged, has_errors
 from handeye.errors import InvalidInput
 from handeye.files import beside
+from handeye.plain_text import counted
 from handeye.planfile.store import read_plan, write_plan
 from handeye.program.language import language_of
 from handeye.runs.scripts import LANGUAGES, taught
@@ -148,7 +149,7 @@ def plan(
     made = compiled(file)
     write_plan(target, made)
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
-    said = ", ".join(f"{len(items)} {name}{'' if len(items) == 1 else 's'}" for name, items in counts.items())
+    said = ", ".join(counted(len(items), name) for name, items in counts.items())
     screen.print(f"{target}: {said}", markup=False)
     return 0
 

@@ -17,6 +17,7 @@ from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import Choice
 from handeye.files import check_place
+from handeye.plain_text import counted
 from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
@@ -84,12 +85,10 @@ def back(hands: DebugSession, rest: str) -> CommandResult:
         raise InvalidInput("this is the beginning of the run")
     first = hands.first()
     if position < first:
-        raise InvalidInput(
-            reach(first) if first else f"`back` can undo only {done} step{'' if done == 1 else 's'}"
-        )
+        raise InvalidInput(reach(first) if first else f"`back` can undo only {counted(done, 'step')}")
     hands.back_to(position)
     undone = done - position
-    return CommandResult(source=hands.source(), said=f"{undone} step{'' if undone == 1 else 's'} undone")
+    return CommandResult(source=hands.source(), said=f"{counted(undone, 'step')} undone")
 
 
 # -- breaks ---------------------------------------------------------------------------------------------

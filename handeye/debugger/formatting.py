@@ -6,7 +6,7 @@ from typing import Any, Final
 import msgspec
 from msgspec import UNSET
 
-from handeye.debugger.listing import excerpt_lines, one_line
+from handeye.debugger.listing import excerpt_lines
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import (
@@ -19,6 +19,7 @@ from handeye.debugger.view_records import (
     SearchView,
     Shown,
 )
+from handeye.plain_text import counted, one_line
 from handeye.report.pauses import pause_sentence, stop_name
 from handeye.source import line_name
 
@@ -69,7 +70,7 @@ def _standing(reply: Reply) -> str:
     """Line that says where the run pauses."""
     stage = "after the last stage" if reply.stage is None else f"stage {reply.stage_number}, {reply.stage}"
     step = "" if reply.step is None else f", step {reply.step}"
-    done = f"{reply.position} step{'' if reply.position == 1 else 's'} done"
+    done = f"{counted(reply.position, 'step')} done"
     return f"── {stage}{step}; {done}, {reply.time:.2f} s"
 
 

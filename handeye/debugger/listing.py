@@ -1,6 +1,7 @@
 """The program to look at: its stages and steps, its labels, and the source around a line."""
 
 from handeye.debugger.source_places import text_of
+from handeye.plain_text import counted, one_line, printable
 from handeye.record import Record
 from handeye.runs.system import Listing
 from handeye.source import Source, line_name
@@ -57,7 +58,7 @@ def listing_text(program: Listing) -> list[str]:
     width = max(len(stage.name) for stage in found)
     out = []
     for stage in found:
-        count = f"{len(stage.steps)} step{'' if len(stage.steps) == 1 else 's'}"
+        count = counted(len(stage.steps), "step")
         where = ""
         if stage.lines is not None:
             where = f"  lines {line_name(stage.lines[0], stage.file)} to {stage.lines[1]}"
@@ -78,7 +79,9 @@ def excerpt(
     text = text_of(program, file).removesuffix("\n")
     source, last = Source(name=program.name, text=text), text.count("\n") + 1
     return tuple(
-        SourceLine(file=file, line=number, text=_printable(source.line(number)), here=number == here)
+        SourceLine(
+            file=file, line=number, text=printable(source.line(number).expandtabs()), here=number == here
+        )
         for number in range(max(1, line - around), min(last, line + around) + 1)
     )
 
@@ -86,7 +89,7 @@ def excerpt(
 def excerpt_lines(lines: tuple[SourceLine, ...], mark: str = "→") -> list[str]:
     """An excerpt as lines of text, `mark` before the line where the run stands."""
     width = len(str(lines[-1].line)) if lines else 0
-    head = [f"    {_printable(lines[0].file)}"] if lines and lines[0].file else []
+    head = [f"    {printable(lines[0].file.expandtabs())}"] if lines and lines[0].file else []
     return head + [
         f"{mark if line.here else ' ':>3} {line.line:{width}}  {line.text}".rstrip() for line in lines
     ]
@@ -97,11 +100,6 @@ def numbered_stage(program: Listing, stage: int) -> str:
     return f"stage {stage + 1}, {program.stages[stage]}"
 
 
-def one_line(text: str) -> str:
-    """A statement without the blanks that put it in columns."""
-    return _printable(" ".join(text.split()))
-
-
 def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> ListedStage:
     """A stage; `own` are the steps of the program that come from no macro."""
     here = [step for step in steps if step.step in own] or steps
@@ -109,8 +107,3 @@ def _stage(number: int, name: str, steps: list[ListedStep], own: set[int]) -> Li
     lines = [step.line for step in here if step.file == file]
     extent = (min(lines), max(lines)) if lines else None
     return ListedStage(number=number, name=name, file=file, lines=extent, steps=tuple(steps))
-
-
-def _printable(text: str) -> str:
-    """Text that changes nothing on a terminal but what it shows."""
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text.expandtabs())

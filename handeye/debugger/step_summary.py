@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from typing import Final
 
 from handeye import events as happened
-from handeye.debugger.listing import one_line
 from handeye.events import AnyEvent
+from handeye.plain_text import one_line
 from handeye.record import Record
 from handeye.runs.system import Listing
 from handeye.trace.sentences import inches, sentence

@@ -9,7 +9,8 @@ from handeye.arm.model import ArmModel, constants
 from handeye.arm.robots import robot
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
 from handeye.inspection.place_changes import PlaceChange, place_changes
-from handeye.inspection.wording import conditions, one_line
+from handeye.inspection.wording import conditions
+from handeye.plain_text import one_line
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.operation import Branch
 from handeye.program.program import Step

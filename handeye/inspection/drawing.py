@@ -6,7 +6,7 @@ from typing import Final
 from handeye.inspection.columns import NOTE, ROW, WIDTH
 from handeye.inspection.flow import Flow, Way
 from handeye.inspection.layout import Layout, Point, Route, StepBox, layout
-from handeye.inspection.wording import counted
+from handeye.plain_text import counted
 
 COLOURS: Final = {
     "motion": ("#dbe9f6", "#3b75af"),

@@ -1,7 +1,8 @@
 """A plan laid open: its stages and steps, how long they take, what guards them, and what they depend on."""
 
 from handeye.inspection.dependence import Dependence, dependences
-from handeye.inspection.wording import conditions, counted, one_line
+from handeye.inspection.wording import conditions
+from handeye.plain_text import counted, one_line
 from handeye.planfile.plan import Plan
 from handeye.program.guards import Guards
 from handeye.program.operation import Branch

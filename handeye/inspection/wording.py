@@ -119,14 +119,3 @@ _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
 def _axes(axes: Vector3) -> str:
     """`x and y`"""
     return " and ".join(letter for letter, wanted in zip("xyz", axes, strict=True) if wanted)
-
-
-def one_line(text: str) -> str:
-    """A statement without the blanks that put it in columns, printable throughout."""
-    line = " ".join(text.expandtabs().split())
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in line)
-
-
-def counted(number: int, noun: str) -> str:
-    """`1 step`, `2 steps`"""
-    return f"{number} {noun}{'' if number == 1 else 's'}"

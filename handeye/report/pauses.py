@@ -1,7 +1,7 @@
 """Sentences about a run that pauses."""
 
 from handeye.errors import ERRORS
-from handeye.inspection.wording import counted
+from handeye.plain_text import counted
 from handeye.program.cause_text import call_sentence
 from handeye.runs import stops
 from handeye.runs.advance import Pause

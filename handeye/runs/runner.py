@@ -25,6 +25,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Halted
 from handeye.execution.stopwatch import Stopwatch
 from handeye.mutable_records import copied
+from handeye.plain_text import counted
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.runs.observer import Observer
@@ -41,7 +42,7 @@ RECENT: Final = 400
 
 def reach(first: int) -> str:
     """Sentence on how far a run can go back whose earliest state has `first` steps done."""
-    return f"this run begins with {first} step{'' if first == 1 else 's'} done: there is nothing before that"
+    return f"this run begins with {counted(first, 'step')} done: there is nothing before that"
 
 
 class Runner:

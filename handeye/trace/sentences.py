@@ -8,6 +8,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from handeye import events as happened
 from handeye.events import Event
+from handeye.plain_text import counted
 from handeye.ports.camera import Renderer
 from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence
 from handeye.program.guards import GuardKind
@@ -67,7 +68,7 @@ def sentence(event: Event) -> str:
     match event:
         case happened.RunStarted():
             world = f"the world of {event.world}, pictures by {renderer_name(event.camera)}"
-            steps = f"{event.steps} step{'' if event.steps == 1 else 's'}"
+            steps = counted(event.steps, "step")
             return (
                 f"{event.program}: {steps} on the {event.arm} arm, {world}"
                 if event.arm
