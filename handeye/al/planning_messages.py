@@ -40,8 +40,6 @@ _ROUNDED: Final = 0.004
 """Of 45 degrees: how far from a multiple of them an angle is that people write in radians, as 3.14."""
 _CIRCLE: Final = 8
 """Times 45 degrees."""
-_FORCE_WORDS: Final = ("STOP", "FORCE")
-"""Modifiers that a force or moment of the hand stands in."""
 
 
 def planning_diagnostics(
@@ -161,10 +159,11 @@ class _Phrases:
         wanted = math.hypot(*vector) / si
         message = f"the arm cannot {verb} with {wanted:.0f} {unit} here"
         message += ", so the stop would never fire" if found.guard else ""
+        modifier = "STOP" if found.guard else "FORCE"
         is_riddle = found.guard and not turning and round(wanted) == 600
         return Diagnostic(
             code=found.code, message=message, notes=(RIDDLE,) if is_riddle else (),
-            primary=Label(span=self.modifier_span(found.step, _FORCE_WORDS[not found.guard])),
+            primary=Label(span=self.modifier_span(found.step, modifier)),
             help=f"{named(self.arm, found.joint)} reaches its limit at {found.most / si:.0f} {unit}",
         )  # fmt: skip
 

@@ -186,7 +186,8 @@ class _Flow:
             begin = self.word(found.cause)
             message = f"`{word}` jumps back to before the `{begin.text}`: every round starts anew"
             help = f"put the label after the `{begin.text}`"
-            code = "search-begun-anew" if begin.text == "SEARCH" else "count-begun-anew"
+            is_search = self.graph.at(found.cause, Search) is not None
+            code = "search-begun-anew" if is_search else "count-begun-anew"
             cause = Label(span=begin.span, text="this starts anew")
             yield found.jump, self.problem(code, found.jump, message, cause, help=help)
 
