@@ -18,6 +18,7 @@ from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.program.causes import Cause
 from handeye.program.world_model import WorldState
+from handeye.record import Record
 from handeye.system_state import Natural, SystemState
 from handeye.touch.spiral import spiral
 from handeye.vision.base import GeneralLocation, SpecificLocation
@@ -26,8 +27,7 @@ from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Fault:
+class Fault(Record, frozen=True, kw_only=True):
     """An error number that an action raises, and what led to it this time."""
 
     number: int

@@ -14,14 +14,21 @@ from handeye.vision.drawing import annotate
 
 
 def annotated_png(run: ExecutionContext, name: str) -> bytes:
-    """A picture the program took, with what it found in it, as a PNG file."""
+    """A picture the program took, with what it found in it, as a PNG file.
+
+    Raises:
+        InvalidInput: what it found is so far outside that it cannot be drawn.
+    """
     found = run.state.found.get(name, Found())
-    image = annotate(
-        run.state.shots[name].picture,
-        general=found.general,
-        specific=found.specific,
-        inspection=found.inspection,
-    )
+    try:
+        image = annotate(
+            run.state.shots[name].picture,
+            general=found.general,
+            specific=found.specific,
+            inspection=found.inspection,
+        )
+    except cv2.error:
+        raise InvalidInput(f"the findings in picture {name} cannot be drawn") from None
     done, data = cv2.imencode(".png", image)
     assert done
     return data.tobytes()

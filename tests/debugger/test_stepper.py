@@ -25,7 +25,7 @@ from handeye.events import (
     PictureTaken,
     Restored,
 )
-from handeye.execution.state import Shot
+from handeye.execution.state import Found, Shot
 from handeye.files import write_whole
 from handeye.pose import hand, hand_angles
 from handeye.report.pauses import pause_sentence, stop_name
@@ -37,6 +37,8 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AtLabel, ByHand
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.units import INCH
+from handeye.vision.base import GeneralLocation
+from handeye.vision.blob import BoundingBox
 
 pytestmark = pytest.mark.slow
 
@@ -458,6 +460,18 @@ def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path,
     assert stopped.position < 2
     stepper.do("c")
     assert history(runner.events) == whole
+
+
+def test_findings_that_no_picture_can_hold_are_refused_in_a_sentence(runner: Runner, tmp_path: Path) -> None:
+    runner.run.state.shots["WIDE"] = Shot(
+        picture=np.zeros((256, 333), np.uint8), view=DRAWING.view(0.025, 0.0, 0.0)
+    )
+    box = BoundingBox(10**9, 0, 10**9, 1)
+    far = GeneralLocation(box=box, x=0.0, y=0.0, corners=(), beams=0, points=0)
+    runner.run.state.found["WIDE"] = Found(general=far)
+    runner.events.append(PictureTaken(time=0.0, picture="WIDE", lens=0.025))
+    refused = Stepper(runner).do(f"picture {tmp_path / 'wide.png'}")
+    assert refused.error == "the findings in picture WIDE cannot be drawn"
 
 
 def test_a_picture_of_which_only_the_event_is_left_is_not_shown(say: Say, runner: Runner) -> None:
