@@ -1,0 +1,25 @@
+"""A finding stands on the value as it was measured, and not on what is printed of it."""
+
+import math
+
+import pytest
+
+from handeye.judge.finding import all_right, at_least, at_most
+
+
+@pytest.mark.parametrize(("value", "ok"), [(0.5, True), (0.500001, False), (math.nan, False), (-1.0, True)])
+def test_a_value_may_reach_its_upper_limit_and_not_pass_it(value: float, *, ok: bool) -> None:
+    assert at_most(value, 0.5, "mm", "a gap").ok is ok
+
+
+@pytest.mark.parametrize(
+    ("value", "ok"), [(40.0, True), (39.999999, False), (math.nan, False), (math.inf, True)]
+)
+def test_a_value_may_reach_its_lower_limit_and_not_pass_it(value: float, *, ok: bool) -> None:
+    assert at_least(value, 40.0, "N", "a clamp").ok is ok
+
+
+def test_one_wrong_point_makes_the_work_wrong() -> None:
+    right, wrong = at_most(0.1, 0.5, "mm", "a gap"), at_least(1.0, 40.0, "N", "a clamp")
+    assert all_right({"gap": right})
+    assert not all_right({"gap": right, "clamp": wrong})
