@@ -98,7 +98,7 @@ class ErrorRaised(Event, frozen=True, kw_only=True):
 
     number: int
     cause: Cause | None
-    """What led to it this time; None: the error says all."""
+    """Its cause this time; None: the error says all."""
 
 
 class ErrorTested(Event, frozen=True, kw_only=True):
@@ -196,7 +196,7 @@ class ExperimentMade(Event, frozen=True, kw_only=True):
     """Somebody at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
 
     what: str
-    """What kind of thing: `saved`, `position`, or what else a system lets people set."""
+    """The kind of thing: `saved`, `position`, or what else a system lets people set."""
     name: str
     value: tuple[float, ...]
 

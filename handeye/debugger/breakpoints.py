@@ -20,7 +20,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """Read a breakpoint.
 
     Args:
-        text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first behind it); a label; an
+        text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
             instruction word (every step that begins with it); a stage or the beginning of its name.
 
     Raises:
@@ -108,8 +108,8 @@ def _at_line(place: Place, listing: Listing) -> AnyStop:
         raise InvalidInput(f"no step stands in {quoted(file or listing.name)}")
     last = max(lines.values())
     if line > last:
-        behind, on = line_name(line, file), line_name(last, file)
-        raise InvalidInput(f"line {behind} is after the last step, which is on line {on}")
+        wanted, on = line_name(line, file), line_name(last, file)
+        raise InvalidInput(f"line {wanted} is after the last step, which is on line {on}")
     first = min(number for number in lines.values() if number >= line)
     steps = tuple(i for i, number in lines.items() if number == first)
     return AtLine(steps=steps, file=file, line=first)

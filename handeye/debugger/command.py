@@ -22,7 +22,7 @@ class Command(Generic[Act]):
     short: str = ""
     """Another word for it."""
     repeats: bool = False
-    """An empty line behind it says it again."""
+    """An empty line after it says it again."""
 
     @property
     def name(self) -> str:
@@ -31,7 +31,7 @@ class Command(Generic[Act]):
 
     @property
     def bare(self) -> bool:
-        """Nothing may stand behind it."""
+        """Nothing may follow it."""
         return " " not in self.usage
 
     @property
@@ -41,7 +41,7 @@ class Command(Generic[Act]):
 
 
 def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
-    """See that nothing stands behind a command that takes nothing.
+    """See that nothing follows a command that takes nothing.
 
     Args:
         named: the commands of one name.

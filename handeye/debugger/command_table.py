@@ -16,10 +16,10 @@ StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
 
 def find(line: str) -> tuple[StepperCommand, str]:
-    """The command that a line says, and what stands behind its word.
+    """The command that a line says, and what follows its word.
 
     Raises:
-        InvalidInput: there is none, or it takes nothing behind it.
+        InvalidInput: there is none, or it takes nothing after it.
     """
     word, _, rest = line.strip().partition(" ")
     name, _, more = _SHORT.get(word.casefold(), word.casefold()).partition(" ")

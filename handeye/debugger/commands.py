@@ -1,4 +1,4 @@
-"""Commands of the stepper, as they act on a run in hand; each is given what stands behind its word."""
+"""Commands of the stepper, as they act on a run in hand; each is given what follows its word."""
 
 import re
 from collections.abc import Callable
@@ -25,7 +25,7 @@ from handeye.runs.runner import reach
 from handeye.runs.stops import AfterStage, AfterSteps
 
 WIDE: Final = 8
-"""Lines that `list` tells before and behind a line."""
+"""Lines that `list` shows before and after a line."""
 
 # -- going on -------------------------------------------------------------------------------------------
 

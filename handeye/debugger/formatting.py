@@ -24,7 +24,7 @@ from handeye.report.pauses import pause_sentence, stop_name
 from handeye.source import line_name
 
 MOST: Final = 24
-"""Lines of deeds that a terminal is told of a long way; all of them are in the trace."""
+"""Steps that a terminal is told of a long way; all of them are in the trace."""
 STATEMENT: Final = 30
 """Columns for a statement."""
 _ROW: Final = 3
@@ -49,7 +49,7 @@ def as_json(reply: Reply) -> str:
 
 
 def as_text(reply: Reply, most: int | None = None) -> str:
-    """The answer for people, without the end of its last line; of a long way the last `most` deeds."""
+    """The answer for people, without the end of its last line; of a long way the last `most` steps."""
     if reply.error is not None:
         return reply.error
     lines = [*summary_lines(reply.did, most), _standing(reply)]
@@ -78,13 +78,13 @@ def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[s
     """Tell what was done, as lines of text; of a long way the last `most`."""
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
-    return head + [_deed(deed) for deed in did[left_out:]]
+    return head + [_told(step) for step in did[left_out:]]
 
 
-def _deed(deed: StepSummary) -> str:
-    if deed.line is None:
-        return f"      — {deed.text}"
-    return f"{line_name(deed.line, deed.file):>5} {deed.text:{STATEMENT}} {deed.outcome}".rstrip()
+def _told(step: StepSummary) -> str:
+    if step.line is None:
+        return f"      — {step.text}"
+    return f"{line_name(step.line, step.file):>5} {step.text:{STATEMENT}} {step.outcome}".rstrip()
 
 
 # -- what is shown --------------------------------------------------------------------------------------

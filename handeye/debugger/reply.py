@@ -24,7 +24,7 @@ class CommandResult(Record, frozen=True, kw_only=True):
     said: str | UnsetType = UNSET
     """A sentence or more."""
     pause: Pause | None = None
-    """Why the run stands still, if the command made it go."""
+    """Why the run pauses, if the command made it go."""
     source: tuple[SourceLine, ...] | UnsetType = UNSET
     """The script around the line where the run stands, or around one that was asked for."""
     show: Shown | UnsetType = UNSET
@@ -42,7 +42,7 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     time: float
     """s on the cell's clock."""
     stage: str | None
-    """The stage under way, or the one about to begin; None behind the last."""
+    """The stage under way, or the one about to begin; None after the last."""
     stage_number: int | None
     """From 1."""
     step: int | None

@@ -19,7 +19,7 @@ from handeye.runs.stops import AnyStop, ByHand
 from handeye.runs.system import Listing
 
 AROUND: Final = 2
-"""Lines of the script that are told before and behind the one where the run stands."""
+"""Lines of the script that are shown before and after the one where the run pauses."""
 
 
 class DebugSession:
@@ -149,7 +149,7 @@ class DebugSession:
 
     @property
     def stage(self) -> int | None:
-        """The stage under way or about to begin, by index; None behind the last."""
+        """The stage under way or about to begin, by index; None after the last."""
         step = self.runner.next
         present = self.runner.stage
         return present if present is not None or step is None else step.stage

@@ -36,10 +36,10 @@ def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSu
             groups.append([event])
         elif not isinstance(event, happened.StageFinished):
             groups[-1].append(event)
-    return tuple(_deed(group, program) for group in groups[1:])
+    return tuple(_summary(group, program) for group in groups[1:])
 
 
-def _deed(group: Sequence[AnyEvent], program: Listing) -> StepSummary:
+def _summary(group: Sequence[AnyEvent], program: Listing) -> StepSummary:
     first = group[0]
     if isinstance(first, happened.StepStarted):
         outcome = _outcome(group, first, program)

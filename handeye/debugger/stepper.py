@@ -81,7 +81,7 @@ class Stepper:
         return self._reply("", told, len(runner.events))
 
     def _reply(self, line: str, told: CommandResult, happened: int, error: str | None = None) -> Reply:
-        """The answer, with what has happened behind the first `happened` events."""
+        """The answer, with what has happened after the first `happened` events."""
         hands = self.hands
         runner, step, stage = hands.runner, hands.runner.next, hands.stage
         events = runner.events[happened:]
@@ -117,10 +117,10 @@ def interact(
         write: puts out lines of text; the end of the last one is not in them.
         json: answer each command with one JSON object on one line, and say nothing else.
         prompt: somebody is asked for each line: an empty one says again what last made the run go.
-        most: deeds that are told of a long way; None: all.
+        most: steps that are told of a long way; None: all.
 
     Returns:
-        Why the run stands still.
+        Why the run pauses.
     """
     face = as_json if json else partial(as_text, most=most)
     if not json:

@@ -1,4 +1,4 @@
-"""Looking at a run that stands still: what the arm's own sensors say, and what the program remembers."""
+"""Looking at a run that pauses: what the arm's own sensors say, and what the program remembers."""
 
 import math
 from collections.abc import Callable, Collection
@@ -38,7 +38,7 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     """Look at a run.
 
     Args:
-        what: topics, or their beginnings, one behind the other; all but `positions` if empty.
+        what: topics, or their beginnings, one after the other; all but `positions` if empty.
         pictures: folder that the last picture goes to as a file; None: nothing is written.
 
     Raises:

@@ -43,7 +43,7 @@ class Outcome:
     error: int | None = None
     """An error of the motion itself (servo lag, watchdog)."""
     cause: Cause | None = None
-    """What led to it this time."""
+    """Cause of that error, if there is more to say of it."""
 
 
 REACHED = Outcome()

@@ -63,7 +63,7 @@ class Result(Record, frozen=True, kw_only=True):
     completed: bool
     """The program's."""
     paused: bool
-    """The run stands still because that was asked for."""
+    """The run pauses because that was asked for."""
     stopped_at: str | None
     error: int | None
     message: str

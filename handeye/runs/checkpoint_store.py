@@ -1,4 +1,4 @@
-"""Checkpoints of one run in a folder: found, written, and removed when the run goes back behind them."""
+"""Checkpoints of one run in a folder: found, written, and removed when the run goes back to before them."""
 
 import re
 from collections.abc import Iterator

@@ -79,7 +79,7 @@ class RunFolder(Observer):
         self.kept.save(start)
 
     def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
-        """A recorder that goes on behind these events."""
+        """A recorder that goes on after these events."""
         assert self._runner is not None
         setup, cell = self._runner.setup, self._runner.system.cell
         plan = kind_of(setup).encode(setup.plan)
@@ -124,7 +124,7 @@ class RunFolder(Observer):
         """Make sure that what happens next can be told.
 
         Raises:
-            InvalidInput: the trace was broken off, so that nothing may happen behind it.
+            InvalidInput: the trace was broken off, so that nothing may happen after it.
         """
         if self._recorder is not None and self._recorder.broken:
             raise InvalidInput(

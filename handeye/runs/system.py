@@ -92,7 +92,7 @@ class Settable:
 
     noun: str
     usage: str
-    """Form of the words behind its kind: `NAME x y z`."""
+    """Form of the words after its kind: `NAME x y z`."""
     names: tuple[str, ...]
     units: tuple[float, ...]
     """SI units in one of the units that people give each number in."""

@@ -25,7 +25,7 @@ class LineResult(Record, frozen=True, kw_only=True):
     did: tuple[StepSummary, ...] | UnsetType = UNSET
     """Steps that were done, in words."""
     pause: Pause | UnsetType = UNSET
-    """Why the arm stands still, if it went."""
+    """Why the arm pauses, if it went."""
     show: Shown | UnsetType = UNSET
     lines: tuple[str, ...] | UnsetType = UNSET
     """Lines that are collected, or listed."""
@@ -58,7 +58,7 @@ class Answer:
 
     @property
     def stopped(self) -> str | None:
-        """Why the arm stands still before what was wanted is done; None if it is done, or did not go."""
+        """Why the arm pauses before what was wanted is done; None if it is done, or did not go."""
         pause = self.said.pause
         return None if pause is UNSET or pause.kind == "end" else pause.kind
 
@@ -110,7 +110,7 @@ def converse(
     Args:
         write: puts out lines of text; the end of the last one is not in them.
         json: answer each line with one JSON object on one line.
-        strict: hear no more behind a line that was refused, or whose work was stopped.
+        strict: hear no more after a line that was refused, or whose work was stopped.
 
     Returns:
         The answer to the first line that was refused, or whose work was stopped; None if there was none.

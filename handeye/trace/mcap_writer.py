@@ -43,7 +43,7 @@ class _Sink:
 class GrowingFile:
     """A trace being written.
 
-    Where its chunks end depends on the messages alone: by `CHUNK`, behind the start of the run, and at the end of each
+    Where its chunks end depends on the messages alone: by `CHUNK`, after the start of the run, and at the end of each
     stage; so equal messages give equal bytes. Unless somebody syncs within a chunk, which makes the file `uneven`.
     """
 

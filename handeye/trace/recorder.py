@@ -68,7 +68,7 @@ class Recorder:
         events: int,
         prefix: Sequence[Event],
     ) -> "Recorder":
-        """Go on with the trace that a broken-off run left, behind its event number `events`.
+        """Go on with the trace that a broken-off run left, after its event number `events`.
 
         Args:
             prefix: the events so far. Those of them that the trace has lost are written again, without what happened

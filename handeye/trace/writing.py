@@ -32,7 +32,7 @@ class Writing:
     """Writes messages to a file.
 
     All it remembers can be read off the file: whoever copies the messages of one file to another can go on there. What
-    comes with an event (sentence, picture, frames) stands before it, so that a trace can be cut behind any event.
+    comes with an event (sentence, picture, frames) stands before it, so that a trace can be cut after any event.
     """
 
     def __init__(self, file: GrowingFile, frames: Frames, plan: bytes) -> None:
