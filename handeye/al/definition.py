@@ -13,6 +13,8 @@ ANY: Final = "numbers in a program go up to a million"
 SMALLEST: Final = 0.001
 """Least size of what has to be larger than nothing, in its unit."""
 
+AXES: Final = ("X", "Y", "Z")
+"""Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
 NIL: Final = "NIL"
 """Stands in the dialect of 1977 for a force or moment there is none of."""
 

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Final
 
 from handeye.al.hints import with_digits
-from handeye.al.instructions import FREE
 from handeye.al.operands import free_text
 from handeye.al.scanner import Line, Token, TokenKind, scan
+from handeye.al.word_groups import FREE_TEXT
 
 OPERATION: Final = 8
 OPERANDS: Final = 16
@@ -27,7 +27,7 @@ def _format(line: Line) -> str:
         text = " ".join((text, "DEFINE", _operands(tokens[1:]))).strip(" ")
     elif tokens:
         word = tokens[0].text.upper() if tokens[0].kind is TokenKind.NAME else tokens[0].text
-        operands = free_text(tokens[1:]) if word in FREE and tokens[1:] else _operands(tokens[1:])
+        operands = free_text(tokens[1:]) if word in FREE_TEXT and tokens[1:] else _operands(tokens[1:])
         text = _column(text, OPERATION) + word
         text = _column(text, OPERANDS) + operands if operands else text
     return text if line.comment is None else _column(text, COMMENT) + line.comment

@@ -25,6 +25,7 @@ from handeye.al.operand_kinds import (
     ERROR,
     LENS,
     MOMENT,
+    STEP,
     also,
     gap,
     name_of,
@@ -36,12 +37,8 @@ from handeye.al.operand_kinds import (
 from handeye.al.syntax import Name, Number, Text, Vector
 from handeye.program.motion_operations import VIAS
 
-AXES: Final = ("X", "Y", "Z")
-"""Letters of the table's axes: unit vectors where a vector stands, and what `FREE` and `SPIN` count."""
 MOST: Final = 1000
 """The most that a counter can be set to."""
-LARGEST_STEP: Final = 1.0
-"""in, of a search."""
 
 
 _NIL = word(NIL, ours=False)
@@ -226,16 +223,7 @@ _TABLE = (
         op="SEARCH",
         group=FLOW,
         help="start a spiral search with this step (in); the present place is the first",
-        operands=(
-            Operand(
-                name="step",
-                takes=(Number,),
-                units=(IN,),
-                low=SMALLEST,
-                high=LARGEST_STEP,
-                why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends three steps to each side",
-            ),
-        ),
+        operands=(STEP,),
     ),
     Instruction(
         op="AOJ",
@@ -402,7 +390,3 @@ DEFINE: Final = Instruction(
 """Makes macros: the parser's own."""
 EXPLAINED: Final = INSTRUCTIONS | {DEFINE.op: DEFINE}
 """All that there is a page of the manual for."""
-SKIPS: Final = frozenset(i.op for i in _TABLE if i.role is Role.SKIP)
-"""Tests of errors."""
-FREE: Final = frozenset(i.op for i in _TABLE if any(operand.free for operand in i.operands))
-"""Instructions that take words up to the end of the line."""

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Final
 
-from handeye.al.definition import ANY, BIGGEST, IN, MM, ONE, OZ_IN, Operand, OperandUnit, Refers
+from handeye.al.definition import ANY, BIGGEST, IN, MM, ONE, OZ_IN, SMALLEST, Operand, OperandUnit, Refers
 from handeye.al.syntax import Name, Number, Vector
 from handeye.ports import camera
 from handeye.units import MILLIMETRE
@@ -11,6 +11,8 @@ from handeye.units import MILLIMETRE
 HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
 LENSES: Final = tuple(lens / MILLIMETRE for lens in camera.LENSES)
 """Focal lengths of the lenses on the turret, mm."""
+LARGEST_STEP: Final = 1.0
+"""in, of a search."""
 
 
 def number(
@@ -68,3 +70,11 @@ ERROR: Final = Operand(
     whole=True,
 )
 LENS: Final = Operand(name="mm", takes=(Number,), units=(MM,), choices=LENSES)
+STEP: Final = Operand(
+    name="step",
+    takes=(Number,),
+    units=(IN,),
+    low=SMALLEST,
+    high=LARGEST_STEP,
+    why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends three steps to each side",
+)

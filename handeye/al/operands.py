@@ -7,12 +7,13 @@ from itertools import pairwise
 
 import msgspec
 
-from handeye.al.definition import BIGGEST, NIL, SMALLEST, Instruction, Operand
+from handeye.al.definition import AXES, BIGGEST, NIL, SMALLEST, Instruction, Operand
 from handeye.al.hints import alone, letters_for_digits, strange, with_unit
-from handeye.al.instructions import AXES, FREE, INSTRUCTIONS
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.al.unitwords import no_units
+from handeye.al.word_groups import FREE_TEXT
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Span
 
@@ -35,7 +36,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
     Raises:
         Mistake: the operands do not fit the definition.
     """
-    if definition.op in FREE:
+    if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:
         return _Reader(definition, head, _separated(tokens)).read()

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from handeye.al.definition import NIL, Operand, Refers
-from handeye.al.instructions import AXES, EXPLAINED
+from handeye.al.definition import AXES, NIL, Operand, Refers
+from handeye.al.instructions import EXPLAINED
 from handeye.al.scanner import TokenKind, scan
 from handeye.al.syntax import Name
 from handeye.editor.document import Document

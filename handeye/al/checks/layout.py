@@ -4,14 +4,15 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 
 from handeye.al.definition import DECLARATION, JUMP, MODIFIER, SHIFT
-from handeye.al.instructions import INSTRUCTIONS, SKIPS
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Macro, Name, Script, Statement
+from handeye.al.word_groups import SKIPS
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Source
 
 _NO_STEP = frozenset(i.op for i in INSTRUCTIONS.values() if i.role in (DECLARATION, SHIFT))
 """Words that a skip passes over, or takes with the step before."""
-_LEADS_AWAY = frozenset(i.op for i in INSTRUCTIONS.values() if i.role is JUMP) | SKIPS | {"WAIT"}
+_LEADS_AWAY = frozenset(i.op for i in INSTRUCTIONS.values() if i.role is JUMP) | {*SKIPS, "WAIT"}
 """Behind these the program need not go on with the next line."""
 _BEGINNINGS = ("MOVE", "PARK")
 """Motions with which a program may well begin, behind its macros."""

@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
-from handeye.al.definition import NIL, Refers
-from handeye.al.instructions import AXES, INSTRUCTIONS, SKIPS
+from handeye.al.definition import AXES, NIL, Refers
+from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.statements import ByWord, Used, all_statements, pairs
 from handeye.al.syntax import Name, Number, Script, Statement
 from handeye.al.unitwords import no_units
+from handeye.al.word_groups import SKIPS
 from handeye.diagnostics import LIMIT, Diagnostic, Label, alternatives, quoted, told_names
 from handeye.errors import ERRORS
 from handeye.program.taught import Taught
