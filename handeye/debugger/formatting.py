@@ -103,11 +103,11 @@ def shown_lines(shown: Shown) -> list[str]:
 
 
 def _vector(values: Sequence[float], places: int) -> str:
-    return "(" + ", ".join(f"{round(x, places) + 0.0:.{places}f}" for x in values) + ")"
+    return "(" + ", ".join(f"{x:z.{places}f}" for x in values) + ")"
 
 
 def _joints(joints: tuple[JointView, ...]) -> list[str]:
-    told = [f"{joint.name} {joint.value:.2f} {joint.unit}" for joint in joints]
+    told = [f"{joint.name} {joint.value:z.2f} {joint.unit}" for joint in joints]
     return [", ".join(told[i : i + _ROW]) for i in range(0, len(told), _ROW)]
 
 
@@ -144,7 +144,7 @@ def _parts(parts: dict[str, PartShown]) -> list[str]:
 
 
 def _pose(pose: PartPose) -> str:
-    return f"{_vector(pose.at_in, 3)} in, {pose.yaw_deg:.2f} deg"
+    return f"{_vector(pose.at_in, 3)} in, {pose.yaw_deg:z.2f} deg"
 
 
 def _picture(picture: PictureShown) -> list[str]:
@@ -167,7 +167,7 @@ _TITLES: Final[dict[str, tuple[str, Callable[[Any], list[str]]]]] = {
     "joints": ("joints", _joints),
     "hand": ("hand", _hand),
     "force_oz": ("force", _force),
-    "gap_in": ("gap", lambda gap: [f"{gap:.3f} in"]),
+    "gap_in": ("gap", lambda gap: [f"{gap:z.3f} in"]),
     "switches": ("switches", _switches),
     "error": ("error", lambda error: [f"{error.number}: {one_line(error.sentence)}"]),
     "saved_in": ("saved", _named),

@@ -76,5 +76,5 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
     if last is None or last.time == step.time:
         return ""
     if program.steps[step.step].needs == "hand" and last.gap is not None:
-        return f"gap {last.gap / INCH:.2f} in"
+        return f"gap {last.gap / INCH:z.2f} in"
     return "" if last.hand is None else f"hand at {inches(last.hand)}"

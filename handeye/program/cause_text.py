@@ -110,4 +110,4 @@ def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str
 
 
 def _inches(length: float) -> str:
-    return f"{length / INCH:.2f} in"
+    return f"{length / INCH:z.2f} in"

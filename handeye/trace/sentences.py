@@ -54,7 +54,7 @@ _PLACES: Final = ("saved", "position")
 
 def inches(vector: Sequence[float], places: int = 2) -> str:
     """A vector (m) as the language would write it."""
-    return "(" + ", ".join(f"{round(c / INCH, places) + 0.0:.{places}f}" for c in vector) + ") in"
+    return "(" + ", ".join(f"{c / INCH:z.{places}f}" for c in vector) + ") in"
 
 
 def renderer_name(renderer: Renderer) -> str:
@@ -154,7 +154,7 @@ _MET: Final[dict[GuardKind, Callable[[happened.GuardTripped], str]]] = {
 def _ended(event: happened.StepFinished) -> str:
     if event.hand is None or event.gap is None:
         return "the step is done"
-    return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:.2f} in"
+    return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:z.2f} in"
 
 
 def _seen(event: happened.PartSeen) -> str:
