@@ -20,7 +20,7 @@ from handeye.errors import InvalidInput
 from handeye.record import Record
 from handeye.units import UNITS, Unit
 
-DRAWING: Final = 1
+DRAWING: Final = 2
 """How a world comes from its seed: raised when equal seeds give other worlds than before."""
 
 Level = Literal["low", "nominal", "high"]
@@ -140,14 +140,9 @@ class Variation:
             InvalidInput: it was drawn in another way, or speaks of quantities that this task does not have.
         """
         self.check(spec)
-        off = {q.name for name in spec.overrides.without for q in self.select(name)}
-        drawn = self.drawn(spec.seed)
-        values = {
-            name: quantity.nominal * quantity.measure.size
-            if name in off
-            else at_level(quantity, drawn[name], spec.level)
-            for name, quantity in self.quantities.items()
-        }
+        values = {name: drawn(quantity, spec) for name, quantity in self.quantities.items()}
+        for name in spec.overrides.without:
+            values |= {q.name: q.nominal * q.measure.size for q in self.select(name)}
         return World(spec=spec, values=values | spec.overrides.set)
 
     def check(self, spec: WorldSpec) -> None:
@@ -168,22 +163,16 @@ class Variation:
                 self.select(name)
                 raise InvalidInput(f"{quoted(name)} is a group of quantities, which cannot have one value")
 
-    def drawn(self, seed: int) -> Mapping[str, float]:
-        """Values of all quantities in the world of a seed at the nominal level, SI."""
-        return {
-            name: q.distribution.draw(random_numbers(seed, name), q.nominal) * q.measure.size
-            for name, q in self.quantities.items()
-        }
-
 
 def within(name: str, group: str) -> bool:
     """A name is that of a group, or of what is in it."""
     return f"{name}.".startswith(f"{group}.")
 
 
-def at_level(quantity: Quantity, value: float, level: Level) -> float:
-    """Value of a quantity at a level, from its value at the nominal one, SI."""
-    if level == "nominal" or not quantity.distribution.is_error:
-        return value
-    nominal = quantity.nominal * quantity.measure.size
-    return nominal + SPREADS[level] * (value - nominal)
+def drawn(quantity: Quantity, spec: WorldSpec) -> float:
+    """What a quantity is in a world, overrides left out, SI."""
+    distribution, nominal = quantity.distribution, quantity.nominal
+    value = distribution.draw(random_numbers(spec.seed, quantity.name), nominal)
+    if spec.level != "nominal" and distribution.is_error:
+        value = nominal + SPREADS[spec.level] * (value - nominal)
+    return value * quantity.measure.size

@@ -44,7 +44,7 @@ pytestmark = pytest.mark.slow
 
 CALLED = (
     "the fingers closed beyond the minimum gap: nothing, or something too thin, is between them "
-    "(the gap is 0.01 in, the minimum 0.40 in)"
+    "(the gap is 0.00 in, the minimum 0.40 in)"
 )
 Say = Callable[..., list[Reply]]
 
@@ -151,7 +151,7 @@ def test_an_answer_says_what_was_done_and_where_the_run_now_stands(say: Say) -> 
     assert as_text(say("s 2")[0]).splitlines() == [
         "   10 CHANGE [0 0 -1] .1             error 23: the motion ended without meeting the force it was to stop on",
         "   11 SKIPE 23                       error 23 occurred: continue at line 13",
-        "── stage 2, search in the air, step 7; 6 steps done, 3.08 s",
+        "── stage 2, search in the air, step 7; 6 steps done, 3.07 s",
         "    11          SKIPE   23",
         "    12          JUMP    L1",
         "  → 13          SAVE    H",
@@ -165,7 +165,7 @@ def test_of_a_long_way_the_last_lines_are_told(say: Say) -> None:
     many = msgspec.structs.replace(reply, did=reply.did[1:2] * 30 + reply.did[2:])
     assert as_text(many, most=24).splitlines()[:2] == [
         "      … 7 lines before these",
-        "    4 OPEN .5                        gap 0.51 in",
+        "    4 OPEN .5                        gap 0.50 in",
     ]
     assert len(as_text(many).splitlines()) == 7 + len(as_text(many, most=24).splitlines()) - 1
 

@@ -140,7 +140,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
     attend(runner, talk.operator)
     assert talk.said[0].splitlines() == [
         "The operator is called in stage 3, grasp nothing:",
-        f"    {CALLED} (the gap is 0.01 in, the minimum 0.40 in)",
+        f"    {CALLED} (the gap is 0.00 in, the minimum 0.40 in)",
         '    17          STAGE   "grasp nothing"',
         "    18          OPEN    .5",
         "  ■ 19          CLOSE   .4",

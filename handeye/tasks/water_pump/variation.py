@@ -10,7 +10,6 @@ from typing import Final
 import numpy as np
 
 from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
-from handeye.tasks.water_pump.old_draws import OldVariation
 from handeye.tasks.water_pump.stations import stations
 from handeye.variation import Quantity, Variation
 
@@ -50,7 +49,7 @@ def variation(seed: int) -> Variation:
 
 @cache
 def _variation(count: int) -> Variation:
-    return OldVariation(
+    return Variation(
         *_belt(), *_arm(), *_hand(), *_camera(), *_light(), *_fixtures(), *_holes(count), *_parts(count)
     )
 
