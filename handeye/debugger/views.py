@@ -29,7 +29,7 @@ from handeye.program.cause_text import error_sentence
 from handeye.program.world_model import planned_pose
 from handeye.record import Vector3
 from handeye.report.pictures import annotated_png
-from handeye.runs.programs import ProgramSystem
+from handeye.runs.programs import ProgramSystem, context_of
 from handeye.runs.runner import Runner
 from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
@@ -65,7 +65,7 @@ def write_picture(runner: Runner, file: Path) -> str:
     last = _picture(runner)
     if last is None:
         raise InvalidInput("the program has taken no picture yet")
-    write_whole(file, annotated_png(runner.run, last.name))
+    write_whole(file, annotated_png(context_of(runner.system), last.name))
     return last.name
 
 
@@ -84,31 +84,33 @@ def _joints(runner: Runner) -> tuple[JointView, ...]:
     unit = {"revolute": ("deg", DEGREE), "prismatic": ("in", INCH)}
     return tuple(
         JointView(name=joint.name, value=_round(q / unit[joint.kind][1]), unit=unit[joint.kind][0])
-        for joint, q in zip(runner.run.arm.joints, runner.run.drive.sensed.q, strict=True)
+        for joint, q in zip(
+            context_of(runner.system).arm.joints, context_of(runner.system).drive.sensed.q, strict=True
+        )
     )
 
 
 def _hand(runner: Runner) -> HandView:
-    X_WT = runner.run.drive.hand()
+    X_WT = context_of(runner.system).drive.hand()
     return HandView(at_in=_inches(X_WT[:3, 3]), angles_deg=_three(np.array(hand_angles(X_WT)) / DEGREE))
 
 
 def _force(runner: Runner) -> Vector3:
-    return _three(-runner.run.drive.state.wrench[:3] / OUNCE_FORCE)
+    return _three(-context_of(runner.system).drive.state.wrench[:3] / OUNCE_FORCE)
 
 
 # -- remembered -----------------------------------------------------------------------------------------
 
 
 def _error(runner: Runner) -> ErrorView | None:
-    fault = runner.run.state.pending
+    fault = context_of(runner.system).state.pending
     if fault is None:
         return None
     return ErrorView(number=fault.number, sentence=error_sentence(fault.number, fault.cause))
 
 
 def _search(runner: Runner) -> SearchView | None:
-    search = runner.run.state.search
+    search = context_of(runner.system).state.search
     if search is None:
         return None
     x, y = search.offset()
@@ -118,7 +120,7 @@ def _search(runner: Runner) -> SearchView | None:
 
 
 def _parts(runner: Runner) -> dict[str, PartShown]:
-    world = runner.run.world
+    world = context_of(runner.system).world
     shown = {}
     for name, part in world.parts.items():
         planned, measured = planned_pose(part), world.state.measured.get(name)
@@ -140,7 +142,7 @@ def _difference(measured: Pose, planned: Pose) -> PartPose:
 
 
 def _positions(runner: Runner) -> dict[str, PositionView]:
-    world = runner.run.world
+    world = context_of(runner.system).world
     shown = {}
     for name, taught in world.positions.items():
         position = world.state.moved.get(name, taught)
@@ -152,7 +154,7 @@ def _positions(runner: Runner) -> dict[str, PositionView]:
 
 def _picture(runner: Runner) -> PictureShown | None:
     taken = [event.picture for event in runner.events if isinstance(event, PictureTaken)]
-    name = next((name for name in reversed(taken) if name in runner.run.state.shots), None)
+    name = next((name for name in reversed(taken) if name in context_of(runner.system).state.shots), None)
     return None if name is None else PictureShown(name=name, file=None)
 
 
@@ -197,11 +199,11 @@ TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "joints": ("joints", _joints),
     "hand": ("hand", _hand),
     "force": ("force_oz", _force),
-    "gap": ("gap_in", lambda runner: _round(runner.run.drive.sensed.gap / INCH)),
-    "switches": ("switches", lambda runner: tuple(map(bool, runner.run.drive.sensed.touch))),
+    "gap": ("gap_in", lambda runner: _round(context_of(runner.system).drive.sensed.gap / INCH)),
+    "switches": ("switches", lambda runner: tuple(map(bool, context_of(runner.system).drive.sensed.touch))),
     "error": ("error", _error),
-    "saved": ("saved_in", lambda runner: _named(runner.run.state.saved)),
-    "restored": ("restored_in", lambda runner: _named(runner.run.state.restored)),
+    "saved": ("saved_in", lambda runner: _named(context_of(runner.system).state.saved)),
+    "restored": ("restored_in", lambda runner: _named(context_of(runner.system).state.restored)),
     "search": ("search", _search),
     "parts": ("parts", _parts),
     "picture": ("picture", _picture),

@@ -9,6 +9,7 @@ from handeye.errors import InvalidInput
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Found
 from handeye.files import write_whole
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.vision.drawing import annotate
 
@@ -44,8 +45,8 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
         raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
-    for name in runner.run.state.shots:
-        write_whole(folder / f"{name.lower()}.png", annotated_png(runner.run, name))
+    for name in context_of(runner.system).state.shots:
+        write_whole(folder / f"{name.lower()}.png", annotated_png(context_of(runner.system), name))
     truth = runner.cell.truth
     if runner.cell.renderer.method == "opengl":
         for camera in runner.task.photographs:

@@ -15,6 +15,7 @@ from handeye.judge.finding import Finding, Findings, all_right
 from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.runs.advance import Pause
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.trace.sentences import renderer_name
 from handeye.units import INCH
@@ -115,7 +116,7 @@ def _timing(runner: Runner, wall: float, planning: float) -> Timing:
 def _camera(runner: Runner) -> CameraReport:
     if runner.system.cell is None:
         return CameraReport(renderer="none", sightings_rms_px={}, residual_in=None)
-    renderer, calibration = renderer_name(runner.cell.renderer), runner.run.state.calibration
+    renderer, calibration = renderer_name(runner.cell.renderer), context_of(runner.system).state.calibration
     if calibration is None:
         return CameraReport(renderer=renderer, sightings_rms_px={}, residual_in=None)
     residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}

@@ -20,6 +20,7 @@ from handeye.pose import Array
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.journal import Journal
 from handeye.runs.observer import Observer
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -83,12 +84,12 @@ class RunFolder(Observer):
         assert self._runner is not None
         setup, cell = self._runner.setup, self._runner.system.cell
         plan = kind_of(setup).encode(setup.plan)
-        frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.run.arm)
+        frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.task.arm)
         return Recorder.resumed(self.path / TRACE, frames, self._picture, plan, len(events), events)
 
     def _picture(self, name: str) -> Picture:
         assert self._runner is not None
-        return self._runner.run.state.shots[name].picture
+        return context_of(self._runner.system).state.shots[name].picture
 
     # -- looking on -----------------------------------------------------------------------------------
 

@@ -165,6 +165,17 @@ class ProgramSystem(System):
         return self.state.world.moved.get(name, self.plan.program.positions[name])
 
 
+def context_of(system: System) -> ExecutionContext:
+    """The surroundings of the executor of programs.
+
+    Raises:
+        InvalidInput: another system carries the run out.
+    """
+    if not isinstance(system, ProgramSystem):
+        raise InvalidInput("this is no run of a program: its system moves no arm")
+    return system.run
+
+
 def check(setup: Setup) -> None:
     """See that a plan was made for the arm of its task.
 

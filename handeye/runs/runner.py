@@ -21,7 +21,6 @@ from handeye.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Halted
 from handeye.execution.stopwatch import Stopwatch
 from handeye.mutable_records import copied
@@ -29,7 +28,6 @@ from handeye.plain_text import counted
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
 from handeye.runs.observer import Observer
-from handeye.runs.programs import ProgramSystem
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
 from handeye.runs.system import StepFacts, Surroundings, System
 from handeye.runs.systems import kind_of, listing_of
@@ -122,17 +120,6 @@ class Runner:
         if self.system.cell is None:
             raise InvalidInput(f"the system {self.setup.system} acts on no cell")
         return self.system.cell
-
-    @property
-    def run(self) -> ExecutionContext:
-        """The surroundings of the executor of programs.
-
-        Raises:
-            InvalidInput: another system carries the run out.
-        """
-        if not isinstance(self.system, ProgramSystem):
-            raise InvalidInput(f"this is a run of the system {self.setup.system}, which moves no arm")
-        return self.system.run
 
     @property
     def ended(self) -> bool:

@@ -50,7 +50,7 @@ class TeachSession:
             return self._quit()
         self.warned = False
         joint = re.fullmatch(r"j([1-9]\d?)", word)
-        if joint is not None and int(joint[1]) <= len(self.teacher.workplace.runner.run.arm.joints):
+        if joint is not None and int(joint[1]) <= len(self.teacher.workplace.run.arm.joints):
             return _joint(self.teacher, [joint[1], *rest])
         lesson = TEACH_COMMANDS.get(word)
         if lesson is None:
@@ -73,7 +73,7 @@ class TeachSession:
 def _joint(teacher: Teacher, words: list[str]) -> Answer:
     number, amount = _exactly(words, 2, "j3 +1")
     index = int(number) - 1
-    joint = teacher.workplace.runner.run.arm.joints[index]
+    joint = teacher.workplace.run.arm.joints[index]
     value = _number(amount) * (INCH if joint.kind == "prismatic" else DEGREE)
     relative = amount[0] in "+-"
     teacher.joint(index, float(teacher.workplace.q[index]) + value if relative else value)
@@ -85,7 +85,7 @@ def _table(teacher: Teacher, words: list[str]) -> Answer:
 
 
 def _hand(teacher: Teacher, words: list[str]) -> Answer:
-    R_WT = teacher.workplace.runner.run.drive.hand()[:3, :3]
+    R_WT = teacher.workplace.run.drive.hand()[:3, :3]
     return _jogged(teacher, words, R_WT, "hand z -.2` or `hand turn y 5")
 
 

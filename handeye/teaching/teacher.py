@@ -83,7 +83,7 @@ class Teacher:
         Raises:
             InvalidInput: it cannot go there, or something is in the way.
         """
-        arm = self.workplace.runner.run.arm
+        arm = self.workplace.run.arm
         self._follow(jog(arm, self.workplace.q, index, goal, speed=SPEED))
 
     def straight(self, displacement: Vector3) -> None:
@@ -92,7 +92,7 @@ class Teacher:
         Raises:
             InvalidInput: it cannot go there, or something is in the way.
         """
-        arm = self.workplace.runner.run.arm
+        arm = self.workplace.run.arm
         self._follow(change_samples(arm, self.workplace.q, Change(displacement=displacement)))
 
     def turn(self, turn: Vector3) -> None:
@@ -101,14 +101,14 @@ class Teacher:
         Raises:
             InvalidInput: it cannot be turned so, or something is in the way.
         """
-        arm = self.workplace.runner.run.arm
+        arm = self.workplace.run.arm
         self._follow(pivot(arm, self.workplace.q, np.array(turn), TURN_SPEED))
 
     def _follow(self, samples: Samples | IKResult) -> None:
         if isinstance(samples, IKResult):
-            raise InvalidInput(samples.message(self.workplace.runner.run.arm))
+            raise InvalidInput(samples.message(self.workplace.run.arm))
         self.afloat = False
-        self._let(lambda: self.workplace.runner.run.drive.follow(samples))
+        self._let(lambda: self.workplace.run.drive.follow(samples))
 
     def let_go(self) -> None:
         """Take the brakes off: from now on the arm goes where it is pushed."""
@@ -131,7 +131,7 @@ class Teacher:
         self._float(REST)
 
     def _float(self, seconds: float) -> None:
-        self.workplace.runner.run.drive.float(seconds)
+        self.workplace.run.drive.float(seconds)
 
     def _let(self, act: Callable[[], Outcome | None]) -> None:
         """Let the arm go; Ctrl-C, or something in its way, sets the brakes."""
@@ -148,7 +148,7 @@ class Teacher:
 
     def _brake(self) -> None:
         self.afloat = False
-        self.workplace.runner.run.drive.brake(0.1)
+        self.workplace.run.drive.brake(0.1)
 
     # -- naming ---------------------------------------------------------------------------------------
 
@@ -164,7 +164,7 @@ class Teacher:
             raise InvalidInput(f"there is no part {quoted(part)}; there are {known}")
         if name in taught.positions and not again:
             raise InvalidInput(f"{name} is already taught; `here {name} again` replaces it")
-        run = self.workplace.runner.run
+        run = self.workplace.run
         position = run.world.seen_from(part, run.drive.hand())
         text = with_position(self.text, name, position)
         self._before.append(_Named(taught, self.text))

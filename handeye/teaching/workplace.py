@@ -8,6 +8,7 @@ import msgspec
 
 from handeye.errors import InvalidInput
 from handeye.events import Choice, RunStarted
+from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState
 from handeye.mutable_records import copied
 from handeye.planfile.plan import Plan
@@ -16,6 +17,7 @@ from handeye.planning.scripts import PlannedScript
 from handeye.pose import Array
 from handeye.program.taught import Taught
 from handeye.runs.advance import Pause, advance
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
 from handeye.runs.snapshot import Checkpoint, Snapshot
@@ -88,21 +90,24 @@ class Workplace:
     # -- knowing --------------------------------------------------------------------------------------
 
     @property
+    def run(self) -> ExecutionContext:
+        """What the executor of programs works with, now."""
+        return context_of(self.runner.system)
+
+    @property
     def known(self) -> Taught:
         """Positions and parts as they are now: taught, and defined since by `HERE`."""
-        positions = {**self.taught.positions, **self.runner.run.state.world.moved}
+        positions = {**self.taught.positions, **self.run.state.world.moved}
         return replace(self.taught, positions=positions)
 
     @property
     def q(self) -> Array:
         """Where the arm is held, shape (n,), rad and m."""
-        return self.runner.run.drive.state.q
+        return self.run.drive.state.q
 
     def plan(self, source: Source, *, alone: bool = False) -> PlannedScript:
         """Plan a text here and now; `alone` as for `planned`."""
-        return planned(
-            source, self.known, self.runner.run.arm, self.q, saved=self.runner.run.state.saved, alone=alone
-        )
+        return planned(source, self.known, self.run.arm, self.q, saved=self.run.state.saved, alone=alone)
 
     def checkpoint(self) -> Checkpoint:
         """The present state, nothing that happened forgotten."""
@@ -111,7 +116,7 @@ class Workplace:
             position=runner.position,
             happened=len(runner.events),
             cell=runner.cell.capture(),
-            state=copied(runner.run.state),
+            state=copied(self.run.state),
             vision_s=runner.vision.seconds,
         )
         return Checkpoint(
@@ -128,12 +133,12 @@ class Workplace:
         Raises:
             InvalidInput: it looks, and the camera was not set up.
         """
-        if self.runner.run.state.calibration is None and plan.program.written("picture"):
+        if self.run.state.calibration is None and plan.program.written("picture"):
             raise InvalidInput("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None
-        state = _onward(self.runner.run.state, plan)
+        state = _onward(self.run.state, plan)
         snapshot = msgspec.structs.replace(here.snapshot, position=0, happened=1, state=state)
         setup = msgspec.structs.replace(here.setup, plan=plan)
         start = Checkpoint(
@@ -146,7 +151,7 @@ class Workplace:
         begun = self.runner.events[0]
         assert isinstance(begun, RunStarted)
         return msgspec.structs.replace(
-            begun, time=self.runner.run.time, plan=plan_digest(plan),
+            begun, time=self.run.time, plan=plan_digest(plan),
             program=plan.program.name, steps=len(plan.program.steps),
         )  # fmt: skip
 

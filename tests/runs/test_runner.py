@@ -7,6 +7,7 @@ from short_runs import GRASP, begin, history, through
 from handeye.errors import InvalidInput
 from handeye.events import ExperimentMade, OperatorCalled, PanicStopped, Restored
 from handeye.execution.servo_loop import Halted
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 
 pytestmark = pytest.mark.slow
@@ -101,13 +102,15 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
     pressed: list[bool] = []
     runner = Runner(begin(), halt=lambda: len(ticks) == 150 and not pressed)
     braked: list[tuple[float, bool]] = []
-    watch = runner.run.drive.watch
+    watch = context_of(runner.system).drive.watch
 
     def look(sensed: object, effort: object) -> None:
-        ticks.append(runner.run.drive.sensed.time)
-        braked.append((runner.run.drive.sensed.time, runner.run.drive.sensed.braked))
+        ticks.append(context_of(runner.system).drive.sensed.time)
+        braked.append(
+            (context_of(runner.system).drive.sensed.time, context_of(runner.system).drive.sensed.braked)
+        )
 
-    runner.run.drive.watch = look
+    context_of(runner.system).drive.watch = look
     with pytest.raises(Halted):
         through(runner)
     pressed.append(True)
@@ -115,7 +118,7 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
     stopped = runner.events[-1]
     assert isinstance(stopped, PanicStopped)
     assert stopped.time == pytest.approx(braked[-1][0], abs=1e-5)
-    runner.run.drive.watch = watch
+    context_of(runner.system).drive.watch = watch
     runner.undo()
     assert history(through(runner).events) == history(whole.events)
 
@@ -136,9 +139,9 @@ def test_an_experiment_with_a_position_moves_the_hand_there() -> None:
     position = runner.setup.plan.program.positions["P1"]
     x, *rest = position.at
     runner.experiment("position", "P1", (x + 0.02, *rest))
-    planned = runner.run.world.planned_position("P1")[:3, 3]
+    planned = context_of(runner.system).world.planned_position("P1")[:3, 3]
     through(runner)
-    assert runner.run.drive.hand()[:3, 3] - planned == pytest.approx([0.02, 0, 0], abs=1e-3)
+    assert context_of(runner.system).drive.hand()[:3, 3] - planned == pytest.approx([0.02, 0, 0], abs=1e-3)
 
 
 def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> None:
@@ -146,9 +149,9 @@ def test_an_experiment_is_undone_by_going_back_and_kept_by_a_checkpoint() -> Non
     runner.step()
     runner.experiment("saved", "D", (0.01, 0.0, 0.0))
     kept = Runner(runner.checkpoint())
-    assert kept.run.state.saved["D"] == pytest.approx([0.01, 0, 0])
+    assert context_of(kept.system).state.saved["D"] == pytest.approx([0.01, 0, 0])
     runner.back_to(0)
-    assert "D" not in runner.run.state.saved
+    assert "D" not in context_of(runner.system).state.saved
     assert not runner.touched
 
 
@@ -231,6 +234,6 @@ def test_going_back_over_what_people_did_does_it_again() -> None:
     late = Runner(runner.checkpoint())
     late.back_to(3, lambda _: first)
     assert history(late.events) == history(runner.events[: len(late.events)])
-    assert late.run.state.saved["D"] == pytest.approx([0.01, 0, 0])
+    assert context_of(late.system).state.saved["D"] == pytest.approx([0.01, 0, 0])
     late.step()
     assert history(late.events) == history(runner.events)

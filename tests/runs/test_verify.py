@@ -7,6 +7,7 @@ from short_runs import begin
 
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.verify import difference
@@ -22,7 +23,7 @@ def recorded(path: Path, *, secretly: bool, start: Checkpoint | None = None) -> 
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
     advance(runner, steps=5)
     if secretly:
-        runner.run.drive.state.load = 0.5
+        context_of(runner.system).drive.state.load = 0.5
     advance(runner)
     runner.finish()
     folder.close()

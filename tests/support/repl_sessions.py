@@ -42,4 +42,4 @@ class Console:
     @property
     def gap(self) -> float:
         """Opening of the hand, in."""
-        return self.repl.workplace.runner.run.drive.sensed.gap / 0.0254
+        return self.repl.workplace.run.drive.sensed.gap / 0.0254

@@ -45,17 +45,17 @@ def say(pupil: TeachSession, *lines: str) -> str:
 
 def hand(pupil: TeachSession) -> np.ndarray:
     """Where the hand is by its sensors, in."""
-    return pupil.teacher.workplace.runner.run.drive.hand()[:3, 3] / INCH
+    return pupil.teacher.workplace.run.drive.hand()[:3, 3] / INCH
 
 
 # -- moving ---------------------------------------------------------------------------------------------
 
 
 def test_a_joint_moves_by_so_much_with_a_sign_and_to_there_without(pupil: TeachSession) -> None:
-    joints = pupil.teacher.workplace.runner.run.drive
+    joints = pupil.teacher.workplace.run.drive
     before = joints.sensed.q.copy()
     say(pupil, "j3 +1")
-    drive = pupil.teacher.workplace.runner.run.drive
+    drive = pupil.teacher.workplace.run.drive
     assert (drive.sensed.q - before)[2] / INCH == pytest.approx(1, abs=0.02)
     say(pupil, "j3 18")
     assert drive.sensed.q[2] / INCH == pytest.approx(18, abs=0.02)
@@ -74,17 +74,17 @@ def test_the_hand_moves_along_an_axis_of_its_own(pupil: TeachSession) -> None:
 
 
 def test_the_hand_is_turned_on_the_spot_about_an_axis_of_the_table(pupil: TeachSession) -> None:
-    before = pupil.teacher.workplace.runner.run.drive.hand()
+    before = pupil.teacher.workplace.run.drive.hand()
     say(pupil, "table turn z 20")
-    after = pupil.teacher.workplace.runner.run.drive.hand()
+    after = pupil.teacher.workplace.run.drive.hand()
     assert (after[:3, 3] - before[:3, 3]) / INCH == pytest.approx((0, 0, 0), abs=0.05)
     np.testing.assert_allclose(after[:3, :3], rotation_z(20 * DEGREE) @ before[:3, :3], atol=0.01)
 
 
 def test_the_hand_is_turned_about_an_axis_of_its_own(pupil: TeachSession) -> None:
-    before = pupil.teacher.workplace.runner.run.drive.hand()
+    before = pupil.teacher.workplace.run.drive.hand()
     say(pupil, "hand turn y 10")
-    after = pupil.teacher.workplace.runner.run.drive.hand()
+    after = pupil.teacher.workplace.run.drive.hand()
     turned = rotation(10 * DEGREE * before[:3, 1]) @ before[:3, :3]
     np.testing.assert_allclose(after[:3, :3], turned, atol=0.01)
 

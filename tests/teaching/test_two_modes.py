@@ -64,7 +64,7 @@ def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what
     apart.type("DO OPEN 3", "DO PARK")
     assert [text.split("\n")[0] for text in plannings] == ["OPEN 3", "PARK"]
     assert apart.repl.functions == ["OPEN 1"]
-    ends = [s.repl.workplace.runner.run.drive.state.q for s in (together, apart)]
+    ends = [s.repl.workplace.run.drive.state.q for s in (together, apart)]
     assert ends[0] == pytest.approx(ends[1], abs=1e-3)
     assert together.gap == pytest.approx(apart.gap, abs=0.01)
 
@@ -131,7 +131,7 @@ def test_what_a_line_requires_is_read_from_the_folder_of_the_session(
 def test_positions_and_vectors_collected_hold_for_a_function_done_alone(console: Console) -> None:
     console.type("TRANS HIGH [25 30 12 90 90 0]", "VECT UP [0 0 1]")
     assert not console.type("DO MOVE HIGH", "DO CHANGE UP 1").refused
-    assert console.repl.workplace.runner.run.drive.hand()[2, 3] / 0.0254 == pytest.approx(13, abs=0.05)
+    assert console.repl.workplace.run.drive.hand()[2, 3] / 0.0254 == pytest.approx(13, abs=0.05)
 
 
 def test_a_function_is_planned_from_where_the_arm_stands(console: Console) -> None:
@@ -155,7 +155,7 @@ def test_a_difference_saved_by_one_function_is_restored_in_a_later_one(console: 
     console.type("DO MOVE T1", "DO CHANGE X .5", "DO SAVE H")
     assert console.type("MOVE T1", "RESTORE H").diagnostics == ()
     console.type("DO")
-    offset = console.repl.workplace.runner.run.drive.hand()[0, 3] / 0.0254 - (25 + 1.02846)
+    offset = console.repl.workplace.run.drive.hand()[0, 3] / 0.0254 - (25 + 1.02846)
     assert offset == pytest.approx(0.5, abs=0.06)
 
 
