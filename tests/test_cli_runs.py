@@ -381,7 +381,7 @@ def test_a_disk_that_fills_up_loses_neither_checkpoints_nor_the_trace_so_far(
     )
     assert (done.returncode, "Traceback" in done.stderr) == (2, False)
     assert "trace.mcap.part cannot be written: File too large" in done.stderr
-    _, checkpoint = open_again(Path("full"))
+    _, checkpoint, _ = open_again(Path("full"))
     assert checkpoint.snapshot is not None
     code, out, err = command("trace", "show", "full")
     assert code == 0

@@ -191,8 +191,8 @@ def resume(
             raise InvalidInput(
                 f"{path} is the folder of a run, which resumes there; --out needs a checkpoint file"
             )
-        folder, start = open_again(path)
-        for fault in folder.kept.damaged():
+        folder, start, faults = open_again(path)
+        for fault in faults:
             note(f"left out: {fault}")
     else:
         start = read_checkpoint(path)

@@ -28,7 +28,7 @@ from handeye.variation import WorldSpec
 from handeye.versions import versions
 
 MAGIC: Final = "handeye-checkpoint"
-VERSION: Final = 2
+VERSION: Final = 3
 ENDING: Final = ".checkpoint"
 CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
 LARGEST: Final = 1 << 28

@@ -89,14 +89,18 @@ class CheckpointStore:
                 f"{self.folder} is of a run with interventions by people, which would be lost; choose another folder"
             )
 
-    def newest(self) -> Checkpoint | None:
-        """The sound checkpoint that is farthest on."""
-        for path, _ in self.heads():
+    def newest(self) -> tuple[Checkpoint | None, list[str]]:
+        """The sound checkpoint that is farthest on, and the faults of those that are not sound, a sentence each."""
+        found, faults = None, []
+        for path in sorted(self.folder.glob(f"*{ENDING}"), key=_position, reverse=True):
             try:
-                return read_checkpoint(path)
-            except InvalidInput:
-                continue
-        return None
+                if found is None:
+                    found = read_checkpoint(path)
+                else:  # what is not resumed from need not be taken apart
+                    read_head(path)
+            except InvalidInput as fault:
+                faults.append(str(fault))
+        return found, faults
 
     def at_or_before(self, position: int) -> Checkpoint | None:
         """The newest of those that `save` has written that is not farther on than `position` steps.

@@ -179,8 +179,8 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
     return folder
 
 
-def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
-    """The folder of a run that was broken off, and its newest sound checkpoint.
+def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
+    """The folder of a run that was interrupted, its newest sound checkpoint, and the faults of those left out.
 
     Raises:
         InvalidInput: there is none, or it is not of the plan in the folder.
@@ -190,12 +190,11 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint]:
         if any(CheckpointStore(path).heads()):
             raise InvalidInput(f"{path} is a folder of checkpoints, not of a run; name one of them")
         raise InvalidInput(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
-    checkpoint = folder.kept.newest()
+    checkpoint, faults = folder.kept.newest()
     if checkpoint is None:
-        faults = folder.kept.damaged()
-        raise InvalidInput(faults[-1] if faults else f"there is no checkpoint in {folder.kept.folder}")
+        raise InvalidInput(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")
     _check_plan(path, checkpoint.setup)
-    return folder, checkpoint
+    return folder, checkpoint, faults
 
 
 def _check_plan(path: Path, setup: Setup) -> None:

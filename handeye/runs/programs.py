@@ -177,12 +177,13 @@ def context_of(system: System) -> ExecutionContext:
 
 
 def check(setup: Setup) -> None:
-    """See that a plan was made for the arm of its task.
+    """See that a plan was made for the arm of its task, and that its world can be drawn.
 
     Raises:
-        InvalidInput: it was made for another one, or there is no such task.
+        InvalidInput: it was made for another one, the world was drawn in another way, or there is no such task.
     """
     task(setup.task).check_arm(plan_of(setup))
+    task(setup.task).variation(setup.world.seed).check(setup.world)
 
 
 PROGRAM: Final = SystemKind(

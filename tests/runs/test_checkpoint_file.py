@@ -1,18 +1,17 @@
 """Checkpoints on disk: whole, sound and of this arm, or refused with one sentence."""
 
-import hashlib
 import zlib
 from pathlib import Path
 
 import msgspec
 import numpy as np
 import pytest
+from forged_checkpoints import changed, sealed
 from short_runs import GRASP, begin, history, through
 
 from handeye.errors import InvalidInput
 from handeye.runs import checkpoint_file
 from handeye.runs.checkpoint_file import (
-    VERSION,
     decode,
     encode,
     read_checkpoint,
@@ -37,18 +36,6 @@ def runner() -> Runner:
 @pytest.fixture(scope="module")
 def data(runner: Runner) -> bytes:
     return encode(runner.checkpoint())
-
-
-def sealed(rest: bytes, version: int = VERSION) -> bytes:
-    """A file with a right checksum, whatever is in it."""
-    return f"handeye-checkpoint {version} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
-
-
-def changed(data: bytes, **fields: object) -> bytes:
-    """A checkpoint with other things in its body, rightly sealed."""
-    _, head, packed = data.split(b"\n", 2)
-    body = msgspec.msgpack.decode(zlib.decompress(packed))
-    return sealed(head + b"\n" + zlib.compress(msgspec.msgpack.encode({**body, **fields})))
 
 
 def test_what_is_read_leads_to_the_same_end_as_what_was_written(runner: Runner, data: bytes) -> None:
@@ -84,15 +71,15 @@ def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
 
 def test_a_newer_version_is_refused(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
-    with pytest.raises(InvalidInput, match="checkpoint format version 3; this handeye reads up to version 2"):
-        decode(sealed(rest, version=3), "it")
+    with pytest.raises(InvalidInput, match="checkpoint format version 4; this handeye reads up to version 3"):
+        decode(sealed(rest, version=4), "it")
 
 
 def test_a_checkpoint_of_before_is_refused_with_what_to_do(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
     with pytest.raises(
         InvalidInput,
-        match=r"^it was saved by an older handeye, in checkpoint format version 1; this one reads version 2: "
+        match=r"^it was saved by an older handeye, in checkpoint format version 1; this one reads version 3: "
         r"start the run again, or resume it there$",
     ):
         decode(sealed(rest, version=1), "it")

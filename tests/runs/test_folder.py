@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from forged_checkpoints import changed
 from short_runs import GRASP, begin, history, plan_of
 
 from handeye.errors import InvalidInput
@@ -33,7 +34,7 @@ def recorded(path: Path, start: Checkpoint, *, overwrite: bool = False) -> tuple
 
 def gone_on(path: Path) -> Runner:
     """A run that was broken off, carried out to its end."""
-    folder, start = open_again(path)
+    folder, start, _ = open_again(path)
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=True)])
     advance(runner)
     runner.finish()
@@ -114,10 +115,19 @@ def test_a_file_that_is_lost_keeps_nobody_from_going_on(whole: Path, copy: Path,
 def test_a_damaged_checkpoint_is_left_out_for_the_one_before(whole: Path, copy: Path) -> None:
     newest = copy / "checkpoints" / "0002-take-the-pin.checkpoint"
     newest.write_bytes(newest.read_bytes()[:-9])
-    _, start = open_again(copy)
+    _, start, faults = open_again(copy)
     assert start.position == 0
+    assert faults == [f"{newest} is damaged or cut short: its checksum is wrong"]
     gone_on(copy)
     assert (copy / "trace.mcap").read_bytes() == (whole / "trace.mcap").read_bytes()
+
+
+def test_a_checkpoint_whose_state_cannot_be_read_is_left_out_by_name(copy: Path) -> None:
+    newest = copy / "checkpoints" / "0002-take-the-pin.checkpoint"
+    newest.write_bytes(changed(newest.read_bytes(), events=[{"event": "NoEvent"}]))
+    _, start, faults = open_again(copy)
+    assert start.position == 0
+    assert [fault.partition(":")[0] for fault in faults] == [f"{newest} is not a sound checkpoint"]
 
 
 def test_with_nothing_but_the_start_it_begins_anew(whole: Path, copy: Path) -> None:

@@ -130,7 +130,7 @@ def test_a_run_that_was_broken_off_is_gone_on_with_from_its_folder_to_the_same_t
     runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])
     advance(runner, steps=9)
     keeping.close()
-    folder, kept = open_again(tmp_path / "run")
+    folder, kept, _ = open_again(tmp_path / "run")
     answered(Runner(kept, observers=lambda runner: [folder.watch(runner, kept, again=True)]))
     folder.close()
     assert (tmp_path / "run" / TRACE).read_bytes() == whole
@@ -149,7 +149,7 @@ def test_the_stepper_works_on_it(tmp_path: Path) -> None:
 def test_checkpoints_are_found_by_stage(tmp_path: Path) -> None:
     start = begin_toy(2)
     traced(start, tmp_path / "run")
-    folder, newest = open_again(tmp_path / "run")
+    folder, newest, _ = open_again(tmp_path / "run")
     found = folder.kept.for_stage(start.setup, 1)
     assert found is not None
     assert (found.stage, found.position, read_checkpoint(next(folder.kept.heads())[0])) == ("ask", 7, newest)
