@@ -1,5 +1,7 @@
 """Period units and their SI values: the only file that knows how long an inch is.
 
+Besides, the two figures of the machine of 1973 that its language and its arm share.
+
 Inside the program every quantity is SI: metres, radians, newtons, newton metres, seconds.
 """
 
@@ -15,6 +17,7 @@ OUNCE_FORCE: Final = 0.27801385095378125  # N, avoirdupois ounce times standard 
 OUNCE_INCH: Final = OUNCE_FORCE * INCH  # N m
 RPM: Final = 2 * math.pi / 60  # rad/s
 JIFFY: Final = 1 / 60  # s, the servo period of the 1973 arm program
+GAP: Final = 0.105  # m, the widest opening of its hand [Scheinman's data sheet, 1974]
 PERCENT: Final = 0.01
 
 

@@ -3,13 +3,14 @@
 from dataclasses import replace
 from typing import Final
 
+from handeye import units
 from handeye.al.definition import ANY, BIGGEST, IN, MM, ONE, OZ_IN, SMALLEST, Operand, OperandUnit, Refers
 from handeye.al.syntax import Name, Number, Vector
 from handeye.ports import camera
-from handeye.units import MILLIMETRE
 
-HAND: Final = 4.13  # in, widest opening of the hand [Scheinman's data sheet, 1974]
-LENSES: Final = tuple(lens / MILLIMETRE for lens in camera.LENSES)
+HAND: Final = round(units.GAP / units.INCH, 2)
+"""Widest opening of the hand, in."""
+LENSES: Final = tuple(lens / units.MILLIMETRE for lens in camera.LENSES)
 """Focal lengths of the lenses on the turret, mm."""
 LARGEST_STEP: Final = 1.0
 """in, of a search."""

@@ -11,7 +11,7 @@ from typing import Final, Literal
 from handeye.arm.hand import GraspModel, HandModel
 from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
 from handeye.pose import pose, rotation_z
-from handeye.units import DEGREE, INCH, JIFFY, OUNCE_INCH
+from handeye.units import DEGREE, GAP, INCH, JIFFY, OUNCE_INCH
 
 HAND_LENGTH: Final = 10 * INCH
 """Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""
@@ -106,10 +106,10 @@ _JOINTS: Final = (
 )  # fmt: skip
 
 # Sizes of the hand as drawn. Fingers of .12 kg: placeholder, as their mass centre (they reach from .175 to .254 m).
-# Opening, 10.5 cm, and its rate, 8 cm/s free (3 loaded): data sheet of 1974. Grip: the strongest the assembly study
+# Opening and its rate, 8 cm/s free (3 loaded): data sheet of 1974. Grip: the strongest the assembly study
 # measured. Grasp: chosen.
 _HAND: Final = HandModel(
-    length=HAND_LENGTH, mass=0.24, centre=0.20, gap_max=0.105, gap_speed=0.08, grip=80.0,
+    length=HAND_LENGTH, mass=0.24, centre=0.20, gap_max=GAP, gap_speed=0.08, grip=80.0,
     finger_width=0.01905, finger_thickness=0.01016, finger_length=0.0782,
     palm=(-0.0381, -0.0635, -0.1055, 0.0381, 0.0635, -0.0815),
     wrist=(-0.039, -0.050, -0.2540, 0.039, 0.050, -0.1055), lamp=(-0.045, 0.062, -0.088),
