@@ -9,6 +9,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from handeye.versions import HANDEYE
+
 if TYPE_CHECKING:  # what a function needs is imported when it is called
     from handeye.planfile.plan import Plan
     from handeye.report.result import Result
@@ -16,7 +18,7 @@ if TYPE_CHECKING:  # what a function needs is imported when it is called
     from handeye.variation import WorldSpec
 
 __all__ = ["__version__", "assemble", "open", "plan"]
-__version__ = "0.1.0"
+__version__ = HANDEYE
 
 
 def plan(script: "str | Path") -> "Plan":

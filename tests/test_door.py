@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -58,3 +59,8 @@ def test_a_script_is_carried_out_and_its_trace_opened(script: Path, tmp_path: Pa
 def test_a_file_that_is_no_trace_is_refused(script: Path) -> None:
     with pytest.raises(InvalidInput, match="is not a trace"):
         handeye.open(script)
+
+
+def test_the_version_is_that_of_the_package() -> None:
+    project = Path(__file__).parent.parent / "pyproject.toml"
+    assert handeye.__version__ == tomllib.loads(project.read_text(encoding="utf-8"))["project"]["version"]

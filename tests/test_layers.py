@@ -81,9 +81,9 @@ def own(module: str) -> set[str]:
 
 
 def owned(names: set[str]) -> set[str]:
-    """Modules of ours that full names are of. The version of handeye is known to all of them."""
+    """Modules of ours that full names are of."""
     result = set()
-    for name in names - {"handeye.__version__"}:
+    for name in names:
         if name.split(".")[0] == "handeye":
             parts = name.split(".")[1:]
             while parts and ".".join(parts) not in MODULES and ".".join([*parts, "__init__"]) not in MODULES:

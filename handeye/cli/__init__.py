@@ -6,14 +6,14 @@ from typing import NoReturn
 
 from cyclopts import App, CycloptsError, Parameter
 
-from handeye import __version__
 from handeye.cli import benches, editing, plans, runs, scripts, teaching, traces, trials, worlds
 from handeye.cli.common import complain, notes, screen
 from handeye.errors import HandeyeError
+from handeye.versions import HANDEYE
 
 app = App(
     name="handeye",
-    version=__version__,
+    version=HANDEYE,
     help="The Stanford hand-eye pump assembly of 1973: plan, work, judge.\n\n`handeye COMMAND --help` tells more.",
     suppress_keyboard_interrupt=False,
     default_parameter=Parameter(negative=""),

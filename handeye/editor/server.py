@@ -6,12 +6,12 @@ from typing import Final
 from lsprotocol import types as lsp
 from pygls.lsp.server import LanguageServer
 
-from handeye import __version__
 from handeye.diagnostics import Diagnostic
 from handeye.editor.checking import planning
 from handeye.editor.script import EditedScript
 from handeye.program.taught import Taught
 from handeye.source import Source, Span
+from handeye.versions import HANDEYE
 
 PAUSE: Final = 0.3
 """Seconds without a keystroke after which motions are planned; what the text alone tells comes at once."""
@@ -21,7 +21,7 @@ class ArmServer(LanguageServer):
     """The server and what it has planned: for each script, the text and what the planner said about it."""
 
     def __init__(self) -> None:
-        super().__init__("handeye", __version__)
+        super().__init__("handeye", HANDEYE)
         self.planned: dict[str, tuple[Source, Taught, list[Diagnostic]]] = {}
 
     def script(self, uri: str) -> EditedScript:

@@ -10,10 +10,10 @@ from typing import IO, Any, Final, cast
 import msgspec
 from mcap.writer import Writer
 
-from handeye import __version__
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
 from handeye.trace.channels import CHANNELS, FORMAT, METADATA, NUMBERS, PLAN, VERSION, nanoseconds
+from handeye.versions import HANDEYE
 
 CHUNK: Final = 1 << 20
 """Bytes of messages after which a chunk is closed."""
@@ -70,7 +70,7 @@ class GrowingFile:
         said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
         metadata = {"format": FORMAT, "version": VERSION, **_flat(said)}
         with self._complaining():
-            self._writer.start(library=f"handeye {__version__}")
+            self._writer.start(library=f"handeye {HANDEYE}")
             self._writer.add_metadata(METADATA, {key: str(value) for key, value in metadata.items()})
             self._writer.add_attachment(0, nanoseconds(head.time), PLAN, "application/json", plan)
             for channel in CHANNELS:
