@@ -2,6 +2,7 @@
 
 import json
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -445,6 +446,28 @@ def test_statistics_count_each_stage(command: Command, folder: Path) -> None:
     stages = {stage["stage"]: stage for stage in json.loads(out)["stages"]}
     assert code == 0
     assert (stages["to and fro"]["motions"], stages["feel"]["errors"]) == (2, {"23": 1})
+
+
+def test_a_trace_that_was_lost_is_told_of_and_shows_nothing_that_it_does_not_hold(
+    command: Command, folder: Path
+) -> None:
+    shutil.copytree(folder, "again")
+    Path("again/trace.mcap").unlink()
+    for checkpoint in Path("again/checkpoints").glob("*-end.checkpoint"):
+        checkpoint.unlink()
+    _, _, err = command("resume", "again")
+    assert "resuming after 5 steps: feel" in err
+    assert "the trace in again was lost or damaged: it lacks the motions before " in err
+    code, _, err = command("trace", "verify", "again")
+    assert (code, "are not in this trace, and were not compared" in err) == (0, True)
+    code, _, err = command("trace", "photograph", "again", "--at", "1", "-o", "it.png")
+    assert (code, "; 1 s is outside" in err) == (2, True)
+
+
+def test_of_a_sound_run_nothing_is_said_to_be_lost(command: Command, folder: Path) -> None:
+    shutil.copytree(folder, "again")
+    assert "lost" not in command("resume", "again")[2]
+    assert "not compared" not in command("trace", "verify", "again")[2]
 
 
 @pytest.mark.parametrize("at", ["300", "-3", "nan", "inf"])

@@ -132,6 +132,10 @@ class _Work:
                 self.folder.discard()
             raise
         _warn(runner)
+        if self.folder is not None and self.folder.lost:
+            note(
+                f"the trace in {self.folder.path} was lost or damaged: it lacks the motions before {runner.time:.2f} s"
+            )
         return runner
 
     def _observers(self, runner: Runner) -> list[Observer]:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 SHOWN: Final = 0.01
 """s to which times are shown; what is typed is as exact as that."""
 File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
+TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]
 
 
 def register(app: App) -> None:
@@ -59,7 +60,7 @@ def stats(file: File, /, *, json: Json = False) -> int:
 
 
 def photograph(
-    file: File,
+    file: TraceFile,
     /,
     *,
     at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` prints them.")],
@@ -82,7 +83,7 @@ def photograph(
         )
     trace.check_repeatable()
     replay = Replay(trace)
-    begin, end = trace.head.time, max(replay.times[-1], trace.events[-1].time)
+    begin, end = trace.begins, max(replay.times[-1], trace.events[-1].time)
     if not begin - SHOWN <= at <= end + SHOWN:
         raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
     state = replay.seek(at)
@@ -94,7 +95,7 @@ def photograph(
     return 0
 
 
-def verify(file: File, /) -> int:
+def verify(file: TraceFile, /) -> int:
     """Carry out a recorded run again and compare.
 
     It repeats what operators and experimenters did, and compares an interrupted run up to its last whole
@@ -123,6 +124,8 @@ def verify(file: File, /) -> int:
     count = settled(events)
     ended = "" if count == len(events) else " up to the step that was interrupted"
     say(f"{file}: the same {count} events{ended}, to the byte")
+    if trace.begins > trace.head.time:
+        note(f"motions before {trace.begins:.2f} s are not in this trace, and were not compared")
     return 0
 
 

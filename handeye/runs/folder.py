@@ -65,6 +65,11 @@ class RunFolder(Observer):
             self._journal.undone(len(start.events), runner.time, "resumed")
         return self
 
+    @property
+    def lost(self) -> int:
+        """Events of a run that goes on which its trace had lost, and with them the motions between them."""
+        return 0 if self._recorder is None else self._recorder.lost
+
     def begin(self, start: Checkpoint) -> None:
         """Let this run take the place of the one that was here.
 

@@ -54,7 +54,10 @@ class Recorder:
         self._path, self._frames, self._picture, self._plan = path, frames, picture, plan
         self._waiting: list[tuple[Sensed, Array, Poses, Mask]] = []
         head = next((event for event in prefix if isinstance(event, RunStarted)), None)
-        self._writing = self._copied(old, known(old, prefix), head)
+        kept = known(old, prefix)
+        self.lost = len(prefix) - kept
+        """Events so far that the old trace did not hold, and with them what was sensed between them."""
+        self._writing = self._copied(old, kept, head)
         for event in prefix[self._writing.events :]:
             self._writing.event(event)
 

@@ -83,6 +83,11 @@ class Trace:
             events += message.topic == EVENTS
         return events
 
+    @property
+    def begins(self) -> float:
+        """The clock from which on its motions are recorded, s."""
+        return self.events[max(self.unseen - 1, 0)].time
+
     def check_repeatable(self) -> None:
         """Make sure that the cell of the run can be built again.
 
