@@ -55,14 +55,20 @@ def assemble(
         out: a new folder that keeps plan, events, trace and checkpoints.
 
     Raises:
-        InvalidInput: the script has mistakes, the camera cannot work so, or the folder cannot be had.
+        InvalidInput: the script has mistakes, the camera cannot work so, the folder cannot be had, or seed or world
+            are none.
     """
+    from handeye.errors import InvalidInput
     from handeye.runs.scripts import default_script
     from handeye.trials.assembly import run_plan
     from handeye.variation import WorldSpec
 
-    made = plan(default_script() if script is None else script)
     drawn = WorldSpec(seed=seed) if world is None else world
+    if not isinstance(drawn, WorldSpec):
+        raise InvalidInput(f"the world must be a WorldSpec, not {drawn!r}")
+    if not isinstance(drawn.seed, int) or drawn.seed < 0:
+        raise InvalidInput(f"the seed must be a whole number from 0 on, not {drawn.seed!r}")
+    made = plan(default_script() if script is None else script)
     folder = None if out is None else Path(out)
     return run_plan(made, world=drawn, camera=camera, folder=folder).result
 

@@ -48,6 +48,18 @@ class Quantity:
         """Its unit, with its size."""
         return UNITS[self.unit]
 
+    def check(self, value: float) -> None:
+        """Make sure that it can be set to a value, SI.
+
+        Raises:
+            InvalidInput: it is not a number, or more or less than the quantity can be.
+        """
+        low, high = (limit * self.measure.size for limit in self.limits)
+        if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
+            raise InvalidInput(
+                f"{self.name} cannot be set to {value!r}: it can be {low:g} to {high:g} in SI units"
+            )
+
 
 class Overrides(Record, frozen=True, kw_only=True):
     """Overrides of a drawn world."""
@@ -151,6 +163,8 @@ class Variation:
         Raises:
             InvalidInput: as `draw`.
         """
+        if spec.level not in SPREADS:
+            raise InvalidInput(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
             raise InvalidInput(
                 f"the world of seed {spec.seed} was drawn by another handeye; this one draws another world from that "
@@ -162,6 +176,7 @@ class Variation:
             if name not in self.quantities:
                 self.select(name)
                 raise InvalidInput(f"{quoted(name)} is a group of quantities, which cannot have one value")
+            self.quantities[name].check(spec.overrides.set[name])
 
 
 def within(name: str, group: str) -> bool:

@@ -64,3 +64,11 @@ def test_a_file_that_is_no_trace_is_refused(script: Path) -> None:
 def test_the_version_is_that_of_the_package() -> None:
     project = Path(__file__).parent.parent / "pyproject.toml"
     assert handeye.__version__ == tomllib.loads(project.read_text(encoding="utf-8"))["project"]["version"]
+
+
+@pytest.mark.parametrize(
+    "words", [{"seed": -1}, {"seed": "3"}, {"seed": 1.5}, {"world": 3}, {"world": {"seed": 3}}]
+)
+def test_a_seed_or_a_world_that_is_none_is_refused(words: dict[str, object]) -> None:
+    with pytest.raises(InvalidInput, match=r"^the (seed|world) must be a"):
+        handeye.assemble(**words)

@@ -171,3 +171,17 @@ def test_a_group_is_a_name_before_a_dot_and_no_mere_beginning() -> None:
     assert [q.name for q in TABLE.select("camera.place")] == ["camera.place.x", "camera.place.y"]
     with pytest.raises(InvalidInput):
         TABLE.select("camera.pl")
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf"), 1e9, "1", True])
+def test_a_value_that_a_quantity_cannot_have_is_refused_wherever_it_comes_from(value: float) -> None:
+    bounded = Variation(
+        Quantity(name="x", unit="in", distribution=Normal(1.0), limits=(-5, 5), source="test")
+    )
+    with pytest.raises(InvalidInput, match=r"^x cannot be set to "):
+        bounded.draw(WorldSpec(seed=1, overrides=Overrides(set={"x": value})))
+
+
+def test_a_level_that_there_is_none_of_is_refused() -> None:
+    with pytest.raises(InvalidInput, match="there is no level 'foo'; there are low, nominal, high"):
+        TABLE.draw(WorldSpec(seed=1, level="foo"))  # type: ignore[arg-type]

@@ -37,8 +37,8 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
 
 
 def all_right(findings: Findings) -> bool:
-    """Every point is right."""
-    return all(finding.ok for finding in findings.values())
+    """Every point is right; a referee that looked at nothing has found nothing right."""
+    return bool(findings) and all(finding.ok for finding in findings.values())
 
 
 def _finding(ok: bool, value: float, relation: Relation, limit: float, unit: str, subject: str) -> Finding:
