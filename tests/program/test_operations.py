@@ -32,23 +32,42 @@ def test_what_an_operation_tells_of_its_fields_is_about_fields_it_has(operation:
     assert named | {*operation.bounds} | {*operation.choices} <= fields
 
 
-def asked_for(path: Path) -> set[str]:
-    """The operations by whose class a module asks, with `isinstance` or `case`."""
-    nodes = [*ast.walk(ast.parse(path.read_text()))]
-    calls = [node for node in nodes if isinstance(node, ast.Call)]
-    asked = [
-        call.args[1] for call in calls if isinstance(call.func, ast.Name) and call.func.id == "isinstance"
-    ]
-    asked += [node.cls for node in nodes if isinstance(node, ast.MatchClass)]
-    names = {node.id for node in asked if isinstance(node, ast.Name)}
-    names |= {node.attr for one in asked for node in ast.walk(one) if isinstance(node, ast.Attribute)}
-    imports = "_operations import" in path.read_text()
-    return names & {operation.__name__ for operation in OPERATIONS} if imports else set()
+def asked_for(text: str) -> set[str]:
+    """The operations by whose class a module asks: with `isinstance`, `case`, or a comparison of types."""
+    nodes = [*ast.walk(ast.parse(text))]
+    known = {
+        alias.asname or alias.name: alias.name
+        for node in nodes
+        if isinstance(node, ast.ImportFrom) and (node.module or "").endswith("_operations")
+        for alias in node.names
+    }
+    asked: list[ast.AST] = [node.cls for node in nodes if isinstance(node, ast.MatchClass)]
+    asked += [node for node in nodes if isinstance(node, ast.Compare) and "type(" in ast.unparse(node)]
+    for node in nodes:
+        if isinstance(node, ast.Call) and ast.unparse(node.func) in ("isinstance", "issubclass"):
+            asked.append(node.args[1])
+    named = {part.id for one in asked for part in ast.walk(one) if isinstance(part, ast.Name)}
+    return {known[name] for name in named & known.keys()} & {kind.__name__ for kind in OPERATIONS}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "isinstance(o, Move)",
+        "isinstance(o, (str, Move))",
+        "isinstance(o, str | Go)",
+        "type(o) is Move",
+        "type(o) in (Move,)",
+    ],
+)
+def test_a_module_is_seen_to_ask_for_a_class_however_it_asks(line: str) -> None:
+    begun = "from handeye.program.motion_operations import Move, Move as Go\n"
+    assert asked_for(begun + line) == {"Move"}
 
 
 def test_an_operation_is_asked_for_its_class_only_where_its_meaning_is_given() -> None:
     package = Path(operation.__file__).parents[1]
-    found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path)}
+    found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path.read_text())}
     assert found == {
         "al/lower.py",  # where a RESTORE finds its MOVE, and a search its own
         "planning/grasp_state.py",  # where the planner opens and closes the hand

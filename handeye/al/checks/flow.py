@@ -241,7 +241,7 @@ class _Flow:
         case = first.raised
         if case is None or case != steps[behind].next:
             return False
-        return type(steps[case].operation) in (Jump, Wait)
+        return any(self.graph.at(case, kind) for kind in (Jump, Wait))
 
     def no_effect(self, number: int, error: int) -> Diagnostic:
         message = f"with error {error} the program continues as without an error"
