@@ -72,7 +72,8 @@ class CheckpointStore:
                 raise InvalidInput(f"{path} is of another plan ({head.program}, {head.plan})")
             if (head.world, head.camera) != (setup.world, setup.camera):
                 raise InvalidInput(
-                    f"{path} is of another run ({head.world}, camera {head.camera}); choose another folder"
+                    f"{path} is of another run ({head.world}, camera {head.camera}) than this "
+                    f"({setup.world}, camera {setup.camera}); choose another folder"
                 )
 
     def claim(self, setup: Setup) -> None:

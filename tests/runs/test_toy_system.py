@@ -4,7 +4,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from short_runs import history
+from short_runs import begin, history
 from toy_system import Registers, begin_toy
 
 from handeye.debugger.breakpoints import breakpoint
@@ -84,6 +84,14 @@ def test_a_checkpoint_on_disk_goes_on_to_the_same_bytes() -> None:
 
 
 def test_a_state_of_another_system_is_refused() -> None:
+    toy, program = Runner(begin_toy()), Runner(begin())
+    with pytest.raises(InvalidInput, match="does not fit this plan"):
+        toy.system.restore(program.system.state)
+    with pytest.raises(InvalidInput, match="is not of the executor of programs"):
+        program.system.restore(toy.system.state)
+
+
+def test_a_state_that_points_outside_its_plan_is_refused() -> None:
     runner = Runner(begin_toy())
     kept = runner.checkpoint()
     setup = msgspec.structs.replace(kept.setup, plan=begin_toy(2).setup.plan)
