@@ -20,6 +20,10 @@ MARGIN: Final = 0.1 * INCH
 """Overlap of boxes that is not reported. The free motions of the pump swing by as much beside the straight way down:
 where the screwdriver comes back, its socket is planned .06 in into a rail of the rack."""
 
+SAME: Final = 1e-6
+"""Difference of depths that is none, m: of the same depth before and behind the middle of a box the first counts, on
+every processor."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Crossing:
@@ -68,7 +72,7 @@ def _deepest(X_WT: Pose, deep: Array, names: Sequence[str | None], goal: bool) -
     outside = np.logical_or.accumulate(deep <= MARGIN / 2, axis=0)
     outside[-1] |= goal
     entered = np.where(outside & (deep > MARGIN), deep, 0.0)
-    sample, which = divmod(int(np.argmax(entered)), entered.shape[1])
+    sample, which = divmod(int(np.argmax(entered >= entered.max() - SAME)), entered.shape[1])
     if entered[sample, which] == 0.0:
         return None
     way = np.linalg.norm(np.diff(X_WT[: sample + 1, :3, 3], axis=0), axis=1)

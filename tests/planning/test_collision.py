@@ -14,7 +14,7 @@ def test_a_goal_inside_a_fixture_is_found() -> None:
 
 def test_a_fixture_on_the_way_is_found_with_the_place() -> None:
     assert message("MOVE WEST\nMOVE EAST DIRECT") == (
-        "hand-through-fixture: the hand would go 0.77 in into `STAND` 5.1 in along its way to EAST"
+        "hand-through-fixture: the hand would go 0.77 in into `STAND` 4.9 in along its way to EAST"
     )
 
 
