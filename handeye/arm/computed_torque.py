@@ -30,6 +30,21 @@ def torque(
     return np.asarray(M @ acceleration + bias + exerted)
 
 
+def felt_wrench(
+    M: Array, bias: Array, J: Array, tau: Array, qd_before: Array, qd_after: Array, period: float
+) -> Array:
+    """Force and moment on the hand over a servo period (s), before any tare; see `external_wrench`.
+
+    Args:
+        M, bias: mass matrix (n, n) and bias torques (n,) in the period.
+        J: Jacobian at T in it, (6, n).
+        tau: torques put out in it, shape (n,), N m and (prismatic joints) N.
+        qd_before, qd_after: rates at its beginning and its end, shape (n,).
+    """
+    acceleration = (qd_after - qd_before) / period
+    return external_wrench(J, M @ acceleration + bias - tau)
+
+
 def external_wrench(J: Array, unexplained: Array) -> Array:
     """Force and moment on the hand at T in world axes, shape (6,), N and N m, that explain torques best.
 

@@ -7,24 +7,25 @@ arms move under one clock.
 """
 
 from collections.abc import Callable, Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 
 from handeye import errors
-from handeye.arm.computed_torque import external_wrench, prepare, torque
+from handeye.arm.computed_torque import felt_wrench, prepare, torque
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.execution.compliance import Course
+from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.pose import Array, Pose, displaced, translated
 from handeye.program.causes import Cause, HandAstray, HandStuck, JointBehind
-from handeye.touch.guards import Monitor, Reading, Trip
+from handeye.touch.guards import ActiveGuard, Monitor, Reading, Trip
 
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
@@ -72,10 +73,12 @@ class ServoLoop:
     arm: ArmModel
     state: DriveState
     """Its state: set-points, load and felt wrench."""
-    watch: Callable[[Sensed, Array], None] = lambda _, __: None
-    """Called after every servo period with what is sensed and the torques put out, shape (n,)."""
+    watch: Callable[[ServoPeriod], None] = lambda _: None
+    """Called after every servo period."""
     halt: Callable[[], bool] = lambda: False
     """The panic button, asked at every servo period."""
+    _tared: bool = field(default=False, init=False)
+    """What is felt is force, and no longer what the tare is made of."""
 
     @property
     def period(self) -> float:
@@ -119,8 +122,10 @@ class ServoLoop:
         motion = prepare(self.arm, self.state.q, samples)
         J = jacobian(self.arm, motion.q) if guard is not None or self.state.load else _no_jacobian(motion.q)
         for i in range(len(motion)):
-            here = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i])
-            yield from self._servo(here, motion.q[i], motion.qd[i], motion.qdd[i], estimate=guard is not None)
+            here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), _row(direction, i)
+            q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
+            guards = _active(guard, along)
+            yield from self._servo(here, q, qd, qdd, estimate=guard is not None, guards=guards)
             if self.state.cut:
                 return CUT
             self.state.q = samples.q[i]
@@ -129,7 +134,6 @@ class ServoLoop:
                 self.state.q = self.sensed.q.copy()
                 joint = self.arm.joints[int(np.argmax(lag))].name
                 return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
-            along = _row(direction, i)
             trip = guard.check(self._reading(along)) if guard is not None else None
             if trip is not None:
                 self._freeze(along)
@@ -154,7 +158,8 @@ class ServoLoop:
             step = solve(self.arm, displaced(X_start, gone * course.direction + given, turn), self.state.q)
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
-            yield from self._approach(self.dynamics(), step.q, estimate=True)
+            guards = _active(guard, course.direction)
+            yield from self._approach(self.dynamics(), step.q, estimate=True, guards=guards)
             if self.state.cut:
                 return CUT
             trip = guard.check(self._reading(course.direction)) if guard is not None else None
@@ -183,36 +188,61 @@ class ServoLoop:
         """Hold still and take what is felt now as zero force."""
         here = self.dynamics()
         felt = []
-        self.state.tare = np.zeros(6)
+        self.state.tare, self._tared = np.zeros(6), False
         for _ in range(self.arm.servo.settle):
             yield from self._approach(here, self.state.q, estimate=True)
             felt.append(self.state.wrench)
-        self.state.tare = np.mean(felt, axis=0)
+        self.state.tare, self._tared = np.mean(felt, axis=0), True
         self.state.wrench = np.zeros(6)
 
     # -- one servo period ------------------------------------------------------------------------------
 
-    def _approach(self, here: Dynamics, q: Array, *, estimate: bool) -> Motion[None]:
-        """One servo period towards a set-point close by."""
-        rest = np.zeros(len(self.state.q))
-        yield from self._servo(here, self.state.q, (q - self.state.q) / self.period, rest, estimate=estimate)
+    def _approach(
+        self, here: Dynamics, q: Array, *, estimate: bool, guards: tuple[ActiveGuard, ...] = ()
+    ) -> Motion[None]:
+        """One servo period towards a set-point close by; see `_servo`."""
+        qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
+        yield from self._servo(here, self.state.q, qd, rest, estimate=estimate, guards=guards)
         self.state.q = q
 
-    def _servo(self, here: Dynamics, q: Array, qd: Array, qdd: Array, *, estimate: bool) -> Motion[None]:
-        """One servo period in which the arm should begin at `q` with rates `qd`."""
+    def _servo(
+        self,
+        here: Dynamics,
+        q: Array,
+        qd: Array,
+        qdd: Array,
+        *,
+        estimate: bool,
+        guards: tuple[ActiveGuard, ...],
+    ) -> Motion[None]:
+        """One servo period in which the arm should begin at `q` with rates `qd`.
+
+        Args:
+            estimate: the force on the hand is estimated at its end.
+            guards: those that will look at what is then felt.
+        """
         before = self.sensed
         load = here.J[2] * self.state.load
         tau = torque(self.arm, here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
         effort = constants(self.arm).effort
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
-        after = yield from self._wait(tau)
-        if estimate:
-            acceleration = (after.qd - before.qd) / self.period
-            unexplained = here.M @ acceleration + here.bias - tau
-            self.state.wrench = external_wrench(here.J, unexplained) - self.state.tare
 
-    def _wait(self, tau: Array | None) -> Motion[Sensed]:
-        """One servo period under a torque, or (None) the brakes; what is sensed at its end.
+        def feel(after: Sensed) -> None:
+            felt = felt_wrench(here.M, here.bias, here.J, tau, before.qd, after.qd, self.period)
+            self.state.wrench = felt - self.state.tare
+
+        yield from self._wait(tau, feel if estimate else None, guards)
+
+    def _wait(
+        self,
+        tau: Array | None,
+        feel: Callable[[Sensed], None] | None = None,
+        guards: tuple[ActiveGuard, ...] = (),
+    ) -> Motion[None]:
+        """One servo period under a torque, or (None) the brakes.
+
+        Args:
+            feel: estimates the force on the hand by what is sensed at its end.
 
         Raises:
             Halted: behind it, if the panic button is down.
@@ -224,10 +254,17 @@ class ServoLoop:
         yield
         sensed = self.cell.sense()
         self.state.cut = sensed.braked and tau is not None
-        self.watch(sensed, np.zeros(len(self.state.q)) if tau is None else tau)
+        if feel is not None and not halted:
+            feel(sensed)
+        effort = np.zeros(len(self.state.q)) if tau is None else tau
+        if (
+            feel is not None and self._tared and not (halted or sensed.braked)
+        ):  # no drive tells what brakes bear
+            self.watch(ServoPeriod(sensed=sensed, effort=effort, wrench=-self.state.wrench, guards=guards))
+        else:
+            self.watch(ServoPeriod(sensed=sensed, effort=effort))
         if halted:
             raise Halted
-        return sensed
 
     def _put_out(self, tau: Array | None) -> None:
         """Tell every device of the cell what to do for the next servo period."""
@@ -286,6 +323,11 @@ class ServoLoop:
 def _no_jacobian(q: Array) -> Array:
     """Jacobians of no effect for set-points (N, n)."""
     return np.zeros((len(q), 6, q.shape[1]))
+
+
+def _active(guard: Monitor | None, direction: Array) -> tuple[ActiveGuard, ...]:
+    """The guards of a motion in a servo period in which it goes along a unit vector."""
+    return () if guard is None else guard.active(direction)
 
 
 def _row(direction: Array | None, i: int) -> Array:

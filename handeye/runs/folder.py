@@ -13,10 +13,9 @@ import msgspec
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent
+from handeye.execution.servo_period import ServoPeriod
 from handeye.files import read_whole, write_whole
 from handeye.ports.camera import Picture
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.journal import Journal
 from handeye.runs.observer import Observer
@@ -105,9 +104,9 @@ class RunFolder(Observer):
         self._journal.append(event)
         self._recorder.event(event)
 
-    def tick(self, sensed: Sensed, effort: Array) -> None:
+    def tick(self, period: ServoPeriod) -> None:
         assert self._recorder is not None
-        self._recorder.tick(sensed, effort)
+        self._recorder.tick(period)
 
     def undone(self, events: int) -> None:
         assert self._journal is not None

@@ -1,8 +1,7 @@
 """Observers that look on while a run goes on. No observer can change a run."""
 
 from handeye.events import AnyEvent
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
+from handeye.execution.servo_period import ServoPeriod
 from handeye.runs.snapshot import Checkpoint
 
 
@@ -12,8 +11,8 @@ class Observer:
     def event(self, event: AnyEvent) -> None:
         """Something happened."""
 
-    def tick(self, sensed: Sensed, effort: Array) -> None:
-        """A servo period has passed, in which these torques, shape (n,), were put out."""
+    def tick(self, period: ServoPeriod) -> None:
+        """A servo period has passed."""
 
     def undone(self, events: int) -> None:
         """The run went back: only its first `events` events have happened."""

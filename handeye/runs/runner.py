@@ -22,11 +22,10 @@ from handeye.events import (
     StepStarted,
 )
 from handeye.execution.servo_loop import Halted
+from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
 from handeye.mutable_records import copied
 from handeye.plain_text import counted
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.runs.observer import Observer
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
 from handeye.runs.system import StepFacts, Surroundings, System
@@ -331,6 +330,6 @@ class Runner:
         for observer in self.observers:
             observer.event(event)
 
-    def _watch(self, sensed: Sensed, effort: Array) -> None:
+    def _watch(self, period: ServoPeriod) -> None:
         for observer in self.observers:
-            observer.tick(sensed, effort)
+            observer.tick(period)

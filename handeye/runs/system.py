@@ -9,9 +9,8 @@ from typing import Any, Protocol
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.events import AnyEvent, Choice, RunStarted
+from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.program.operation import Device
 from handeye.record import Record
 from handeye.runs.setup import Setup
@@ -165,8 +164,8 @@ class Surroundings:
     """Callbacks that a system is given by the run that drives it."""
 
     emit: Callable[[AnyEvent], None]
-    watch: Callable[[Sensed, Array], None]
-    """Told of every servo period: what was sensed, and the torques put out."""
+    watch: Callable[[ServoPeriod], None]
+    """Told of every servo period."""
     halt: Callable[[], bool]
     """The panic button, asked at every servo period."""
     vision: Stopwatch = field(default_factory=Stopwatch)

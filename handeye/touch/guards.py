@@ -39,8 +39,24 @@ class Trip:
     limit: float
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ActiveGuard:
+    """A guard that watches in a servo period, and what it allows."""
+
+    guard: GuardKind
+    limit: float
+    """As `Trip.limit`."""
+    axis: Array | None = None
+    """Unit vector along which it looks at the force of the hand, or about which at its moment, shape (3,), world
+    axes; None: it looks at neither."""
+
+
 class Monitor(Protocol):
     """Watches for a guard; made anew for each motion."""
+
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """The guards it watches for while the motion goes along a unit vector, shape (3,)."""
+        ...
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None; to be asked once a servo period."""
@@ -57,6 +73,10 @@ class ForceMonitor:
     force: Array
     """Shape (3,), N, world axes; not zero."""
 
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """Its guard."""
+        return (_active(GuardKind.FORCE, self.force),)
+
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
         return _along(GuardKind.FORCE, reading.force, self.force)
@@ -69,9 +89,18 @@ class MomentMonitor:
     moment: Array
     """Shape (3,), N m, world axes; not zero."""
 
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """Its guard."""
+        return (_active(GuardKind.MOMENT, self.moment),)
+
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
         return _along(GuardKind.MOMENT, reading.moment, self.moment)
+
+
+def _active(guard: GuardKind, vector: Array) -> ActiveGuard:
+    limit = float(np.linalg.norm(vector))
+    return ActiveGuard(guard=guard, limit=limit, axis=vector / limit)
 
 
 def _along(guard: GuardKind, felt: Array, vector: Array) -> Trip | None:
@@ -86,6 +115,10 @@ class AgainstMonitor:
 
     limit: float
     """N"""
+
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """Its guard."""
+        return (ActiveGuard(guard=GuardKind.AGAINST, limit=self.limit, axis=direction),)
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
@@ -104,6 +137,10 @@ class TorqueMonitor:
     """N m"""
     _held: int = field(default=0, init=False)
 
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """Its guard."""
+        return (ActiveGuard(guard=GuardKind.TORQUE, limit=self.limit),)
+
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None."""
         value = abs(reading.tool_torque)
@@ -117,6 +154,10 @@ class TouchMonitor:
 
     mask: int
     """1: the first finger of `Sensed.touch`, 2: the second, 3: either."""
+
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """Its guard."""
+        return (ActiveGuard(guard=GuardKind.TOUCH, limit=float(self.mask)),)
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip, or None; its value is the mask of all fingers that touch."""
@@ -132,6 +173,10 @@ class FirstOf:
     """Trips when any of its monitors does."""
 
     monitors: tuple[Monitor, ...]
+
+    def active(self, direction: Array) -> tuple[ActiveGuard, ...]:
+        """All guards of its monitors."""
+        return tuple(guard for one in self.monitors for guard in one.active(direction))
 
     def check(self, reading: Reading) -> Trip | None:
         """The trip of the first that trips, or None."""

@@ -16,10 +16,14 @@ from google.protobuf.descriptor_pb2 import FileDescriptorSet
 from google.protobuf.message import Message
 
 from handeye.events import AnyEvent
+from handeye.trace.hand_message import hand_schema
 
 FORMAT: Final = "handeye trace"
-VERSION: Final = 2
-"""Version of the format; a reader reads up to its own. The first did not say how the world was drawn."""
+VERSION: Final = 3
+"""Version of the format; a reader reads up to its own. The first did not say how the world was drawn, the second had
+no `HAND`."""
+REPEATABLE: Final = 2
+"""Version from which on a run can be built again from its trace."""
 METADATA: Final = "handeye"
 """Name of the metadata record that says what the file is and what the run depended on."""
 PLAN: Final = "plan.json"
@@ -31,8 +35,11 @@ PICTURE: Final = "/camera/picture"
 LOG: Final = "/log"
 SCENE: Final = "/scene"
 EVENTS: Final = "/events"
-MOMENTS: Final = (JOINTS, FRAMES, PICTURE)
+HAND: Final = "/hand"
+MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND)
 """Channels recorded beside the events: how it was at a moment."""
+NEWER: Final = {HAND: 3}
+"""Channels that the first version did not have, and the version that brought each."""
 
 WORLD: Final = "world"
 """Name of the frame W, parent of all others."""
@@ -83,6 +90,13 @@ CHANNELS: Final = (
         schema_name="handeye.Event",
         schema_encoding="jsonschema",
         schema=msgspec.json.encode(msgspec.json.schema(AnyEvent), order="sorted"),
+    ),
+    Channel(
+        topic=HAND,
+        encoding="json",
+        schema_name="handeye.Hand",
+        schema_encoding="jsonschema",
+        schema=hand_schema(),
     ),
 )
 """All channels, in the order of their numbers in the file, which begin with 1."""

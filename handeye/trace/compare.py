@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import zip_longest
 
 from handeye.events import AnyEvent
-from handeye.trace.channels import EVENTS, LOG, MOMENTS
+from handeye.trace.channels import EVENTS, LOG, MOMENTS, NEWER
 from handeye.trace.records import RawMessage
 from handeye.trace.resuming import until
 from handeye.trace.sentences import sentence
@@ -14,7 +14,8 @@ from handeye.trace.trace import Trace
 def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: int = 0) -> str | None:
     """One sentence that names the first thing in which two traces differ; None if they say the same.
 
-    How the files are packed does not matter, only what is in them.
+    How the files are packed does not matter, only what is in them; nor do channels that the older of two versions of
+    the format does not have.
 
     Args:
         events: compare no more than so many events, and what came before and between them.
@@ -22,18 +23,20 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
     """
     if a.plan != b.plan:
         return "the traces are of different plans"
-    count = 0
-    for here, there in zip_longest(_compared(a, events, unseen), _compared(b, events, unseen)):
+    count, version = 0, min(a.version, b.version)
+    sides = (_compared(trace, version, events, unseen) for trace in (a, b))
+    for here, there in zip_longest(*sides):
         if here != there:
             return _difference(a, b, here, there, count)
         count += here.topic == EVENTS
     return None
 
 
-def _compared(trace: Trace, events: int | None, unseen: int) -> Iterator[RawMessage]:
+def _compared(trace: Trace, version: int, events: int | None, unseen: int) -> Iterator[RawMessage]:
+    """Messages that a trace of that version of the format has too, but what was recorded beside `unseen` events."""
     count = 0
     for message in until(trace.messages(), events):
-        if count >= unseen or message.topic not in MOMENTS:
+        if NEWER.get(message.topic, 1) <= version and (count >= unseen or message.topic not in MOMENTS):
             yield message
         count += message.topic == EVENTS
 

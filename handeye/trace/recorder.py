@@ -7,10 +7,9 @@ from google.protobuf.message import DecodeError
 
 from handeye.errors import InvalidInput
 from handeye.events import Event, PictureTaken, RunStarted, StepStarted, WentBack
+from handeye.execution.servo_period import ServoPeriod
 from handeye.files import read_whole
 from handeye.ports.camera import Picture
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
@@ -52,7 +51,7 @@ class Recorder:
             InvalidInput: it cannot be written; what was there is still there.
         """
         self._path, self._frames, self._picture, self._plan = path, frames, picture, plan
-        self._waiting: list[tuple[Sensed, Array, Poses, Mask]] = []
+        self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
         head = next((event for event in prefix if isinstance(event, RunStarted)), None)
         kept = known(old, prefix)
         self.lost = len(prefix) - kept
@@ -109,15 +108,15 @@ class Recorder:
             self._writing.picture(event.time, self._picture(event.picture))
         self._writing.event(event)
 
-    def tick(self, sensed: Sensed, effort: Array) -> None:
-        """Take down what was sensed after a servo period, the torques put out in it, and the frames.
+    def tick(self, period: ServoPeriod) -> None:
+        """Take down a servo period that has passed, and the frames.
 
         It is written before the next event, together with the periods around it: the simulation between two periods
         takes the processor's memory from the recorder, and writing each by itself takes twice as long.
         """
         if self._writing.head is None:  # what was before the run is no part of it
             return
-        self._waiting.append((sensed, effort, self._frames.poses(), self._frames.there()))
+        self._waiting.append((period, self._frames.poses(), self._frames.there()))
 
     def flush(self) -> None:
         """Everything so far is on the disk.
@@ -163,9 +162,9 @@ class Recorder:
     def _catch_up(self) -> None:
         """Write the servo periods taken down since the last event."""
         waiting, self._waiting = self._waiting, []
-        for sensed, effort, poses, there in waiting:
-            self._writing.joints(sensed, effort)
-            self._writing.frames(sensed.time, poses, there)
+        for period, poses, there in waiting:
+            self._writing.period(period)
+            self._writing.frames(period.sensed.time, poses, there)
 
     def _rewrite(self, events: int | None) -> None:
         """Replace the file by a new one with what it holds up to its event number `events`; None: with everything.

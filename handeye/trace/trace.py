@@ -14,7 +14,7 @@ from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, PictureTaken, RunStarted
 from handeye.ports.camera import Picture
 from handeye.pose import Array
-from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE, VERSION
+from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE, REPEATABLE
 from handeye.trace.events_read import read_event
 from handeye.trace.messages import GAP, LEVEL
 from handeye.trace.records import RawMessage, read_messages
@@ -94,7 +94,7 @@ class Trace:
         Raises:
             InvalidInput: an older handeye recorded it.
         """
-        if self.version < VERSION:
+        if self.version < REPEATABLE:
             raise InvalidInput(
                 f"{self.name} was recorded by an older handeye, whose cell this one cannot build again: `trace show` "
                 "and `trace stats` read it; for the rest, run the plan again"

@@ -6,13 +6,13 @@ import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
 from handeye.events import Event, RunStarted, StageFinished, StepStarted
+from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.camera import Picture
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.trace import messages
-from handeye.trace.channels import EVENTS, FRAMES, JOINTS, LOG, PICTURE, SCENE, nanoseconds
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, PICTURE, SCENE, nanoseconds
 from handeye.trace.events_read import read_event
 from handeye.trace.frames import Frames, Mask
+from handeye.trace.hand_message import hand_message
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage
@@ -73,10 +73,11 @@ class Writing:
         """Write a picture; its event follows."""
         self.file.write(PICTURE, nanoseconds(time), messages.picture(nanoseconds(time), picture))
 
-    def joints(self, sensed: Sensed, effort: Array) -> None:
-        """Write what was sensed after a servo period, and the torques put out in it."""
-        time = nanoseconds(sensed.time)
-        self.file.write(JOINTS, time, self._joint_message.filled(time, sensed, effort))
+    def period(self, period: ServoPeriod) -> None:
+        """Write what was sensed after a servo period and put out in it, and what the hand felt."""
+        time = nanoseconds(period.sensed.time)
+        self.file.write(JOINTS, time, self._joint_message.filled(time, period.sensed, period.effort))
+        self.file.write(HAND, time, hand_message(period))
 
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
         """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from handeye.events import AnyEvent
-from handeye.ports.workcell import Sensed
-from handeye.pose import Array
+from handeye.execution.servo_period import ServoPeriod
 from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, RunFolder, open_new
 from handeye.runs.observer import Observer
@@ -47,10 +46,10 @@ class _Timed(Observer):
         with self._traced():
             self.folder.event(event)
 
-    def tick(self, sensed: Sensed, effort: Array) -> None:
+    def tick(self, period: ServoPeriod) -> None:
         self.ticks += 1
         with self._traced():
-            self.folder.tick(sensed, effort)
+            self.folder.tick(period)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         begun = time.perf_counter()

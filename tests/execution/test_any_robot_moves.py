@@ -15,8 +15,8 @@ from handeye.cell.device_errors import ArmErrors
 from handeye.cell.simulated import SimulatedCell
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_loop import REACHED
+from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
-from handeye.ports.workcell import Sensed
 from handeye.pose import Array, hand, translated
 from handeye.program.guards import Force, GuardKind
 from handeye.touch.guards import monitor
@@ -66,8 +66,8 @@ class Bench:
         self.ticks: list[float] = []
         self.drive = ArmDrive(cell=cell.devices, arm=self.arm, state=state, watch=self._watch)
 
-    def _watch(self, sensed: Sensed, torque: Array) -> None:
-        self.ticks.append(sensed.time)
+    def _watch(self, period: ServoPeriod) -> None:
+        self.ticks.append(period.sensed.time)
 
     @property
     def tool(self) -> Array:

@@ -53,7 +53,7 @@ def late_in(script: str, ticks: int) -> Bench:
     run = bench("OPEN 2\nMOVE T\nSEARCH 1\n" + script, positions={"T": written(25, 38, 6, 0)}).to("SEARCH")
     count = iter(range(10_000))
 
-    def watch(_: Sensed, __: object) -> None:
+    def watch(_: object) -> None:
         if next(count) == ticks:
             run.cell.advance(run.run.drive.period)
 

@@ -33,7 +33,7 @@ def carried_out(statement: str) -> tuple[FakeCell, list[Sensed]]:
     cell, periods = FakeCell(np.array(PARK)), list[Sensed]()
     cell.hand.thickness = lambda _: THICKNESS
     run = ExecutionContext(plan=plan, arm=ARM, cell=cell.devices, camera=None, emit=lambda _: None)
-    run.drive.watch = lambda sensed, _: periods.append(sensed)
+    run.drive.watch = lambda period: periods.append(period.sensed)
     Executor(run=run).step()
     return cell, periods
 

@@ -52,7 +52,7 @@ def test_row_6_a_sideways_contact_of_eighty_ounces_does_not_stop_it() -> None:
     truth, ticks = run.cell.truth, iter(range(1000))
     link = truth.model.body("stanford/link6").id
 
-    def lean(_: object, __: object) -> None:
+    def lean(_: object) -> None:
         truth.data.xfrc_applied[link, 0] = 80 * OUNCE_FORCE if next(ticks) > 20 else 0.0
 
     run.run.drive.watch = lean

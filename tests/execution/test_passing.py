@@ -28,7 +28,7 @@ def led(script: str = "MOVE T\nVIA OVER\nMOVE U") -> Bench:
 def passing(run: Bench, at: tuple[float, float, float]) -> tuple[float, float]:
     """How near the hand truly comes to a place (in), and its least speed within an inch of it (in/s)."""
     hands: list[Array] = []
-    run.run.drive.watch = lambda _, __: hands.append(run.hand())
+    run.run.drive.watch = lambda _: hands.append(run.hand())
     run.go()
     away = np.linalg.norm(np.array(hands) - at, axis=1)
     speed = np.linalg.norm(np.diff(hands, axis=0), axis=1) * 60

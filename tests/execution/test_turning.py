@@ -24,7 +24,7 @@ def twisted(script: str, moment: tuple[float, float, float] = ABOUT_X) -> Bench:
     truth, ticks = run.cell.truth, iter(range(1000))
     link = truth.model.body("stanford/link6").id
 
-    def twist(_: object, __: object) -> None:
+    def twist(_: object) -> None:
         truth.data.xfrc_applied[link, 3:] = moment if next(ticks) > 20 else (0.0, 0.0, 0.0)
 
     run.run.drive.watch = twist
@@ -109,7 +109,7 @@ def test_a_hand_that_presses_and_may_spin_comes_to_rest() -> None:
     wall = Position(at=(0.0, 1.5625 * INCH, 1.85 * INCH, 0.0, 90 * DEGREE, 0.0), of="PUMP")
     script = "MOVE T\nFREE 2 X Y\nSPIN 3 X Y Z\nFORCE [0 0 -30]\nCHANGE Z -.6"
     run, felt = bench(script, positions={"T": wall}, lay=at_standard()).to("CHANGE"), []
-    run.run.drive.watch = lambda _, __: felt.append(run.run.drive.state.wrench[2] / OUNCE_FORCE)
+    run.run.drive.watch = lambda _: felt.append(run.run.drive.state.wrench[2] / OUNCE_FORCE)
     assert run.go().errors == [SERVO_LAG]
     assert felt[-60:] == pytest.approx([30] * 60, abs=0.5)
 

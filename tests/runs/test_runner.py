@@ -104,7 +104,7 @@ def test_the_panic_button_sets_the_brakes_at_the_next_tick_and_the_step_can_be_d
     braked: list[tuple[float, bool]] = []
     watch = context_of(runner.system).drive.watch
 
-    def look(sensed: object, effort: object) -> None:
+    def look(_: object) -> None:
         ticks.append(context_of(runner.system).drive.sensed.time)
         braked.append(
             (context_of(runner.system).drive.sensed.time, context_of(runner.system).drive.sensed.braked)

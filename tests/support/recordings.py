@@ -1,33 +1,42 @@
 """A short made-up run to record: three stages, something that moves, a picture, an error, a search."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from handeye import events as happened
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
 from handeye.events import Event, RunStarted, StageFinished
+from handeye.execution.servo_period import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest
 from handeye.planning.planner import make_plan
 from handeye.ports.camera import Picture, Renderer
 from handeye.ports.workcell import Sensed
 from handeye.pose import Array
+from handeye.program.guards import GuardKind
 from handeye.program.taught import Taught
 from handeye.source import Source
+from handeye.touch.guards import ActiveGuard
+from handeye.trace import mcap_writer
+from handeye.trace.channels import CHANNELS, NEWER
 from handeye.trace.frames import Frames
+from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.recorder import Recorder
 from handeye.units import JIFFY
 from handeye.variation import WorldSpec
 
 SCRIPT: Final = 'STAGE "open"\nOPEN 1\nSTAGE "close"\nCLOSE .1\nSTAGE "again"\nOPEN 2\n'
+GUARD: Final = ActiveGuard(guard=GuardKind.FORCE, limit=8.0, axis=np.array([0.0, 0.0, -1.0]))
 BODIES: Final = ("base", "finger", "screw", "carrier")
 
 
@@ -72,6 +81,14 @@ class Moment:
     carrier_shown: bool
     effort: Array = field(default_factory=lambda: np.zeros(6))
     picture: Picture | None = None
+    guarded: bool = False
+
+    @property
+    def period(self) -> ServoPeriod:
+        """The servo period that it is; a guarded one feels the torques put out, so that there is something to feel."""
+        assert isinstance(self.what, Sensed)
+        felt = {"wrench": -self.effort, "guards": (GUARD,)} if self.guarded else {}
+        return ServoPeriod(sensed=self.what, effort=self.effort, **felt)
 
 
 class _Clock:
@@ -90,7 +107,7 @@ class _Clock:
     def event(self, kind: Callable[..., Event], shot: Picture | None = None, **fields: object) -> Moment:
         return Moment(kind(time=self.now, **fields), self.poses.copy(), self.shown, picture=shot)
 
-    def ticks(self, count: int) -> Iterator[Moment]:
+    def ticks(self, count: int, *, guarded: bool = False) -> Iterator[Moment]:
         for _ in range(count):
             self.time += JIFFY
             self.poses[1, :3] += np.float32(self.rng.normal(0, 1e-3, 3))
@@ -100,7 +117,7 @@ class _Clock:
             sensed = Sensed(
                 time=self.time, q=q, qd=qd, gap=0.02, touch=(False, False), tool_torque=0.0, braked=False
             )
-            yield Moment(sensed, self.poses.copy(), self.shown, effort)
+            yield Moment(sensed, self.poses.copy(), self.shown, effort, guarded=guarded)
 
 
 def started(time: float = 10.0) -> RunStarted:
@@ -120,7 +137,8 @@ def history() -> list[Moment]:
         moments += [clock.event(happened.StageStarted, stage=stage)]
         for place in range(3):
             moments += [clock.event(happened.StepStarted, step=number, line=2 + 2 * number, text="OPEN 1")]
-            moments += clock.ticks(6)
+            moments += clock.ticks(2)
+            moments += clock.ticks(4, guarded=True)
             moments += [clock.event(happened.GuardTripped, guard="force", value=9.0, limit=8.0)]
             if stage == "close" and place == 2:
                 clock.shown = True  # the screw has become part of a thread
@@ -172,7 +190,7 @@ class Recording:
                 assert moment.picture is not None
                 self.pictures[moment.what.picture] = moment.picture
             if isinstance(moment.what, Sensed):
-                self.recorder.tick(moment.what, moment.effort)
+                self.recorder.tick(moment.period)
             else:
                 self.recorder.event(moment.what)
             if isinstance(moment.what, StageFinished):
@@ -194,6 +212,22 @@ def between(first: int, last: int) -> list[Moment]:
     places = [place for place, moment in enumerate(HISTORY) if isinstance(moment.what, Event)]
     start = places[first - 1] + 1 if first else 0
     return HISTORY[start : places[last - 1] + 1]
+
+
+@contextmanager
+def in_format_2() -> Iterator[None]:
+    """Traces are written as the second version of the format had them."""
+    write = GrowingFile.write
+
+    def known(file: GrowingFile, topic: str, *rest: Any, **options: Any) -> None:
+        if topic not in NEWER:
+            write(file, topic, *rest, **options)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(mcap_writer, "VERSION", 2)
+        patch.setattr(mcap_writer, "CHANNELS", [c for c in CHANNELS if c.topic not in NEWER])
+        patch.setattr(GrowingFile, "write", known)
+        yield
 
 
 def record(path: Path) -> bytes:

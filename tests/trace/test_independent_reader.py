@@ -21,6 +21,7 @@ TYPES = {
     "/log": "foxglove.Log",
     "/scene": "foxglove.SceneUpdate",
     "/events": "handeye.Event",
+    "/hand": "handeye.Hand",
 }
 
 

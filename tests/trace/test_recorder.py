@@ -17,6 +17,7 @@ from handeye.trace import mcap_writer
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
 
+PERIOD = next(moment.period for moment in HISTORY if isinstance(moment.what, Sensed))
 FULL = r"^.*short\.mcap.* cannot be written: No space left on device$"
 
 
@@ -140,24 +141,21 @@ def test_going_back_to_any_event_and_forward_again_changes_no_byte(
 
 def test_going_back_takes_out_what_was_sensed_since(path: Path, uninterrupted: bytes) -> None:
     recording = Recording(path).begin().play(last=5)
-    sensed = next(moment.what for moment in HISTORY if isinstance(moment.what, Sensed))
-    recording.recorder.tick(sensed, np.ones(6))
+    recording.recorder.tick(PERIOD)
     recording.recorder.cut(5)
     assert recording.play(first=5).close() == uninterrupted
 
 
 def test_what_was_sensed_before_the_run_began_is_no_part_of_it(path: Path, uninterrupted: bytes) -> None:
     recording = Recording(path).begin()
-    sensed = next(moment.what for moment in HISTORY if isinstance(moment.what, Sensed))
-    recording.recorder.tick(sensed, np.ones(6))
+    recording.recorder.tick(PERIOD)
     assert recording.play().close() == uninterrupted
 
 
 def test_a_run_that_is_closed_between_two_events_keeps_what_was_sensed_since(path: Path) -> None:
     recording = Recording(path).begin().play(last=5)
     recording.recorder.flush()
-    sensed = next(moment.what for moment in HISTORY if isinstance(moment.what, Sensed))
-    recording.recorder.tick(sensed, np.ones(6))
+    recording.recorder.tick(PERIOD)
     recording.close()
     assert len(list(read_trace(path).ticks())) == 9
 

@@ -1,10 +1,11 @@
 """Two traces are told apart by the first thing in which they differ."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 import pytest
-from recordings import EVENTS, Recording
+from recordings import EVENTS, Recording, in_format_2
 
 from handeye.events import Event
 from handeye.trace.compare import first_difference
@@ -24,7 +25,9 @@ def _changed(
         write(msgspec.structs.replace(happened, **fields) if next(events) == event else happened)
 
     recording.recorder.event = altered  # type: ignore[method-assign]
-    recording.recorder.tick = lambda s, tau: sense(s, tau + (next(ticks) == tick))  # type: ignore[method-assign]
+    recording.recorder.tick = lambda period: sense(  # type: ignore[method-assign]
+        replace(period, effort=period.effort + (next(ticks) == tick))
+    )
     recording.play(last=last).close()
     return read_trace(path)
 
@@ -45,6 +48,16 @@ def test_how_a_trace_is_packed_makes_no_difference(
     other = _changed(tmp_path / "b.mcap")
     assert other.data != whole.data
     assert first_difference(whole, other) is None
+
+
+def test_what_an_older_version_of_the_format_did_not_have_makes_no_difference(
+    tmp_path: Path, whole: Trace
+) -> None:
+    with in_format_2():
+        older = _changed(tmp_path / "b.mcap")
+    assert (older.version, older.counts.get("/hand")) == (2, None)
+    assert first_difference(older, whole) is None
+    assert first_difference(whole, older) is None
 
 
 def test_an_event_that_differs_is_named_with_what_is_different(tmp_path: Path, whole: Trace) -> None:

@@ -93,8 +93,8 @@ def test_a_file_that_is_cut_short_is_refused(path: Path, data: st.DataObject) ->
             "does not say which version of the trace format it has",
         ),
         (
-            _mcap({"format": FORMAT, "version": "3"}),
-            "has trace format version 3; this handeye reads up to version 2",
+            _mcap({"format": FORMAT, "version": "4"}),
+            "has trace format version 4; this handeye reads up to version 3",
         ),
         (_mcap({"format": FORMAT, "version": "1"}), "is a trace without the start of a run"),
     ],

@@ -17,6 +17,7 @@ from recordings import EVENTS, HISTORY, record
 from rerun.chunk import RrdReader
 
 from handeye.ports.workcell import Sensed
+from handeye.trace.channels import CHANNELS
 from handeye.trace.reading import read_trace
 
 TIME = "message_log_time"
@@ -59,7 +60,9 @@ def _rows(folder: Path, entity: str) -> Iterator[dict[str, Any]]:
 
 def test_rerun_finds_no_fault_in_the_file(folder: Path) -> None:
     said = _rerun(folder, "mcap", "check", "short.mcap", "--full")
-    assert [line.split()[0] for line in said.splitlines() if "/" in line and line[0] != "s"] == ["ok"] * 6
+    assert [line.split()[0] for line in said.splitlines() if "/" in line and line[0] != "s"] == ["ok"] * len(
+        CHANNELS
+    )
 
 
 def test_the_transforms_are_at_the_right_times_and_places(folder: Path) -> None:

@@ -1,0 +1,120 @@
+"""What the hand feels and holds in a servo period, as JSON: no typed message of robotics tools has force and moment."""
+
+from typing import Annotated, Any, Final
+
+import msgspec
+import numpy as np
+from msgspec import UNSET, UnsetType
+
+from handeye.execution.servo_period import ServoPeriod
+from handeye.pose import Array
+from handeye.program.guards import GuardKind
+from handeye.record import Record
+from handeye.touch.guards import ActiveGuard
+
+PLACES: Final = 6
+"""Decimal places of all figures, as of a trip in its event: a micrometre, a micronewton."""
+
+
+class Axes(Record, frozen=True, kw_only=True):
+    """A vector, world axes."""
+
+    x: float
+    y: float
+    z: float
+
+    def array(self) -> Array:
+        """The same, shape (3,)."""
+        return np.array([self.x, self.y, self.z])
+
+
+class GuardMessage(Record, frozen=True, kw_only=True):
+    """A guard that watches."""
+
+    guard: Annotated[GuardKind, msgspec.Meta(extra_json_schema={"type": "string"})]
+    limit: float
+    """N, N m, or finger switches as a mask."""
+    axis: Axes | UnsetType = UNSET
+    """Unit vector along which it looks at the force, or about which at the moment; none: it looks at neither."""
+
+
+class HandMessage(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """What the hand feels and holds at the end of a servo period."""
+
+    estimated: bool
+    """Force and moment are estimated; else there are none here."""
+    force: Axes | UnsetType = UNSET
+    """Force of the hand on the world, N."""
+    moment: Axes | UnsetType = UNSET
+    """Moment of the hand on the world about its tool centre point, N m."""
+    gap: float
+    """Opening of the fingers, m."""
+    finger_1: bool
+    """The switch in the finger on the +y side of the hand frame."""
+    finger_2: bool
+    """The switch in the other."""
+    driver_torque: float
+    """Torque of the screwdriver's motor by its current, N m."""
+    guards: tuple[GuardMessage, ...] = ()
+    """Those that watch."""
+
+
+_encoder: Final = msgspec.json.Encoder()
+_decoder: Final = msgspec.json.Decoder(HandMessage)
+
+
+def hand_message(period: ServoPeriod) -> bytes:
+    """The message for a servo period."""
+    sensed, felt = period.sensed, period.wrench
+    message = HandMessage(
+        estimated=felt is not None,
+        force=UNSET if felt is None else _axes(felt[:3]),
+        moment=UNSET if felt is None else _axes(felt[3:]),
+        gap=_rounded(sensed.gap),
+        finger_1=sensed.touch[0],
+        finger_2=sensed.touch[1],
+        driver_torque=_rounded(sensed.tool_torque),
+        guards=tuple(map(_guard, period.guards)),
+    )
+    return _encoder.encode(message)
+
+
+def read_hand(data: bytes) -> HandMessage:
+    """The message in some bytes.
+
+    Raises:
+        msgspec.DecodeError: it is none.
+    """
+    return _decoder.decode(data)
+
+
+def hand_schema() -> bytes:
+    """JSON schema of the messages, all in one piece: not every tool follows references within a schema."""
+    whole = msgspec.json.schema(HandMessage)
+    return msgspec.json.encode(_in_place(whole, whole["$defs"]), order="sorted")
+
+
+def _in_place(schema: Any, defined: dict[str, Any]) -> Any:
+    """The schema with what is defined beside it put where it is referred to."""
+    match schema:
+        case {"$ref": str(name)}:
+            return _in_place(defined[name.rsplit("/", 1)[-1]], defined)
+        case dict():
+            return {key: _in_place(inner, defined) for key, inner in schema.items() if key != "$defs"}
+        case list():
+            return [_in_place(inner, defined) for inner in schema]
+    return schema
+
+
+def _guard(active: ActiveGuard) -> GuardMessage:
+    axis = UNSET if active.axis is None else _axes(active.axis)
+    return GuardMessage(guard=active.guard, limit=_rounded(active.limit), axis=axis)
+
+
+def _axes(vector: Array) -> Axes:
+    x, y, z = vector.tolist()
+    return Axes(x=_rounded(x), y=_rounded(y), z=_rounded(z))
+
+
+def _rounded(value: float) -> float:
+    return round(value, PLACES) + 0.0  # no negative zero
