@@ -2,10 +2,12 @@ import numpy as np
 import pytest
 
 from handeye.program.guards import Against, AnyGuard, Force, GuardKind, Moment, Torque, Touch
-from handeye.touch.guards import HELD, Monitor, Reading, Trip, monitor
+from handeye.touch.guards import Monitor, Reading, Trip, monitor
 from handeye.units import OUNCE_FORCE
 
 DOWN = np.array([0.0, 0.0, -1.0])
+HELD = 4
+"""Servo periods for which a torque has to last: in less the spindle is up to speed."""
 
 
 def pressing(ounces: tuple[float, float, float], direction: np.ndarray = DOWN) -> Reading:

@@ -69,9 +69,15 @@ class Canvas:
 
 
 def draw_base(
-    canvas: Canvas, where: View, base: Part, pose: tuple[float, float, float], *, holes: int = 2
+    canvas: Canvas,
+    where: View,
+    base: Part,
+    pose: tuple[float, float, float],
+    *,
+    holes: int = 2,
+    screws: bool = True,
 ) -> None:
-    """The pump base: plate on the belt, face, `holes` of the large holes, screw holes."""
+    """The pump base: plate on the belt, face, `holes` of the large holes, and screw holes if there are any."""
     x, y, yaw = pose
     z, top = base.at[2], base.at[2] + base.face
     c, s = math.cos(yaw), math.sin(yaw)
@@ -85,5 +91,6 @@ def draw_base(
     outline = cv2.convexHull(hull).reshape(-1, 2)
     canvas.polygon(where.project(np.column_stack([outline, np.full(len(outline), top)])), FACE)
     shown = list(zip(large, base.holes, strict=True))[2 - holes :]
-    for place, hole in [*shown, *zip(hole_places(base, pose, screws=True), base.screw_holes, strict=True)]:
+    tapped = list(zip(hole_places(base, pose, screws=True), base.screw_holes, strict=True)) if screws else []
+    for place, hole in [*shown, *tapped]:
         canvas.disc(where, place, hole.diameter, HOLE)

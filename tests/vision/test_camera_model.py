@@ -1,5 +1,7 @@
 """The camera model: where points fall in the picture, and back."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -55,3 +57,9 @@ def test_tilt_turns_the_camera_down():
 def test_a_lens_that_is_not_in_the_turret_is_refused():
     with pytest.raises(InvalidInput, match=r"^no lens of 35 mm in the turret; it has 25 mm and 50 mm$"):
         DRAWING.view(0.035, 0, 0)
+
+
+def test_a_lens_stands_where_its_drawing_says_from_the_crossing_of_the_axes():
+    model = replace(DRAWING, lenses=(LensModel(focal_length=0.05, forward=0.1, up=0.03),))
+    off = model.view(0.05, 0.0, 0.0).X_WC[:3, 3] - model.mount
+    assert off == pytest.approx((0.0, -0.1, 0.03))

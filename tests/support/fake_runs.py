@@ -1,0 +1,82 @@
+"""Short scripts carried out by the Stanford arm in the fake cell: what the executor does, and no physics of parts."""
+
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import numpy as np
+from fakes import FakeCell
+
+from handeye.al import compile_text
+from handeye.arm.ik import solve
+from handeye.arm.robots.stanford import STANFORD
+from handeye.events import ErrorRaised, Event, StepStarted
+from handeye.execution.context import ExecutionContext
+from handeye.execution.executor import Executor
+from handeye.planning.planner import make_plan
+from handeye.pose import Array, hand
+from handeye.program.program import Part, Position
+from handeye.program.taught import Taught
+from handeye.source import Source
+from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.park import PARK
+from handeye.units import DEGREE, INCH
+
+Kind = TypeVar("Kind", bound=Event)
+
+T = Position(at=(25 * INCH, 38 * INCH, 6 * INCH, 90 * DEGREE, 90 * DEGREE, 0.0))
+"""A position in the middle of the table, the hand pointing down."""
+AT_T = solve(STANFORD, hand(*T.at), PARK).q
+"""The joint positions there."""
+
+
+@dataclass(kw_only=True)
+class FakeRun:
+    """A script in a fake cell, and everything that happened."""
+
+    cell: FakeCell
+    executor: Executor
+    events: list[Event] = field(default_factory=list)
+
+    def go(self) -> "FakeRun":
+        """Do steps until the program ends or the operator is called."""
+        while self.executor.state.at is not None:
+            self.executor.step()
+        return self
+
+    def all(self, kind: type[Kind]) -> list[Kind]:
+        """Events of a kind, in order."""
+        return [event for event in self.events if isinstance(event, kind)]
+
+    @property
+    def errors(self) -> list[int]:
+        return [event.number for event in self.all(ErrorRaised)]
+
+    @property
+    def steps(self) -> list[str]:
+        """The texts of the steps that began, in order."""
+        return [event.text for event in self.all(StepStarted)]
+
+    @property
+    def called(self) -> bool:
+        """The operator was called."""
+        return self.executor.state.stopped is not None
+
+    def saved(self, name: str) -> Array:
+        """A saved difference (in)."""
+        return self.executor.state.saved[name] / INCH
+
+    def off(self) -> Array:
+        """Where the hand is, less T (in)."""
+        return np.asarray(self.executor.run.drive.hand()[:3, 3] / INCH - np.array(T.at[:3]) / INCH)
+
+
+def fake_run(script: str, *, parts: dict[str, Part] | None = None) -> FakeRun:
+    """A script that knows the position T, ready to go from there."""
+    taught = Taught(positions={"T": T}, parts=parts or {})
+    program, diagnostics = compile_text(Source(name="fake.al", text=script), taught)
+    assert program is not None, diagnostics
+    plan, problems = make_plan(program, STANFORD, start=AT_T)
+    assert plan is not None, problems
+    cell, events = FakeCell(AT_T), list[Event]()
+    context = ExecutionContext(plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append)
+    return FakeRun(cell=cell, executor=Executor(run=context), events=events)
