@@ -52,7 +52,7 @@ def assemble(
         script: by default that of the water pump.
         world: seed, level and overrides of the world.
         camera: how to make pictures: `auto`, `gl` or `ray`.
-        out: a new folder that keeps plan, events, trace and checkpoints.
+        out: a new folder that keeps plan, events, trace, checkpoints, pictures and result.
 
     Raises:
         InvalidInput: the script has mistakes, the camera cannot work so, the folder cannot be had, or seed or world

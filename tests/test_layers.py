@@ -28,6 +28,7 @@ FOUNDATIONS = {
     "versions",
     "mutable_records",
     "plain_text",
+    "host_time",
 }
 LAYERS = [
     {*FOUNDATIONS},

@@ -26,8 +26,10 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
 
     Exit code 0: the program came to its end; 1: it stopped and called the operator.
     """
+    from handeye.host_time import HostTimer
     from handeye.report.page import timing as table
     from handeye.report.progress import Progress
+    from handeye.runs.host_seconds import Meter
     from handeye.trials.assembly import run_plan
 
     started = time.process_time()
@@ -38,7 +40,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
             plan,
             world=world.spec,
             camera=camera,
-            planning_wall_s=planning,
+            meter=Meter(timer=HostTimer.of_process(), planning_cpu_s=planning),
             referee=False,
             observers=lambda _: [progress],
         )

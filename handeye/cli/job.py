@@ -2,7 +2,6 @@
 
 import shlex
 import sys
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -20,16 +19,15 @@ from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
 from handeye.execution.servo_loop import Halted
-from handeye.files import write_whole
-from handeye.report.judging import findings
+from handeye.host_time import HostTimer
+from handeye.report.finishing import finished
 from handeye.report.page import page
-from handeye.report.pictures import keep_pictures
 from handeye.report.progress import Progress
 from handeye.report.result import Result, to_json
-from handeye.report.summary import summary
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
-from handeye.runs.folder import PICTURES, RESULT, RunFolder, open_new
+from handeye.runs.folder import PICTURES, RunFolder, open_new
+from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Operator, attend, parse_policy
 from handeye.runs.runner import Runner
@@ -67,8 +65,8 @@ class Job:
     on_stop: str | None = None
     json: bool = False
     referee: bool = False
-    planning: float = 0.0
-    """Seconds of the processor for the planning phase."""
+    planning_cpu_s: float = 0.0
+    """Of the planning phase."""
 
 
 class _KeepStages(Observer):
@@ -93,11 +91,15 @@ class _Work:
     def __init__(self, job: Job, panic: PanicButton) -> None:
         self.job = job
         self.panic = panic
-        self.begun = time.perf_counter()
         self.policy = self._policy()  # first: a word nobody knows must not cost a folder
         self.folder = job.folder
         if self.folder is None and job.out is not None:
             self.folder = open_new(job.out, job.start, overwrite=job.overwrite)
+        self.meter = Meter(
+            timer=HostTimer.of_process(),
+            planning_cpu_s=job.planning_cpu_s,
+            before=None if job.folder is None else job.folder.spent,
+        )
         self.progress = Progress(listing_of(job.start.setup).stages, notes)
         self.refused = False
         self.left: Path | None = None
@@ -143,7 +145,8 @@ class _Work:
         if self.job.start.stage is not None:
             self.progress.goes_on(self.job.start.stage)
         if self.folder is not None:
-            looking.append(self.folder.watch(runner, self.job.start, again=self.job.folder is not None))
+            again = self.job.folder is not None
+            looking.append(self.folder.watch(runner, self.job.start, again=again, meter=self.meter))
         if self.job.checkpoints is not None:
             looking.append(_KeepStages(self.job.checkpoints, self.job.start.setup))
         return looking
@@ -225,17 +228,9 @@ class _Work:
 
     def _finished(self, runner: Runner, pause: Pause) -> int:
         job = self.job
-        if pause.kind != "break":
-            runner.finish()
-        elif job.halfway and self.folder is None:
+        if pause.kind == "break" and job.halfway and self.folder is None:
             self._keep(runner.checkpoint())
-        found = findings(runner, pause) if job.referee and pause.kind != "break" else None
-        wall = time.perf_counter() - self.begun
-        result = summary(runner, pause, findings=found, wall=wall, planning=job.planning)
-        if self.folder is not None:
-            self.folder.close()
-            keep_pictures(self.folder.path / PICTURES, runner)
-            write_whole(self.folder.path / RESULT, to_json(result))
+        result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
         self._print(result)
         if pause.kind in ("break", "operator"):
             self._tell_how_to_go_on()

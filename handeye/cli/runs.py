@@ -78,7 +78,7 @@ def assemble(
             on_stop=on_stop,
             json=json,
             referee=True,
-            planning=planning,
+            planning_cpu_s=planning,
         )
     )
 

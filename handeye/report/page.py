@@ -1,10 +1,12 @@
 """The result of a run as a page for the terminal."""
 
+from collections.abc import Iterator, Mapping
+
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.report.result import Result
+from handeye.report.result import Result, Timing
 from handeye.tasks import task
 from handeye.tasks.task import Period
 
@@ -48,20 +50,26 @@ def timing(result: Result) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):
         table.add_column(name, justify="left" if not name else "right")
-    rows = (
-        ("planning phase (processor)", t.planning_wall_s, "planning"),
-        ("working phase", t.total_s, "total"),
-        ("  manipulation", t.manipulation_s, "manipulation"),
-        ("  lens change, aim and focus", t.lens_s, "lens"),
-        ("  vision (processor)", t.vision_wall_s, "vision"),
-    )
-    for name, seconds, part in rows:
-        if seconds or part != "planning":  # the plan may have been there already
-            table.add_row(name, clock(seconds), "" if then is None else clock(then.times[part]))
+    for name, seconds, at_that_time in _rows(t, {} if then is None else then.times):
+        table.add_row(name, clock(seconds), "" if at_that_time is None else clock(at_that_time))
     if t.real_time_factor >= 0.05:
-        simulated = ("simulated in", f"{t.wall_s:.1f} s", f"{t.real_time_factor:.1f}x real time")
+        since = f" from step {t.host_from_step} on" if t.host_from_step else ""
+        simulated = (f"simulated{since} in", clock(t.run_wall_s), f"{t.real_time_factor:.1f}x real time")
         table.add_row(*(Text(text, "dim") for text in simulated))
     return table
+
+
+def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[tuple[str, float, float | None]]:
+    """Name, seconds here, and those of its day, if there are any; the one sum is of simulated seconds."""
+    if t.planning_cpu_s:  # the plan may have been there already
+        yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
+    if t.calibration_s:
+        yield "camera calibration", t.calibration_s, None
+    worked = then["manipulation"] + then["lens"] if then else None
+    yield "working phase, without vision", t.working_s, worked
+    yield "  manipulation", t.manipulation_s, then.get("manipulation")
+    yield "  lens change, aim and focus", t.lens_s, then.get("lens")
+    yield "vision (processor)", t.vision_cpu_s, then.get("vision")
 
 
 def period(result: Result) -> Period | None:

@@ -16,20 +16,30 @@ class Stage(Record, frozen=True, kw_only=True):
 
 
 class Timing(Record, frozen=True, kw_only=True):
-    """Times of a run: simulated seconds, but for these.
+    """Times of a run, simulated and of the host; no field adds one to the other.
 
-    `planning_wall_s` (0: the plan was there already) and `vision_wall_s` are processor time of this computer.
-    `wall_s` is its clock from building the cell to the referee's word; the real-time factor is all simulated time,
-    camera calibration included, over it.
+    Equal runs have equal simulated seconds. What ends in `_cpu_s` (seconds of a processor) or `_wall_s` (seconds of a
+    clock) is the host's, is another each time, and is summed over all sessions of a run that was resumed.
     """
 
-    planning_wall_s: float
+    calibration_s: float
+    """Simulated: the camera was calibrated, before the working phase."""
     manipulation_s: float
+    """Simulated: the working phase without the camera's mechanism."""
     lens_s: float
-    vision_wall_s: float
-    total_s: float
-    wall_s: float
+    """Simulated: lens change, aim and focus."""
+    working_s: float
+    """Simulated: the working phase, which is manipulation and lens."""
+    planning_cpu_s: float
+    """0: the plan was there already."""
+    vision_cpu_s: float
+    run_cpu_s: float
+    run_wall_s: float
+    """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
     real_time_factor: float
+    """Simulated seconds, calibration included, for one of `run_wall_s`: the host's, and another each time."""
+    host_from_step: int
+    """Steps done before the host's seconds were counted; 0: they are those of the whole run."""
 
 
 class Check(Record, frozen=True, kw_only=True):

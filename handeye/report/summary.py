@@ -1,6 +1,6 @@
 """The result of a run, from what happened in it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from handeye.events import (
     AnyEvent,
@@ -15,6 +15,7 @@ from handeye.judge.finding import Finding, Findings, all_right
 from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.runs.advance import Pause
+from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.trace.sentences import renderer_name
@@ -22,15 +23,12 @@ from handeye.units import INCH
 from handeye.versions import versions
 
 
-def summary(
-    runner: Runner, pause: Pause, *, findings: Findings | None, wall: float, planning: float
-) -> Result:
+def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: HostSeconds) -> Result:
     """Summarize a run.
 
     Args:
         findings: the referee's; None if nobody was asked.
-        wall: seconds of this computer's clock since the run was begun or taken up.
-        planning: seconds of its processor for the planning phase.
+        host: what the run has cost the host.
     """
     completed = pause.kind == "end"
     names = runner.stages
@@ -44,7 +42,7 @@ def summary(
         message=pause_sentence(pause),
         interventions=tuple(interventions(runner.events)),
         stages=stage_times(names, runner.events),
-        timing=_timing(runner, wall, planning),
+        timing=_timing(runner.events, runner.time, host),
         referee=checks,
         task=runner.setup.task,
         program=runner.listing.name,
@@ -98,18 +96,22 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
     return tuple(Stage(name=name, status=status[name], arm_s=round(seconds[name], 3)) for name in names)
 
 
-def _timing(runner: Runner, wall: float, planning: float) -> Timing:
-    begun = next((e.time for e in runner.events if isinstance(e, RunStarted)), runner.time)
-    lens = sum(event.seconds for event in runner.events if isinstance(event, CameraBusy))
-    simulated, vision = runner.time - begun, runner.vision.seconds
+def _timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
+    """Times of a run of which these events have happened; `clock` is the cell's (s)."""
+    begun = next((event.time for event in events if isinstance(event, RunStarted)), clock)
+    lens = sum((event.seconds for event in events if isinstance(event, CameraBusy)), 0.0)
+    covered = max(clock - host.from_clock_s, 0.0)
     return Timing(
-        planning_wall_s=planning,
-        manipulation_s=round(simulated - lens, 3),
+        calibration_s=round(begun, 3),
+        manipulation_s=round(clock - begun - lens, 3),
         lens_s=round(lens, 3),
-        vision_wall_s=vision,
-        total_s=round(simulated + vision, 3),
-        wall_s=wall,
-        real_time_factor=(runner.time - runner.started) / wall if wall > 0 else 0.0,
+        working_s=round(clock - begun, 3),
+        planning_cpu_s=host.planning_cpu_s,
+        vision_cpu_s=host.vision_cpu_s,
+        run_cpu_s=host.run_cpu_s,
+        run_wall_s=host.run_wall_s,
+        real_time_factor=round(covered / host.run_wall_s, 3) if host.run_wall_s > 0 else 0.0,
+        host_from_step=host.from_step,
     )
 
 

@@ -64,14 +64,15 @@ class Head(Record, frozen=True, kw_only=True):
     """The referee is to look at what came out."""
 
 
-class _Snapshot(Record, frozen=True, kw_only=True):
+class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
     """A `Snapshot` whose state is read by the type of its system."""
 
     position: Annotated[int, msgspec.Meta(ge=0)]
     happened: Annotated[int, msgspec.Meta(ge=0)]
     cell: CellState | None
     state: msgspec.Raw
-    vision_s: float
+    vision_s: float = 0.0
+    """Written by a handeye of before, and not read: processor time, which no two runs take the same."""
 
 
 class _Body(Record, frozen=True, kw_only=True):
@@ -169,7 +170,6 @@ def _on_disk(snapshot: Snapshot) -> _Snapshot:
         happened=snapshot.happened,
         cell=snapshot.cell,
         state=msgspec.Raw(state),
-        vision_s=snapshot.vision_s,
     )
 
 
@@ -188,7 +188,6 @@ def _in_memory(kept: _Snapshot, kind: SystemKind, name: str) -> Snapshot:
         happened=kept.happened,
         cell=kept.cell,
         state=state,
-        vision_s=kept.vision_s,
     )
 
 

@@ -1,4 +1,4 @@
-"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result.
+"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result, and what it cost the host.
 
 It is an observer: it writes down what happens and changes nothing.
 """
@@ -17,6 +17,7 @@ from handeye.execution.servo_period import ServoPeriod
 from handeye.files import read_whole, write_whole
 from handeye.ports.camera import Picture
 from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.host_seconds import HostSeconds, Meter, read_host_seconds, write_host_seconds
 from handeye.runs.journal import Journal
 from handeye.runs.observer import Observer
 from handeye.runs.programs import context_of
@@ -33,6 +34,7 @@ TRACE: Final = "trace.mcap"
 RESULT: Final = "result.json"
 CHECKPOINTS: Final = "checkpoints"
 PICTURES: Final = "pictures"
+HOST: Final = "host.json"
 
 
 class RunFolder(Observer):
@@ -43,18 +45,26 @@ class RunFolder(Observer):
         self.path = path
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
-        self._begun = False
+        self._begun = self._closed = False
         self._runner: Runner | None = None
         self._journal: Journal | None = None
         self._recorder: Recorder | None = None
+        self.spent: HostSeconds | None = None
+        """What earlier sessions of the run have cost the host; None: there were none, or nobody knows."""
+        self._meter = Meter()
 
-    def watch(self, runner: Runner, start: Checkpoint, *, again: bool) -> "RunFolder":
+    def watch(
+        self, runner: Runner, start: Checkpoint, *, again: bool, meter: Meter | None = None
+    ) -> "RunFolder":
         """Look at a run that begins, or with `again` goes on, from `start`.
+
+        Args:
+            meter: measures what the run costs the host; by default from now on.
 
         Raises:
             InvalidInput: the folder cannot be written to.
         """
-        self._runner = runner
+        self._runner, self._meter = runner, meter or Meter(before=self.spent)
         self._journal = Journal(self.path / EVENTS, start.events, again=again)
         if not again:
             self.begin(start)
@@ -77,7 +87,7 @@ class RunFolder(Observer):
         """
         self._begun = True
         self.kept.drop_after(-1)
-        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT)]
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, kind_of(start.setup).encode(start.setup.plan))
@@ -124,6 +134,11 @@ class RunFolder(Observer):
             return
         self._recorder.flush()  # first: a checkpoint must not be ahead of the trace that leads to it
         self.kept.save(checkpoint)
+        self._write_cost()
+
+    def _write_cost(self) -> None:
+        assert self._runner is not None
+        write_host_seconds(self.path / HOST, self._meter.seconds(self._runner))
 
     def check_traced(self) -> None:
         """Make sure that what happens next can be told.
@@ -142,6 +157,9 @@ class RunFolder(Observer):
             self._journal.close()
         if self._recorder is not None:
             self._recorder.close()
+            if not self._closed and not self._recorder.broken:
+                self._write_cost()
+        self._closed = True
 
     def discard(self) -> None:
         """Remove what `open_new` has made, if the run has not begun."""
@@ -184,7 +202,7 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
 
 
 def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
-    """The folder of a run that was interrupted, its newest sound checkpoint, and the faults of those left out.
+    """The folder of a run that was interrupted, its newest sound checkpoint, and the faults of what is left out.
 
     Raises:
         InvalidInput: there is none, or it is not of the plan in the folder.
@@ -198,6 +216,10 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     if checkpoint is None:
         raise InvalidInput(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")
     _check_plan(path, checkpoint.setup)
+    try:
+        folder.spent = read_host_seconds(path / HOST)
+    except InvalidInput as fault:
+        faults.append(str(fault))
     return folder, checkpoint, faults
 
 
@@ -230,7 +252,7 @@ def _refuse_run(path: Path) -> None:
 
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
-    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES}
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES, HOST}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)
     others = (

@@ -67,7 +67,7 @@ class Runner:
         self.listing = listing_of(start.setup)
         """Stages and steps of what is carried out."""
         self.vision = Stopwatch(time.process_time)
-        """Processor time that vision has taken in all."""
+        """Processor time that vision has taken since this object took the run up, undone steps included."""
         self.system: System = kind_of(start.setup).build(
             start.setup, Surroundings(emit=self._emit, watch=self._watch, halt=halt, vision=self.vision)
         )
@@ -79,6 +79,8 @@ class Runner:
         """States to go back to, the present one last."""
         self.started = 0.0
         """The clock when this object took the run up, or the system began to prepare it."""
+        self.first = 0
+        """Steps that were done then."""
         self.observers: list[Observer] = []
         self._broken: str | None = None
         begun = None if start.snapshot is not None else self.system.begin()
@@ -86,7 +88,7 @@ class Runner:
             self.events += start.events
             self._put(start.snapshot)
             self.history.append(start.snapshot)
-            self.started = self.time
+            self.started, self.first = self.time, self.position
         self.observers += observers(self)
         if begun is not None:
             self._emit(begun)
@@ -299,7 +301,6 @@ class Runner:
                 happened=len(self.events),
                 cell=captured,
                 state=copied(self.system.state),
-                vision_s=self.vision.seconds,
             )
         )
         if len(self.history) > RECENT:
@@ -321,7 +322,6 @@ class Runner:
         if cell is not None and snapshot.cell is not None:
             cell.restore(snapshot.cell)
         self.system.restore(snapshot.state)
-        self.vision.seconds = snapshot.vision_s
         self.position, self._broken = snapshot.position, None
         del self.events[snapshot.happened :]
 

@@ -24,8 +24,6 @@ class Snapshot(Record, frozen=True, kw_only=True):
     """None: the system acts on no simulated cell."""
     state: SystemState
     """State of the system."""
-    vision_s: float = 0.0
-    """Processor time that vision has taken until then: beside the state, since no two runs take the same."""
 
 
 class Checkpoint(Record, frozen=True, kw_only=True):

@@ -42,7 +42,7 @@ class Period:
     program: str
     """The program that these are the times of."""
     times: Mapping[str, float]
-    """By the names `planning`, `manipulation`, `lens`, `vision` and, of the working phase, `total`."""
+    """By the names `planning`, `manipulation`, `lens` and `vision`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -117,7 +117,6 @@ class Workplace:
             happened=len(runner.events),
             cell=runner.cell.capture(),
             state=copied(self.run.state),
-            vision_s=runner.vision.seconds,
         )
         return Checkpoint(
             setup=runner.setup,

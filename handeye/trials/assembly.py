@@ -1,16 +1,15 @@
 """One whole run: a drawn world, a calibrated camera, a plan carried out, a referee's verdict."""
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from handeye.planfile.plan import Plan
-from handeye.report.judging import findings
+from handeye.report.finishing import finished
 from handeye.report.result import Result
-from handeye.report.summary import summary
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
+from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
@@ -31,7 +30,7 @@ def run_plan(
     *,
     world: WorldSpec,
     camera: str = "auto",
-    planning_wall_s: float = 0.0,
+    meter: Meter | None = None,
     referee: bool = True,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     folder: Path | None = None,
@@ -39,27 +38,24 @@ def run_plan(
     """Carry out a plan in a world, with no operator there, and have it judged.
 
     Args:
-        folder: a new folder that keeps plan, events, trace and checkpoints.
+        meter: measures what the run costs the host; by default from now on.
+        folder: a new folder that keeps plan, events, trace, checkpoints, pictures and result.
 
     Raises:
         InvalidInput: the plan is for another arm, the camera cannot work as asked, or the folder cannot be had.
     """
-    begun = time.perf_counter()
+    metered = meter or Meter()
     start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
     keeping = None if folder is None else open_new(folder, start)
 
     def looking(runner: Runner) -> Sequence[Observer]:
-        kept = [] if keeping is None else [keeping.watch(runner, start, again=False)]
+        kept = [] if keeping is None else [keeping.watch(runner, start, again=False, meter=metered)]
         return [*observers(runner), *kept]
 
     try:
         runner = Runner(start, observers=looking)
-        pause = advance(runner)
-        runner.finish()
+        result = finished(runner, advance(runner), metered, judged=referee, folder=keeping)
     finally:
         if keeping is not None:
             keeping.close()
-    found = findings(runner, pause) if referee else None
-    wall = time.perf_counter() - begun
-    result = summary(runner, pause, findings=found, wall=wall, planning=planning_wall_s)
     return Finished(result=result, runner=runner)

@@ -24,6 +24,8 @@ def result(
     program: str = "water_pump",
     planning: float = 0.0,
     factor: float = 1.0,
+    calibration: float = 0.0,
+    from_step: int = 0,
 ) -> Result:
     return Result(
         assembled=assembled, completed=completed, paused=False, interventions=(),
@@ -31,8 +33,8 @@ def result(
         error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program,
         task="water_pump", seed=0, world=WorldSpec(seed=0), versions={},
         timing=Timing(
-            planning_wall_s=planning, manipulation_s=0, lens_s=0, vision_wall_s=0, total_s=0, wall_s=1,
-            real_time_factor=factor,
+            calibration_s=calibration, manipulation_s=0, lens_s=0, working_s=0, planning_cpu_s=planning,
+            vision_cpu_s=0, run_cpu_s=1, run_wall_s=1, real_time_factor=factor, host_from_step=from_step,
         ),
         camera=CameraReport(renderer="ray casting", sightings_rms_px={}, residual_in=None),
     )  # fmt: skip
@@ -48,13 +50,24 @@ def table(made: Result) -> str:
 @pytest.mark.parametrize(("program", "compared"), [("water_pump", True), ("first", False)])
 def test_only_the_pump_is_compared_with_1973(program: str, compared: bool) -> None:
     shown = table(result(completed=True, assembled=None, program=program))
-    assert ("1973" in shown, "5:32 min" in shown) == (compared, compared)
+    assert ("1973" in shown, "5:30 min" in shown) == (compared, compared)
     assert "working phase" in shown
 
 
 @pytest.mark.parametrize(("planning", "told"), [(0.0, False), (0.4, True)])
 def test_planning_is_timed_where_it_was_done(planning: float, told: bool) -> None:
     assert ("planning phase" in table(result(completed=True, assembled=None, planning=planning))) == told
+
+
+@pytest.mark.parametrize(("calibration", "told"), [(0.0, False), (215.0, True)])
+def test_calibration_of_the_camera_has_a_row_of_its_own(calibration: float, told: bool) -> None:
+    shown = table(result(completed=True, assembled=None, calibration=calibration))
+    assert ("camera calibration" in shown, "3:35 min" in shown) == (told, told)
+
+
+@pytest.mark.parametrize(("step", "told"), [(0, "simulated in"), (7, "simulated from step 7 on in")])
+def test_it_is_said_from_where_on_the_seconds_of_this_computer_are_known(step: int, told: str) -> None:
+    assert told in table(result(completed=True, assembled=None, from_step=step))
 
 
 @pytest.mark.parametrize(("factor", "told"), [(0.0, False), (5.5, True)])

@@ -117,6 +117,13 @@ def test_a_sealed_file_with_nonsense_in_it_is_refused(
         decode(changed(data, **fields), "it")
 
 
+def test_seconds_of_the_host_that_were_saved_once_are_left_out(data: bytes) -> None:
+    _, _, packed = data.split(b"\n", 2)
+    snapshot = msgspec.msgpack.decode(zlib.decompress(packed))["snapshot"]
+    old = changed(data, snapshot={**snapshot, "vision_s": 2.5})
+    assert (encode(decode(old, "it")), "vision_s" in snapshot) == (data, False)
+
+
 def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checkpoint_file, "LARGEST", 1000)
     with pytest.raises(InvalidInput, match="its state is too large"):

@@ -74,7 +74,7 @@ def names(path: Path) -> list[str]:
 
 
 def test_it_holds_plan_events_trace_and_a_checkpoint_for_each_stage(whole: Path) -> None:
-    assert names(whole) == ["checkpoints", "events.jsonl", "pictures", "plan.json", "trace.mcap"]
+    assert names(whole) == ["checkpoints", "events.jsonl", "host.json", "pictures", "plan.json", "trace.mcap"]
     assert names(whole / "checkpoints") == [
         "0000-go-to-the-pin.checkpoint",
         "0002-take-the-pin.checkpoint",

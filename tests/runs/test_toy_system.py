@@ -17,6 +17,7 @@ from handeye.runs import systems
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode, read_checkpoint
 from handeye.runs.folder import TRACE, open_again, open_new
+from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.operator import Abort, Retry, attend
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -165,6 +166,6 @@ def test_checkpoints_are_found_by_stage(tmp_path: Path) -> None:
 
 def test_its_result_has_stages_and_no_camera() -> None:
     runner = answered(Runner(begin_toy()))
-    result = summary(runner, advance(runner), findings=None, wall=1.0, planning=0.0)
+    result = summary(runner, advance(runner), findings=None, host=HostSeconds(run_wall_s=1.0))
     assert [(stage.name, stage.status) for stage in result.stages] == [("count", "done"), ("ask", "done")]
     assert (result.completed, result.camera.renderer) == (True, "none")

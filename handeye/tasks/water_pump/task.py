@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 PERIOD: Final = Period(
     year=1973,
     program="water_pump",
-    times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0, "total": 332.0},
+    times={"planning": 60.0, "manipulation": 240.0, "lens": 90.0, "vision": 2.0},
 )
 """Bolles and Paul, STAN-CS-73-396."""
 

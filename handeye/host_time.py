@@ -1,0 +1,45 @@
+"""Seconds of this computer: by its clock, and of its processor. No part of what happens in a run depends on them."""
+
+import os
+import time
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Self
+
+_IMPORTED = time.monotonic()
+
+
+@dataclass(frozen=True, slots=True)
+class HostTimer:
+    """Measures what has been spent since a moment; by itself, since it was made."""
+
+    _wall: float = field(default_factory=time.monotonic)
+    _cpu: float = field(default_factory=time.process_time)
+
+    @classmethod
+    def of_process(cls) -> Self:
+        """Measures from the start of this process, its interpreter and imports included."""
+        return cls(_wall=time.monotonic() - process_age(), _cpu=0.0)
+
+    @property
+    def wall_s(self) -> float:
+        """Seconds by the clock, waiting included."""
+        return time.monotonic() - self._wall
+
+    @property
+    def cpu_s(self) -> float:
+        """Seconds of the processor that this process took."""
+        return time.process_time() - self._cpu
+
+
+def process_age() -> float:
+    """Seconds since this process was started; where the system does not tell, since this module was imported."""
+    imported = time.monotonic() - _IMPORTED
+    with suppress(OSError, ValueError, IndexError, AttributeError):
+        after_name = Path("/proc/self/stat").read_text(encoding="ascii", errors="replace").rpartition(")")[2]
+        started = int(after_name.split()[19]) / os.sysconf("SC_CLK_TCK")
+        age = time.clock_gettime(time.CLOCK_BOOTTIME) - started
+        if started > 0 and age >= imported:
+            return age
+    return imported

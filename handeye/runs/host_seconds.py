@@ -1,0 +1,76 @@
+"""What a run has cost the computers it was on: in all its sessions, beside what happened in it.
+
+It is kept in a file of its own, so that checkpoints and traces of equal runs are equal to the byte.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.files import read_whole, write_whole
+from handeye.host_time import HostTimer
+from handeye.record import Record
+from handeye.runs.runner import Runner
+
+_LARGEST = 10_000
+"""Bytes of the file."""
+
+
+class HostSeconds(Record, frozen=True, kw_only=True):
+    """Seconds of the host, summed over the sessions of a run: the processes that began it and took it up."""
+
+    planning_cpu_s: float = 0.0
+    """0: the plan was there already."""
+    vision_cpu_s: float = 0.0
+    """With what was undone later."""
+    run_cpu_s: float = 0.0
+    run_wall_s: float = 0.0
+    """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
+    from_step: int = 0
+    """Steps done before the first session that is counted."""
+    from_clock_s: float = 0.0
+    """The cell's clock at that moment."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Meter:
+    """Measures a session of a run, on top of those before."""
+
+    timer: HostTimer = field(default_factory=HostTimer)
+    planning_cpu_s: float = 0.0
+    before: HostSeconds | None = None
+
+    def seconds(self, runner: Runner) -> HostSeconds:
+        """All that the run has cost until now."""
+        before = self.before or HostSeconds(from_step=runner.first, from_clock_s=runner.started)
+        return msgspec.structs.replace(
+            before,
+            planning_cpu_s=round(before.planning_cpu_s + self.planning_cpu_s, 3),
+            vision_cpu_s=round(before.vision_cpu_s + runner.vision.seconds, 3),
+            run_cpu_s=round(before.run_cpu_s + self.timer.cpu_s, 3),
+            run_wall_s=round(before.run_wall_s + self.timer.wall_s, 3),
+        )
+
+
+def read_host_seconds(path: Path) -> HostSeconds | None:
+    """What earlier sessions have cost; None if there is no record of them.
+
+    Raises:
+        InvalidInput: the record cannot be used.
+    """
+    if not path.exists():
+        return None
+    try:
+        found = msgspec.json.decode(read_whole(path, _LARGEST), type=HostSeconds)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise InvalidInput(f"{path} is no record of seconds: {error}") from None
+    if min(msgspec.structs.astuple(found)) < 0:
+        raise InvalidInput(f"{path} is no record of seconds: one is negative")
+    return found
+
+
+def write_host_seconds(path: Path, seconds: HostSeconds) -> None:
+    """Write the record, whole or not at all."""
+    write_whole(path, msgspec.json.format(msgspec.json.encode(seconds), indent=1) + b"\n")
