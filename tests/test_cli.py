@@ -122,13 +122,13 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
     ("words", "sentence"),
     [
         (("assemble", "--seed", "-1"), "a seed is a whole number from 0 up; -1 is not"),
-        (("assemble", "--seed", "x"), "Invalid value for --seed"),
-        (("assemble", "--camera", "film"), 'Invalid value "film" for --camera'),
+        (("assemble", "--seed", "x"), "--seed: `x` is not a whole number"),
+        (("assemble", "--camera", "film"), "--camera is one of auto, gl, ray; `film` is none of them"),
         (("trials", "assembly", "--seeds", "9-3"), "'9-3' is neither"),
         (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
         (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
         (("trials", "assembly", "--seeds", "9" * 19), "the largest seed is"),
-        (("frobnicate",), 'Unknown command "frobnicate"'),
+        (("frobnicate",), "there is no command `frobnicate`"),
     ],
 )
 def test_a_wrong_argument_ends_with_two(command: Command, words: tuple[str, ...], sentence: str) -> None:

@@ -190,11 +190,22 @@ def test_a_stage_that_has_ended_is_no_place_to_stop_any_more(command: Command, p
     assert (code, "the run begins with “feel”, after “to and fro”" in err) == (2, True)
 
 
-def test_a_break_leaves_a_checkpoint_to_go_on_from_even_without_a_folder(
-    command: Command, planned: Planned
+@pytest.mark.parametrize(
+    ("words", "typed"), [(("--break", "8"), ""), (("--to", "1"), ""), (("--step",), "step\nquit\n")]
+)
+def test_a_run_without_a_folder_leaves_no_file_and_says_how_it_would(
+    command: Command, planned: Planned, words: tuple[str, ...], typed: str
 ) -> None:
-    code, _, err = command("run", planned(SCRIPT), "--break", "8", "--seed", "3")
-    (left,) = Path().glob("*.checkpoint")
+    plan = planned(SCRIPT)
+    before = sorted(Path().iterdir())
+    code, _, err = command("run", plan, *words, typed=typed)
+    assert (code, err.splitlines()[-1]) == (0, "not kept; with --out FOLDER it could be resumed")
+    assert sorted(Path().iterdir()) == before
+
+
+def test_a_break_leaves_a_checkpoint_in_the_folder_of_checkpoints(command: Command, planned: Planned) -> None:
+    code, _, err = command("run", planned(SCRIPT), "--break", "6", "--seed", "3", "--checkpoints", ".")
+    (left,) = Path().glob("job-3-*.checkpoint")
     assert (code, f"resume with: handeye resume {left}" in err) == (0, True)
     assert "-3-" in left.name
     assert command("resume", str(left), "--no-judge")[0] == 0
@@ -251,11 +262,11 @@ def test_states_that_the_stepper_keeps_do_not_lose_each_other(command: Command, 
     tried = "step 3\nset position THERE 25 35 9\nquit\n"
     kept = []
     for typed in (tried, "step 3\nquit\n", tried):
-        err = command("run", plan, "--step", typed=typed)[2]
+        err = command("run", plan, "--step", "--checkpoints", "kept", typed=typed)[2]
         kept.append(err.splitlines()[-1])
-    go_on = "resume with: handeye resume job-0-0003-once-more"
+    go_on = "resume with: handeye resume kept/job-0-0003-once-more"
     assert kept == [f"{go_on}.checkpoint", f"{go_on}-2.checkpoint", f"{go_on}.checkpoint"]
-    touched, plain = (read_head(Path(f"job-0-0003-once-more{end}.checkpoint")) for end in ("", "-2"))
+    touched, plain = (read_head(Path(f"kept/job-0-0003-once-more{end}.checkpoint")) for end in ("", "-2"))
     assert (touched.touched, plain.touched) == (True, False)
 
 

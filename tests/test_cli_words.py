@@ -34,7 +34,7 @@ def test_what_is_missing_is_called_as_in_the_help(
     command: Command, words: tuple[str, ...], missing: str
 ) -> None:
     code, _, err = command(*words)
-    assert (code, f"parameter {missing} requires an argument" in err) == (2, True)
+    assert (code, f"needs {missing} (see `handeye {words[0]} --help`)" in err) == (2, True)
 
 
 COMMANDS = [

@@ -1,15 +1,23 @@
 """The command line: parses arguments, wires concrete things together, prints."""
 
-import os
 import sys
-from typing import NoReturn
+from contextlib import suppress
+from typing import Final, NoReturn
 
 from cyclopts import App, CycloptsError, Parameter
 
 from handeye.cli import benches, editing, plans, runs, scripts, teaching, traces, trials, worlds
-from handeye.cli.common import complain, notes, screen
+from handeye.cli.common import complain, note, notes, screen
+from handeye.cli.panic_button import terminable
+from handeye.cli.streams import let_go_of_streams, prepare_streams
+from handeye.cli.usage import usage_sentence
 from handeye.errors import HandeyeError
 from handeye.versions import HANDEYE
+
+BAD_INPUT: Final = 2
+INTERRUPTED: Final = 130
+GONE: Final = 141
+"""The exit code where the reader of our output has gone."""
 
 app = App(
     name="handeye",
@@ -26,28 +34,46 @@ for commands in (runs, teaching, scripts, editing, plans, traces, worlds, trials
 
 def main() -> NoReturn:
     """Run the command line; the exit code says how it went."""
-    _open_streams()
+    prepare_streams()
     try:
-        code = app(result_action="return_value", exit_on_error=False)
-    except CycloptsError:
-        sys.exit(2)
-    except HandeyeError as error:
-        complain(error)
-        sys.exit(2)
-    except KeyboardInterrupt:
-        notes.print("\nhandeye: interrupted", markup=False)
-        sys.exit(130)
+        code = _carried_out()
+        sys.stdout.flush()  # here, where a full disk can still be told
     except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(141)
+        code = GONE
+    except OSError as error:
+        code = _complained(f"standard output: {error.strerror}")
+    let_go_of_streams()
+    sys.exit(code)
+
+
+def _carried_out() -> int:
+    """The exit code of the command that was typed.
+
+    Raises:
+        OSError: what there was to say cannot be written.
+    """
+    try:
+        with terminable():
+            code = app(result_action="return_value", exit_on_error=False, print_error=False)
+    except CycloptsError as error:
+        return _complained(usage_sentence(error))
+    except HandeyeError as error:
+        return _complained(error)
+    except KeyboardInterrupt:
+        note("\nhandeye: interrupted")
+        return INTERRUPTED
+    except UnicodeEncodeError as error:  # Python keeps byte 0xff of a name as U+DCFF, which nothing can write
+        byte = ord(error.object[error.start]) & 0xFF
+        return _complained(f"a name with the byte {byte:#04x} in it is not UTF-8 text; choose another")
     except OSError as error:  # a path that is too long, a folder that may not be looked into
-        complain(f"{error.filename or 'standard output'}: {error.strerror}")
-        sys.exit(2)
-    sys.exit(code if isinstance(code, int) else 0)
+        if error.filename is None:
+            raise
+        return _complained(f"{error.filename}: {error.strerror}")
+    return code if isinstance(code, int) else 0
 
 
-def _open_streams() -> None:
-    """Put the null device where a standard stream was closed before we came."""
-    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
-        if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115 - it is open for good
+def _complained(sentence: object) -> int:
+    """The exit code of bad input, after saying what is wrong with it to whoever still listens."""
+    with suppress(OSError):
+        complain(sentence)
+    return BAD_INPUT

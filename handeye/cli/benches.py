@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, put_json, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.runs.scripts import default_script
@@ -99,5 +99,5 @@ def language(
             soft_wrap=True,
         )
     if json:
-        screen.print_json(data={"measured": [waiting.as_json() for waiting in measured]})
+        put_json({"measured": [waiting.as_json() for waiting in measured]})
     return 0 if all(waiting.is_short for waiting in measured) else 1

@@ -1,9 +1,12 @@
 """Parts that the commands share: consoles, options, scripts and their diagnostics."""
 
+import re
+import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
+import msgspec
 from cyclopts import Parameter, Token
 from rich.console import Console
 
@@ -14,6 +17,9 @@ from handeye.planfile.plan import Plan
 from handeye.runs.scripts import plan_script
 from handeye.source import Source
 
+LONGEST: Final = 99
+"""Characters of a whole number."""
+
 Script = Annotated[Path, Parameter(help="A script (.al), with its taught file (.toml) beside it.")]
 PlanFile = Annotated[Path, Parameter(help="A plan made by `handeye plan` (.plan.json).")]
 CameraKind = Literal["auto", "gl", "ray"]
@@ -23,12 +29,14 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
     """A whole number as typed.
 
     Raises:
-        ValueError: it is none, as 1.5 is.
+        ValueError: it is none, as 1.5 is, or larger than anything here.
     """
-    try:
-        return int(tokens[0].value)
-    except ValueError:
-        raise ValueError(f"{quoted(tokens[0].value)} is not a whole number") from None
+    typed = tokens[0].value
+    if not re.fullmatch(r"[+-]?[0-9]+", typed):
+        raise ValueError(f"{quoted(typed)} is not a whole number")
+    if len(typed) > LONGEST:
+        raise ValueError(f"{quoted(typed)} is too large a number")
+    return int(typed)
 
 
 WholeNumber = Annotated[int, Parameter(converter=_whole)]
@@ -61,6 +69,22 @@ def say(text: str, to: Console = screen) -> None:
     to.print(visible(text), markup=False, soft_wrap=True)
 
 
+def put(answer: bytes) -> None:
+    """Write an answer for programs, or the content of a file: UTF-8, whatever the terminal's encoding is."""
+    sys.stdout.buffer.write(answer)
+    sys.stdout.flush()
+
+
+def put_line(text: str) -> None:
+    """Write one line of an answer for programs."""
+    put(f"{text}\n".encode())
+
+
+def put_json(answer: object) -> None:
+    """Write an answer for programs as JSON that people can read too."""
+    put(msgspec.json.format(msgspec.json.encode(answer), indent=1) + b"\n")
+
+
 def note(text: str) -> None:
     """Say something to the person at the terminal that is not the answer."""
     say(text, notes)
@@ -89,7 +113,7 @@ def compiled(file: Path) -> Plan:
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:
     """Print diagnostics: as JSON on standard output, or for people on standard error."""
     if json:
-        screen.print_json(data=[as_json(d, source) for d in diagnostics])
+        put_json([as_json(d, source) for d in diagnostics])
         return
     if len(diagnostics) == LIMIT:
         note(f"showing the first {LIMIT}")
@@ -101,4 +125,4 @@ def show_unreadable(file: Path, error: InvalidInput) -> None:
     """Print as JSON, in the place of diagnostics, why there are none: a script, or what is taught, cannot be used."""
     place = {"file": str(file), "line": 1, "column": 1, "end": 1, "text": ""}
     said = {"code": "unreadable-file", "severity": "error", "message": str(error), "file": str(file)}
-    screen.print_json(data=[{**said, "primary": place, "secondary": [], "notes": [], "help": None}])
+    put_json([{**said, "primary": place, "secondary": [], "notes": [], "help": None}])

@@ -9,8 +9,8 @@ from cyclopts import App, Parameter
 from handeye.al.formatter import format_text
 from handeye.al.includes import read_script
 from handeye.al.syntax_check import check_form
-from handeye.cli.common import note, say, show
-from handeye.diagnostics import has_errors
+from handeye.cli.common import note, put, say, show
+from handeye.diagnostics import has_errors, quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.files import write_whole
 from handeye.source import Source
@@ -40,11 +40,20 @@ def fmt(
     """
     if not files:
         raise InvalidInput("fmt needs the name of a script, or - for standard input")
+    for file in files:
+        _check_name(file)
     code = 0
     for file in files:
         source = _standard_input() if file == STANDARD_INPUT else read_script(file)
         code = max(code, _fmt(file, source, check=check))
     return code
+
+
+def _check_name(file: Path) -> None:
+    """Raises InvalidInput if a name is meant for an option: cyclopts takes `-` for a file only if it takes all such."""
+    if file.name.startswith("-") and file != STANDARD_INPUT and not file.exists():
+        near = suggestion(file.name, ("--check", "--help"))
+        raise InvalidInput(f"`fmt` has no option {quoted(file.name)}{f'; {near}' if near else ''}")
 
 
 def _fmt(file: Path, source: Source, *, check: bool) -> int:
@@ -59,8 +68,7 @@ def _fmt(file: Path, source: Source, *, check: bool) -> int:
             say(f"{source.name} would change")
         return int(tidy != source.text)
     if file == STANDARD_INPUT:
-        sys.stdout.buffer.write(tidy.encode())
-        sys.stdout.flush()
+        put(tidy.encode())
     elif tidy != source.text:
         write_whole(file, tidy.encode())
         say(f"{source.name}: formatted")

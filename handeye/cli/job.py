@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
-from handeye.cli.common import note, notes, say, screen
+from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.debugger.ask import Ask
@@ -38,7 +39,8 @@ from handeye.runs.systems import listing_of
 from handeye.trace.sentences import renderer_name
 from handeye.versions import versions
 
-PANIC = Pause(kind="panic")
+PANIC: Final = Pause(kind="panic")
+NOT_KEPT: Final = "not kept; with --out FOLDER it could be resumed"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -178,9 +180,12 @@ class _Work:
         names = [name for settable in runner.system.settables().values() for name in settable.names]
         words = [*(command.name for command in COMMANDS), *TOPICS, *runner.listing.labels, *names]
         lines = typed_lines("handeye> ", self._waiting, lambda: words)
+        if self.folder is None and self.job.checkpoints is None:
+            note("nothing is kept without --out FOLDER; `checkpoint FILE` keeps a state")
         most = MOST if screen.is_terminal else None
         try:
-            return interact(stepper, lines, say, json=self.job.json, prompt=sys.stdin.isatty(), most=most)
+            write = put_line if self.job.json else say
+            return interact(stepper, lines, write, json=self.job.json, prompt=sys.stdin.isatty(), most=most)
         finally:
             self.refused = stepper.refused
 
@@ -201,11 +206,13 @@ class _Work:
         begun = self.job.start.position  # what is there from later on may be of a run that went another way
         return CheckpointStore(self.job.checkpoints).at_or_before(min(position, begun))
 
-    def _keep(self, checkpoint: Checkpoint) -> Path:
+    def _keep(self, checkpoint: Checkpoint) -> Path | None:
+        """Save a state where the command line says; None if it says nowhere: nobody expects a file then."""
         if self.folder is not None:
             self.folder.check_traced()
             return self.folder.kept.save(checkpoint)
-        self.left = leave(self.job.checkpoints or Path(), checkpoint)
+        if self.job.checkpoints is not None:
+            self.left = leave(self.job.checkpoints, checkpoint)
         return self.left
 
     # -- ending ---------------------------------------------------------------------------------------
@@ -218,13 +225,15 @@ class _Work:
                 self._keep(runner.checkpoint())
             except InvalidInput as fault:
                 note(str(fault))
-        self._tell_how_to_go_on()
+        self._tell_how_to_go_on(runner)
         return 130
 
-    def _tell_how_to_go_on(self) -> None:
+    def _tell_how_to_go_on(self, runner: Runner | None) -> None:
         kept = self.left if self.folder is None else self.folder.path
         if kept is not None:
             note(f"resume with: handeye resume {shlex.quote(str(kept))}")
+        elif runner is not None and runner.position > self.job.start.position:
+            note(NOT_KEPT)
 
     def _finished(self, runner: Runner, pause: Pause) -> int:
         job = self.job
@@ -233,15 +242,14 @@ class _Work:
         result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
         self._print(result)
         if pause.kind in ("break", "operator"):
-            self._tell_how_to_go_on()
+            self._tell_how_to_go_on(runner)
         elif self.folder is not None:
             note(f"saved in {self.folder.path}")
         return result.exit_code
 
     def _print(self, result: Result) -> None:
         if self.job.json:
-            sys.stdout.buffer.write(to_json(result, line=self.job.step))
-            sys.stdout.flush()
+            put(to_json(result, line=self.job.step))
         else:
             screen.print(page(result))
 

@@ -1,10 +1,26 @@
-"""Ctrl-C as the panic button of the cell: asked at every servo period instead of breaking in anywhere."""
+"""Ctrl-C as the panic button of the cell: asked at every servo period instead of breaking in anywhere.
+
+To be told to end, as by `kill`, is the same as Ctrl-C.
+"""
 
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Self
+from typing import Final, Self
+
+ENDING: Final = (signal.SIGINT, signal.SIGTERM)
+"""Signals by which a person, or the system, asks for an end."""
+
+
+@contextmanager
+def terminable() -> Iterator[None]:
+    """While being told to end interrupts as Ctrl-C does, so that nothing half done stays behind."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class PanicButton:
@@ -15,11 +31,12 @@ class PanicButton:
         self._asking = False
 
     def __enter__(self) -> Self:
-        self._before = signal.signal(signal.SIGINT, self._press)
+        self._before = {number: signal.signal(number, self._press) for number in ENDING}
         return self
 
     def __exit__(self, *_: object) -> None:
-        signal.signal(signal.SIGINT, self._before)
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
 
     def __call__(self) -> bool:
         """True if it was pressed since the last call."""

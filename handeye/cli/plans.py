@@ -1,18 +1,17 @@
 """Commands that look into plans; nothing moves."""
 
-import sys
 from pathlib import Path
 from typing import Annotated, Final, Literal
 
 import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, PlanFile, say
+from handeye.cli.common import Json, PlanFile, put, put_json, say
 from handeye.errors import InvalidInput
 from handeye.files import Kind, write_over
 from handeye.planfile.store import read_plan
 
-StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or the start of it.")]
+StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or a piece of it.")]
 DRAWINGS: Final = {"svg": Kind("SVG drawing", rb"<svg ", ending=".svg"), "dot": Kind("graph", rb"digraph ")}
 
 
@@ -52,7 +51,7 @@ def inspect(
     elif json:
         found = inspection(plan)
         kept = tuple(s for s in found.stages if number in (None, s.number))
-        _json(msgspec.structs.replace(found, stages=kept))
+        put_json(msgspec.structs.replace(found, stages=kept))
     else:
         for line in inspection_text(inspection(plan), number):
             say(line)
@@ -69,7 +68,7 @@ def diff(old: PlanFile, new: PlanFile, /, *, json: Json = False) -> int:
 
     found = difference(read_plan(old), read_plan(new))
     if json:
-        _json(found)
+        put_json(found)
     else:
         for line in difference_text(found):
             say(line)
@@ -90,14 +89,8 @@ def schema(
     return 0
 
 
-def _json(record: msgspec.Struct) -> None:
-    sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(record), indent=1) + b"\n")
-    sys.stdout.flush()
-
-
 def _write(text: str, output: Path | None, kind: Kind) -> None:
-    if output is not None:
+    if output is None:
+        put(text.encode())
+    else:
         write_over(output, text.encode(), kind)
-        return
-    sys.stdout.buffer.write(text.encode())
-    sys.stdout.flush()

@@ -109,7 +109,7 @@ def run(
 ) -> int:
     """Carry out a plan in the work cell, or stages of it, or step by step.
 
-    Give a stage by its name, the beginning of its name, or its number. A later stage begins at its
+    Give a stage by its number, its name, or a piece of its name. A later stage begins at its
     checkpoint; without one, the stages before it come first.
 
     Exit code 0: the program ended, or paused where asked; 1: it stopped and called the

@@ -1,12 +1,10 @@
 """Commands on scripts and plans; nothing moves."""
 
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
-import msgspec
 from cyclopts import App, Parameter
 
 from handeye.al import extensions
@@ -16,6 +14,7 @@ from handeye.cli.common import (
     compiled,
     complain,
     note,
+    put_json,
     say,
     screen,
     show,
@@ -162,10 +161,7 @@ def stages(
 
     made = read_plan(file)
     if json:
-        sys.stdout.buffer.write(
-            msgspec.json.format(msgspec.json.encode(listing(made.program)), indent=1) + b"\n"
-        )
-        sys.stdout.flush()
+        put_json(listing(made.program))
     else:
         for line in listing_text(made.program):
             say(line)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, note, notes, screen
+from handeye.cli.common import Camera, Json, note, put_line, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
@@ -69,7 +69,7 @@ def do(
         workplace = _workplace(panic, _given(taught), world=world, camera=camera, look=look, first=first)
         lines = (f"DO {function}" for function in functions)
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
-        failed = converse(ReplSession(repl), lines, _say, json=json, strict=True)
+        failed = converse(ReplSession(repl), lines, put_line if json else say, json=json, strict=True)
     if failed is not None and "modifier-without-motion" in {d.code for d in failed.diagnostics}:
         note("a modifier and its motion go into one argument: handeye do $'STOP 50\\nCHANGE Z -1'")
     if keep is not None and (failed is None or not failed.refused):
@@ -110,7 +110,7 @@ def repl(
         workplace = _workplace(panic, _given(taught), world=world, camera=camera, look=look, first=first)
         lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
         typist = ReplSession(Repl(workplace=workplace, folder=folder))
-        failed = converse(typist, lines, _say, json=json)
+        failed = converse(typist, lines, put_line if json else say, json=json)
     return 0 if sys.stdin.isatty() else _code(failed)
 
 
@@ -148,9 +148,9 @@ def teach(
             panic.aside,
             lambda: (*TEACH_COMMANDS, *workplace.taught.positions, *workplace.taught.parts),
         )
-        failed = converse(TeachSession(teacher), lines, _say, json=json)
+        failed = converse(TeachSession(teacher), lines, put_line if json else say, json=json)
     if teacher.unsaved:
-        notes.print(f"not saved: {', '.join(teacher.unsaved)}", markup=False, soft_wrap=True)
+        note(f"not saved: {', '.join(teacher.unsaved)}")
     refused = failed is not None and not sys.stdin.isatty()
     return 2 if refused or teacher.unsaved else 0
 
@@ -204,7 +204,3 @@ def _code(failed: "Answer | None") -> int:
     if failed.refused:
         return 2
     return 130 if failed.stopped == "panic" else 1
-
-
-def _say(text: str) -> None:
-    screen.print(text, markup=False, soft_wrap=True)

@@ -1,14 +1,24 @@
 """Commands on the traces of runs."""
 
-import sys
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
-import msgspec
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, note, notes, say, screen
+from handeye.cli.common import (
+    Height,
+    Json,
+    PictureFile,
+    SceneCamera,
+    Width,
+    note,
+    notes,
+    put,
+    put_json,
+    say,
+    screen,
+)
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
 
@@ -37,8 +47,7 @@ def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON 
 
     _, events = _read(file)
     if json:
-        sys.stdout.buffer.write(b"".join(map(to_line, events)))
-        sys.stdout.flush()
+        put(b"".join(map(to_line, events)))
         return 0
     for line in account(events):
         say(line)
@@ -52,8 +61,7 @@ def stats(file: File, /, *, json: Json = False) -> int:
     trace, events = _read(file)
     figures = statistics(events, {} if trace is None else trace.counts)
     if json:
-        sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(figures), indent=1) + b"\n")
-        sys.stdout.flush()
+        put_json(figures)
     else:
         screen.print(statistics_table(figures))
     return 0

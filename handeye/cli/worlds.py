@@ -1,10 +1,8 @@
 """Commands that show a world: its quantities, a picture of it."""
 
-import sys
-
 from cyclopts import App
 
-from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, screen
+from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, put, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.files import check_place, write_over
 from handeye.tasks import task
@@ -24,8 +22,7 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
     table = task().variation(spec.seed)
     drawn = table.draw(spec)
     if json:
-        sys.stdout.buffer.write(world_json(table, drawn))
-        sys.stdout.flush()
+        put(world_json(table, drawn))
     else:
         screen.print(world_page(table, drawn, screen.width))
     return 0

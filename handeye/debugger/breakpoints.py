@@ -21,7 +21,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
     Args:
         text: `error:23`; a line of the source, or `pins.al:3` (its first step, or the first after it); a label; an
-            instruction word (every step that begins with it); a stage or the beginning of its name.
+            instruction word (every step that begins with it); a stage, by its name or a piece of it.
 
     Raises:
         InvalidInput: there is nothing of that name, or more than one stage.
@@ -46,7 +46,7 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
 
 
 def stage_number(text: str, listing: Listing) -> int:
-    """The index of a stage given by its number from 1, its name, or a beginning that no other name has.
+    """The index of a stage given by its number from 1, its name, or a piece of it that no other name has.
 
     Raises:
         InvalidInput: there is no such stage, or more than one.
@@ -58,7 +58,7 @@ def stage_number(text: str, listing: Listing) -> int:
         return int(text) - 1
     found = _stage(text, listing)
     if found is None:
-        raise InvalidInput(f"there is no stage {quoted(text)}{meant(text, stages)}")
+        raise InvalidInput(f"there is no stage {quoted(text.strip())}{_meant_stage(text, listing)}")
     return found
 
 
@@ -137,17 +137,33 @@ def _at_stage(text: str, listing: Listing) -> AnyStop | None:
 
 
 def _stage(text: str, listing: Listing) -> int | None:
-    """The index of a stage by its name or the beginning of it; None if there is none.
+    """The index of the stage that has this name, or else begins so, or else has it somewhere; None if none does.
 
     Raises:
-        InvalidInput: several begin so.
+        InvalidInput: several begin so, or have it somewhere.
     """
-    names = [name.casefold() for name in listing.stages]
     wanted = text.strip().casefold()
-    if wanted in names:
-        return names.index(wanted)
-    found = [i for i, name in enumerate(names) if wanted and name.startswith(wanted)]
-    if len(found) > 1:
-        several = ", ".join(quoted(listing.stages[i]) for i in found)
-        raise InvalidInput(f"{len(found)} stages begin with {quoted(text.strip())}: {several}")
-    return found[0] if found else None
+    names = [name.casefold() for name in listing.stages]
+    if not wanted:
+        return None
+    for fits, how in ((str.__eq__, "are"), (str.startswith, "begin with"), (str.__contains__, "contain")):
+        found = [number for number, name in enumerate(names) if fits(name, wanted)]
+        if len(found) > 1:
+            several = ", ".join(f"{number + 1} {quoted(listing.stages[number])}" for number in found)
+            raise InvalidInput(f"{len(found)} stages {how} {quoted(text.strip())}: {several}")
+        if found:
+            return found[0]
+    return None
+
+
+def _meant_stage(text: str, listing: Listing) -> str:
+    """`; did you mean ...` with the stages that have a name or a word like this one, or else all there are."""
+    typed = text.strip().casefold()
+    words = {word for name in listing.stages for word in (name, *name.split())}
+    near = nearest(typed, words, len(typed) // 3)
+    if near is None:
+        known = ", ".join(f"{number} {quoted(name)}" for number, name in enumerate(listing.stages, 1))
+        return f"; the program has {known}"
+    return (
+        f"; did you mean {' or '.join(quoted(name) for name in listing.stages if near in name.casefold())}?"
+    )

@@ -46,7 +46,7 @@ def manual() -> str:
             *out,
             "",
             "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
-            "stage or the beginning of its name, or an error (error:23). WHAT is one of",
+            "stage or a piece of its name, or an error (error:23). WHAT is one of",
             f"    {', '.join(TOPICS)}.",
             "Units: inches, degrees, ounces. On a terminal an empty line repeats the last step, stage",
             "or continue.",

@@ -194,7 +194,7 @@ def checkpoint(hands: DebugSession, rest: str) -> CommandResult:
         return CommandResult(file=str(path), said=f"saved to {path}")
     kept = hands.keep(hands.runner.checkpoint())
     if kept is None:
-        raise InvalidInput("this run has no folder for checkpoints; name a file")
+        raise InvalidInput("this run has no folder to keep checkpoints in: `checkpoint FILE` writes one")
     return CommandResult(file=str(kept), said=f"saved to {kept}")
 
 

@@ -135,8 +135,15 @@ def test_a_place_that_is_not_there_is_refused_in_a_sentence(text: str, sentence:
     assert str(refused.value) == sentence
 
 
-@pytest.mark.parametrize("text", ["2", "search in the air", "SEARCH", " se "])
-def test_a_stage_is_found_by_its_number_its_name_or_the_beginning_of_it(text: str) -> None:
+def test_the_beginning_of_a_name_counts_before_a_piece_of_another() -> None:
+    assert stage_number("s", plan_of('STAGE "hands"\nPARK\nSTAGE "shut"\nPARK').program) == 1
+
+
+EVERY_STAGE = "the program has 1 `open the hand`, 2 `search in the air`, 3 `grasp nothing`, 4 `shut the hand`"
+
+
+@pytest.mark.parametrize("text", ["2", "search in the air", "SEARCH", " se ", "air", "In The"])
+def test_a_stage_is_found_by_its_number_its_name_or_a_piece_of_it(text: str) -> None:
     assert stage_number(text, PLAN.program) == 1
 
 
@@ -145,9 +152,12 @@ def test_a_stage_is_found_by_its_number_its_name_or_the_beginning_of_it(text: st
     [
         ("0", "there is no stage 0; the program has stages 1 to 4"),
         ("5", "there is no stage 5; the program has stages 1 to 4"),
-        ("s", "2 stages begin with `s`: `search in the air`, `shut the hand`"),
+        ("s", "2 stages begin with `s`: 2 `search in the air`, 4 `shut the hand`"),
         ("grab nothing", "there is no stage `grab nothing`; did you mean `grasp nothing`?"),
-        ("", "there is no stage ``"),
+        ("hand", "2 stages contain `hand`: 1 `open the hand`, 4 `shut the hand`"),
+        ("hnad", "there is no stage `hnad`; did you mean `open the hand` or `shut the hand`?"),
+        ("", f"there is no stage ``; {EVERY_STAGE}"),
+        ("zzz", f"there is no stage `zzz`; {EVERY_STAGE}"),
     ],
 )
 def test_a_stage_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:

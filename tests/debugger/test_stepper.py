@@ -555,7 +555,7 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("retry", "`retry` answers a call of the operator, and there is none"),
         ("skip", "`skip` answers a call of the operator, and there is none"),
         ("abort", "`abort` answers a call of the operator, and there is none"),
-        ("checkpoint", "this run has no folder for checkpoints; name a file"),
+        ("checkpoint", "this run has no folder to keep checkpoints in: `checkpoint FILE` writes one"),
         ("help me", "there is no command `me`; `help` lists them"),
     ],
 )  # fmt: skip

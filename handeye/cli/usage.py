@@ -1,0 +1,81 @@
+"""One sentence for each way in which a command line can be wrong, from the facts of the parser."""
+
+from collections.abc import Iterator
+from typing import Final, Literal, get_args, get_origin
+
+from cyclopts import (
+    App,
+    ArgumentCollection,
+    CoercionError,
+    CycloptsError,
+    MissingArgumentError,
+    RepeatArgumentError,
+    UnknownCommandError,
+    UnknownOptionError,
+    UnusedCliTokensError,
+)
+
+from handeye.diagnostics import quoted, suggestion
+
+_NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
+"""What a value of a type is called."""
+
+
+def usage_sentence(error: CycloptsError) -> str:
+    """What is wrong with a command line, what may have been meant, and where to read more."""
+    command = " ".join(error.command_chain or ())
+    tell_more = f"see `handeye {command} --help`" if command else "see `handeye --help`"
+    return f"{_fault(error, quoted(command or 'handeye'))} ({tell_more})"
+
+
+def _fault(error: CycloptsError, command: str) -> str:
+    match error:
+        case UnknownCommandError(unused_tokens=[word, *_], app=app):
+            return _unknown_command(word, () if app is None else tuple(_commands(app, word)))
+        case UnknownOptionError(token=token, argument_collection=known):
+            name = token.keyword or token.value
+            return f"{command} has no option {quoted(name)}{_meant(name, _options(known))}"
+        case RepeatArgumentError(token=token):
+            return f"{token.keyword} is given more than once"
+        case CoercionError():
+            return _wrong_value(error)
+        case UnusedCliTokensError(unused_tokens=[word, *_]):
+            return f"{command} has no use for {quoted(word)}"
+        case MissingArgumentError(argument=argument, keyword=keyword) if argument is not None:
+            return f"{keyword} needs a value" if keyword else f"{command} needs {argument.name}"
+    error.verbose = False
+    return str(error)
+
+
+def _unknown_command(word: str, known: tuple[str, ...]) -> str:
+    kind = "option" if word.startswith("-") else "command"
+    return f"there is no {kind} {quoted(word)}{_meant(word, known)}"
+
+
+def _commands(app: App, word: str) -> Iterator[str]:
+    """Commands of a group, or its options if the word looks like one."""
+    return (name for name in app if name.startswith("-") == word.startswith("-"))
+
+
+def _options(known: ArgumentCollection) -> Iterator[str]:
+    return (name for argument in known for name in argument.names if name.startswith("-"))
+
+
+def _wrong_value(error: CoercionError) -> str:
+    """What is wrong with the value of an option or argument."""
+    name = "" if error.argument is None else error.argument.name
+    if error.msg is not None:  # by a converter of our own
+        return f"{name}: {error.msg}"
+    given = "" if error.token is None else error.token.value
+    if get_origin(error.target_type) is Literal:
+        words = [str(word) for word in get_args(error.target_type)]
+        return f"{name} is one of {', '.join(words)}; {quoted(given)} is none of them"
+    if error.target_type is bool:
+        return f"{name} takes no value; {quoted(given)} is one"
+    return f"{name} is {_NOUNS.get(error.target_type, 'something else')}; {quoted(given)} is not"
+
+
+def _meant(name: str, known: Iterator[str] | tuple[str, ...]) -> str:
+    """`; did you mean ...`, or the few that there are, if that helps."""
+    near = suggestion(name, known)
+    return f"; {near}" if near else ""

@@ -1,0 +1,35 @@
+"""A command line that is wrong is told in one sentence, which names what may have been meant."""
+
+import pytest
+from conftest import Command
+
+WRONG = {
+    "frobnicate": "there is no command `frobnicate` (see `handeye --help`)",
+    "asemble": "there is no command `asemble`; did you mean `assemble`? (see `handeye --help`)",
+    "trace shw": "there is no command `shw`; did you mean `show`? (see `handeye trace --help`)",
+    "--hlep": "there is no option `--hlep`; did you mean `--help`? (see `handeye --help`)",
+    "assemble --sed 3": "`assemble` has no option `--sed`; did you mean `--seed`? (see `handeye assemble --help`)",
+    "world --no-json": "`world` has no option `--no-json`; did you mean `--json`? (see `handeye world --help`)",
+    "fmt --chek": "`fmt` has no option `--chek`; did you mean `--check`?",
+    "check": "`check` needs FILE (see `handeye check --help`)",
+    "trace photograph run": "`trace photograph` needs --at (see `handeye trace photograph --help`)",
+    "run job.json --break": "--break needs a value (see `handeye run --help`)",
+    "trace photograph run -o": "-o needs a value (see `handeye trace photograph --help`)",
+    "check a b": "`check` has no use for `b` (see `handeye check --help`)",
+    "assemble --seed 1 --seed 2": "--seed is given more than once (see `handeye assemble --help`)",
+    "assemble --json=maybe": "--json takes no value; `maybe` is one (see `handeye assemble --help`)",
+    "run p --camera film": "--camera is one of auto, gl, ray; `film` is none of them (see `handeye run --help`)",
+    "trials breaking dishes": "KIND is one of killed, interrupted, alone, stepped; `dishes` is none of them (see "
+    "`handeye trials breaking --help`)",
+    "trials base 1.5": "COUNT: `1.5` is not a whole number (see `handeye trials base --help`)",
+    "trials base 1_0": "COUNT: `1_0` is not a whole number (see `handeye trials base --help`)",
+    "assemble --seed ١": "--seed: `١` is not a whole number (see `handeye assemble --help`)",
+    "trace photograph run --at noon -o it.png": "--at is a number; `noon` is not (see `handeye trace photograph "
+    "--help`)",
+}
+"""Command lines, and what is said of them."""
+
+
+@pytest.mark.parametrize("line", WRONG)
+def test_a_wrong_command_line_is_told_in_a_sentence(command: Command, line: str) -> None:
+    assert command(*line.split()) == (2, "", f"handeye: {WRONG[line]}\n")
