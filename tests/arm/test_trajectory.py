@@ -190,3 +190,9 @@ def test_set_points_beyond_a_limit_are_found() -> None:
     assert check_samples(STANFORD, samples).message(STANFORD) == (
         "joint 3 (boom) would have to be 51.0 in; it ends at 50.0 in"
     )
+
+
+def test_a_free_motion_leaves_and_comes_from_three_inches_up() -> None:
+    knots = move(STANFORD, PARK, at(24, 38, 2)).knots
+    first, lifted, over, last = forward(STANFORD, knots)[:, :3, 3]
+    np.testing.assert_allclose([lifted - first, over - last], [(0, 0, 3 * INCH)] * 2, atol=1e-9)

@@ -148,3 +148,12 @@ def test_a_program_planned_from_where_the_arm_stands_is_checked_from_there() -> 
     assert plan_program(program, STANFORD, AL, start=high)[1] == []
     (problem,) = plan_program(program, STANFORD, AL, start=low)[1]
     assert problem.message == "the hand would be 1.00 in below the table at the end of this `CHANGE`"
+
+
+def test_a_straight_motion_that_feels_its_way_goes_at_an_inch_a_second_and_a_free_one_at_two() -> None:
+    plan, _ = plan_of(
+        "TRANS T [25 38 6 90 90 0]\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] 2\nCHANGE [0 0 1] 2"
+    )
+    assert plan is not None
+    felt, free = (sum(plan.motions[step].times) for step in (1, 2))
+    assert felt - free == pytest.approx(2 / 1 - 2 / 2, abs=0.05)
