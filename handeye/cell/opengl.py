@@ -7,7 +7,7 @@ that MuJoCo reads when it is first imported: what works must not depend on who i
 import contextlib
 import ctypes
 import importlib
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, Final
 
 import mujoco
@@ -39,10 +39,6 @@ class OpenGlRenderer(SceneRenderer):
         self._model = model
         platform, self._gl = context()
         self.identity = Renderer(method="opengl", platform=platform)
-        self._gl.make_current()
-        self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
-        mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, self._context)
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
         self._scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
         self._camera = mujoco.MjvCamera()
         self._option = mujoco.MjvOption()
@@ -55,19 +51,30 @@ class OpenGlRenderer(SceneRenderer):
     def __del__(self) -> None:
         # what is freed must be this context's, and a renderer of somebody else may have made its own current
         with contextlib.suppress(Exception):  # at exit the display may be gone before us
-            self._gl.make_current()
-            self._context.free()
+            if "_context" in self.__dict__:
+                self._gl.make_current()
+                self._context.free()
+
+    @cached_property
+    def _context(self) -> mujoco.MjrContext:
+        """The scene as OpenGL keeps it, made for the first picture: longer work than building the cell."""
+        self._gl.make_current()
+        made = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
+        mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, made)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, made)
+        return made
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(self._model, data, self._option, None, self._camera, every, self._scene)
         self._aim(view)
         self._dull()
+        context = self._context
         self._gl.make_current()
         viewport = mujoco.MjrRect(0, 0, _WIDTH, _HEIGHT)
-        mujoco.mjr_render(viewport, self._scene, self._context)
+        mujoco.mjr_render(viewport, self._scene, context)
         rgb = np.zeros((_HEIGHT, _WIDTH, 3), dtype=np.uint8)
-        mujoco.mjr_readPixels(rgb, None, viewport, self._context)
+        mujoco.mjr_readPixels(rgb, None, viewport, context)
         fine = (rgb[::-1] / 255) @ LUMA
         return averaged(fine)
 

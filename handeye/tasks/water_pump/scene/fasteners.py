@@ -1,6 +1,7 @@
 """Aligning pins in their holder and screws in their dispenser."""
 
 import math
+from functools import cache
 
 import mujoco
 import numpy as np
@@ -25,13 +26,13 @@ def add_pins(shaper: Shaper, world: PumpWorld) -> None:
     radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
     hole = Bore(radius=radius, outer=0.0125, height=0.021, above=chamfer)
     fixture = add_fixture(shaper, world, Station.PIN_HOLDER, ((x0 + x1) / 2, (y0 + y1) / 2))
-    block = solids.extruded(solids.rectangle(x0 - 0.02, y0 - 0.02, x1 + 0.02, y1 + 0.02, 0.004), 0.0, height)
-    for number, (x, y) in enumerate([(x0, y0), (x1, y1)]):
+    places = ((x0, y0), (x1, y1))
+    for number, (x, y) in enumerate(places):
         shaper.ring(fixture.body, "holder", hole, (x, y, height - hole.height), lambda _: "bore")
-        block -= solids.bore(radius, height - hole.height, height, above=chamfer).translate((x, y, 0.0))
         _add_pin(shaper, fixture.stand(shaper, f"pin{number}", x, y, height + pin_seat(chamfer, radius)))
-    low, high = (x0 - 0.02, y0 - 0.02, 0.0), (x1 + 0.02, y1 + 0.02, height - hole.height - 0.0005)
-    shaper.box(fixture.body, "solid", low, high)
+    low, high = (x0 - 0.02, y0 - 0.02), (x1 + 0.02, y1 + 0.02)
+    shaper.box(fixture.body, "solid", (*low, 0.0), (*high, height - hole.height - 0.0005))
+    block = solids.drilled((*low, *high), height, places, radius, hole.height, chamfer)
     shaper.look(fixture.body, "pin_holder", "enamel", solids.surface(block))
 
 
@@ -56,15 +57,15 @@ def add_screws(shaper: Shaper, world: PumpWorld) -> None:
     fixture = add_fixture(shaper, world, Station.DISPENSER, (x, y))
     beyond = (len(world.holes) - 6) * d("dispenser.pitch")
     low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064 + beyond)
-    block = solids.extruded(solids.rectangle(*low, *high, 0.004), 0.0, height)
-    for number, (px, py) in enumerate(dispenser_places(len(world.holes))):
+    places = dispenser_places(len(world.holes))
+    for number, (px, py) in enumerate(places):
         shaper.ring(fixture.body, "dispenser", hole, (px, py, height - hole.height), lambda _: "bore")
         shaper.box(
             fixture.body, "seat", (px - 0.008, py - 0.008, height - 0.010), (px + 0.008, py + 0.008, height)
         )
-        block -= solids.bore(hole.radius, height - 0.02, height, above=hole.above).translate((px, py, 0.0))
         _add_screw(shaper, fixture.stand(shaper, f"screw{number}", px, py, height - length), number)
     shaper.box(fixture.body, "solid", (*low, 0.0), (*high, height - length - 0.002))
+    block = solids.drilled((*low, *high), height, places, hole.radius, 0.02, hole.above)
     shaper.look(fixture.body, "screw_dispenser", "enamel", solids.surface(block))
 
 
@@ -80,14 +81,19 @@ def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
 
 def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
     """Adds what a screw looks like: threaded shank, slotted head. Origin at its point."""
+    return [shaper.look(body, f"screw_{name}", name, part) for name, part in _screw_surfaces().items()]
+
+
+@cache
+def _screw_surfaces() -> dict[str, solids.Surface]:
+    """The surface of a screw by colour."""
     top = dimensions()("screw.length") + dimensions()("screw.head_height")
 
     def colour(middles: Array, normals: Array) -> NDArray[np.str_]:
         slot = (abs(middles[:, 1]) < 0.00071) & (abs(middles[:, 2] - top + 0.0006) < 0.00061)
         return np.where(slot, "slot", "screw")
 
-    parts = solids.painted(_screw(), colour)
-    return [shaper.look(body, f"screw_{name}", name, part) for name, part in parts.items()]
+    return solids.painted(_screw(), colour)
 
 
 def _screw() -> Manifold:

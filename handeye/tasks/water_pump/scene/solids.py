@@ -1,7 +1,12 @@
-"""Exact solids of the pump's parts, for looks and for clearances: manifold3d, from the dimensions."""
+"""Exact solids of the pump's parts, for looks and for clearances: manifold3d, from the dimensions.
+
+A solid is a value. It is carved when its surface is first asked for, which takes longer than compiling the whole
+scene: what has no figure of its own in a world is kept for the next one.
+"""
 
 import math
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 from manifold3d import CrossSection, Manifold  # type: ignore[import-not-found]  # stubs, but no marker
@@ -9,7 +14,7 @@ from numpy.typing import NDArray
 
 from handeye.pose import Array
 from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, screw_holes, web_centre
+from handeye.tasks.water_pump.drawing import Point, base_top, screw_holes, web_centre
 
 Surface = tuple[Array, NDArray[np.int32]]
 """Vertices, shape (n, 3), m, and triangles, shape (m, 3)."""
@@ -61,6 +66,7 @@ def outline() -> CrossSection:
     return body + rectangle(x0, y0, x1, y1, 0.004) + ear
 
 
+@cache
 def casting(screws: int) -> Manifold:
     """The base's casting, over its plate, with so many screw holes."""
     d = dimensions()
@@ -76,6 +82,7 @@ def casting(screws: int) -> Manifold:
     return solid
 
 
+@cache
 def plate() -> Manifold:
     """The base's plate."""
     d = dimensions()
@@ -84,6 +91,7 @@ def plate() -> Manifold:
     return extruded(box, 0.0, d("base.plate.thickness"))
 
 
+@cache
 def gasket(screws: int) -> Manifold:
     """The gasket: large holes a little wider than the base's, with flats for the fingers that carry it."""
     d = dimensions()
@@ -97,6 +105,7 @@ def gasket(screws: int) -> Manifold:
     return extruded(section, 0.0, d("gasket.thickness"))
 
 
+@cache
 def flange(screws: int) -> Manifold:
     """The top's flange with so many clearance holes."""
     d = dimensions()
@@ -107,6 +116,18 @@ def flange(screws: int) -> Manifold:
     for x, y in screw_holes(screws):
         solid -= hole.translate((x, y, 0.0))
     return solid
+
+
+@cache
+def drilled(
+    edges: tuple[float, float, float, float], height: float, places: tuple[Point, ...],
+    radius: float, depth: float, chamfer: float,
+) -> Manifold:  # fmt: skip
+    """An upright block between edges (x0, y0, x1, y1), with a hole from above at each place, m."""
+    block = extruded(rectangle(*edges, 0.004), 0.0, height)
+    for x, y in places:
+        block -= bore(radius, height - depth, height, above=chamfer).translate((x, y, 0.0))
+    return block
 
 
 def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold:
