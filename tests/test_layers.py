@@ -50,7 +50,6 @@ ARITHMETIC = {
 MAKERS = {
     "cell.opengl": {"importlib"},  # one of two libraries of OpenGL, whichever is there
     "tasks.__init__": {"importlib.import_module"},  # a task when it is asked for
-    "trials.keystrokes": {"importlib.util.find_spec"},
     "versions": {"importlib.metadata.version"},
 }
 """Modules that name another one at run time, and by which means."""

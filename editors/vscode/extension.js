@@ -22,7 +22,7 @@ async function activate(context) {
   } catch (error) {
     vscode.window.showErrorMessage(
       `The arm language server did not start (${command} lsp): ${error.message}. ` +
-        "Install it with: pip install 'handeye[lsp]'",
+        "Install handeye with `pip install .` in its folder, or set handeye.command",
     );
   }
 }

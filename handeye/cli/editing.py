@@ -101,13 +101,7 @@ def explain(word: str | None = None, /) -> int:
 
 def lsp() -> int:
     """Serve an editor over standard input and output (language server protocol)."""
-    try:
-        from handeye.editor.answers import serve
-    except ModuleNotFoundError as error:
-        if (error.name or "").split(".")[0] not in ("pygls", "lsprotocol"):
-            raise
-        raise InvalidInput(
-            "the language server needs the package pygls: pip install 'handeye[lsp]', or pip install pygls"
-        ) from None
+    from handeye.editor.answers import serve
+
     serve()
     return 0

@@ -3,7 +3,6 @@
 import subprocess
 import sys
 import time
-from importlib.util import find_spec
 from types import TracebackType
 from typing import Any, Final, Self
 
@@ -21,12 +20,7 @@ def typed(text: str, line: int, times: int) -> list[float]:
 
     Args:
         line: counted from 1.
-
-    Raises:
-        InvalidInput: pygls, which the server needs, is not installed.
     """
-    if find_spec("pygls") is None:
-        raise InvalidInput("the language server needs the package pygls: pip install pygls")
     column = len(text.splitlines()[line - 1])
     with _Editor(text) as editor:
         return [editor.type(line - 1, column + k, "ABCDEFGH"[k % 8]) for k in range(times)]

@@ -88,9 +88,6 @@ def measure(times: int) -> Iterator[Waiting]:
     """Measure each task so many times.
 
     What is typed is a name: each key leaves a text without an error, of which everything is to be checked.
-
-    Raises:
-        InvalidInput: pygls, which the language server needs, is not installed.
     """
     check = [_seconds(partial(_check, script(LINES, k))) for k in range(times)]
     yield Waiting(what=f"{LINES} lines checked", seconds=tuple(check), target=0.025)

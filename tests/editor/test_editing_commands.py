@@ -160,18 +160,6 @@ def test_explain_without_a_word_lists_every_code_and_error(command: Command) -> 
     assert [meaning for meaning in ERRORS.values() if meaning not in out] == []
 
 
-def test_the_server_without_its_package_says_how_to_get_it(
-    command: Command, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name in [name for name in sys.modules if name.startswith("handeye.editor.")]:
-        monkeypatch.delitem(sys.modules, name)
-    for name in ("pygls", "pygls.exceptions", "pygls.lsp.server", "lsprotocol"):
-        monkeypatch.setitem(sys.modules, name, None)
-    code, out, err = command("lsp")
-    assert (code, out) == (2, "")
-    assert err.startswith("handeye: the language server needs the package pygls: pip install")
-
-
 class Edits:
     """Changes files while a script is watched, one change a pause, then presses Ctrl-C."""
 

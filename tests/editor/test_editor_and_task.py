@@ -5,8 +5,6 @@ from pathlib import Path
 
 import pytest
 from documents import document, pointed
-
-pytest.importorskip("pygls")
 from lsprotocol import types as lsp
 from pygls.workspace import Workspace
 

@@ -8,7 +8,6 @@ import pytest
 from conftest import Command
 
 from handeye.al import compile_text
-from handeye.errors import InvalidInput
 from handeye.program.taught import Taught
 from handeye.source import Source
 from handeye.trials.keystrokes import typed
@@ -78,13 +77,4 @@ def test_the_bench_wants_to_measure_at_least_once(command: Command) -> None:
 
 @pytest.mark.slow
 def test_every_keystroke_is_answered_by_the_language_server() -> None:
-    pytest.importorskip("pygls")
     assert len(typed("        MOVE    P\n        SAVE    H\n", 2, 3)) == 3
-
-
-def test_without_pygls_it_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("handeye.trials.keystrokes.find_spec", lambda _: None)
-    with pytest.raises(
-        InvalidInput, match=r"^the language server needs the package pygls: pip install pygls$"
-    ):
-        typed("", 1, 1)

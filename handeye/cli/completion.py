@@ -1,0 +1,60 @@
+"""The command that teaches a shell to complete the words of handeye."""
+
+import os
+from pathlib import Path
+from typing import Annotated, Final, Literal
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import say
+from handeye.errors import InvalidInput
+
+Shell = Literal["bash", "zsh", "fish"]
+
+SHELLS: Final[dict[str, Shell]] = {"bash": "bash", "zsh": "zsh", "fish": "fish"}
+START_UP: Final[dict[Shell, str]] = {"bash": ".bashrc", "zsh": ".zshrc"}
+"""The file in the home folder that loads completions when a shell starts; fish finds them by itself."""
+CONDITION: Final[dict[Shell, str]] = {"zsh": ", if its .zshrc calls compinit"}
+
+
+def register(app: App) -> None:
+    """Add the command to the command line, of which it writes the words."""
+
+    def install_completion(
+        shell: Annotated[
+            Shell | None, Parameter(help="The shell to write it for. By default the one that SHELL names.")
+        ] = None,
+    ) -> int:
+        """Let the Tab key complete commands and options in bash, zsh or fish.
+
+        Writes a file of completions into the home folder, and a line that loads it into .bashrc or .zshrc. Says what
+        it wrote.
+        """
+        chosen = shell or _shell_of_the_user()
+        before = _start_up_text(chosen)
+        say(f"{app.install_completion(shell=chosen)}: written")
+        if chosen in START_UP:
+            changed = _start_up_text(chosen) != before
+            say(f"{_start_up(chosen)}: {'loads it from now on' if changed else 'already loads it'}")
+        say(f"Completion works in every {chosen} that is started from now on{CONDITION.get(chosen, '')}.")
+        return 0
+
+    app.command(install_completion, name="--install-completion")
+
+
+def _shell_of_the_user() -> Shell:
+    named = Path(os.environ.get("SHELL", "")).name
+    if named in SHELLS:
+        return SHELLS[named]
+    found = f"SHELL names `{named}`" if named else "SHELL names none"
+    raise InvalidInput(
+        f"completion can be written for bash, zsh and fish, and {found}: choose one with --shell"
+    )
+
+
+def _start_up(shell: Shell) -> Path:
+    return Path.home() / START_UP[shell]
+
+
+def _start_up_text(shell: Shell) -> bytes | None:
+    return _start_up(shell).read_bytes() if shell in START_UP and _start_up(shell).exists() else None

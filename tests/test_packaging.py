@@ -1,0 +1,81 @@
+"""What pyproject.toml says of the package is so, and the locks hold what it asks for."""
+
+import re
+import sys
+import tomllib
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+from import_reading import imports
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+from handeye.versions import HANDEYE
+
+ROOT = Path(__file__).parent.parent
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = PYPROJECT["project"]
+DEPENDENCIES = [Requirement(text) for text in PROJECT["dependencies"]]
+BUILDING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["build"]]
+TESTING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["dev"]]
+PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
+"""Packages whose modules have other names."""
+NOT_IMPORTED = {"trimesh"}
+"""A dependency for geometry that is to come; tests reckon masses with it."""
+
+
+def locked(name: str) -> set[tuple[str, str]]:
+    """Names and versions in a lock; two versions where an older Python needs the older one."""
+    text = (ROOT / name).read_text(encoding="utf-8")
+    assert "://" not in text  # a lock names packages and hashes, and no place to fetch them from
+    return set(re.findall(r"^([\w.-]+)==([^\s;]+)", text, re.MULTILINE))
+
+
+def test_the_package_has_the_version_that_results_name() -> None:
+    assert PROJECT["version"] == HANDEYE
+
+
+def test_the_lock_of_the_tests_holds_all_of_the_other() -> None:
+    assert locked("requirements.lock") - locked("requirements-dev.lock") == set()
+
+
+@pytest.mark.parametrize(
+    ("wanted", "lock"),
+    [
+        *((wanted, "requirements.lock") for wanted in DEPENDENCIES + BUILDING),
+        *((wanted, "requirements-dev.lock") for wanted in TESTING),
+    ],
+    ids=str,
+)
+def test_every_requirement_is_locked_at_versions_it_allows(wanted: Requirement, lock: str) -> None:
+    versions = [version for name, version in locked(lock) if name == canonicalize_name(wanted.name)]
+    assert versions
+    assert all(wanted.specifier.contains(version) for version in versions)
+
+
+def test_the_package_is_built_with_what_is_locked() -> None:
+    assert set(PYPROJECT["build-system"]["requires"]) <= set(map(str, BUILDING))
+
+
+@pytest.mark.slow
+def test_what_the_package_imports_and_what_it_asks_for_are_the_same() -> None:
+    modules = (ROOT / "handeye").rglob("*.py")
+    imported = {name.split(".")[0] for m in modules for name in imports(m.read_text("utf-8"), m.stem)}
+    foreign = imported - sys.stdlib_module_names - {"handeye"}
+    asked = {canonicalize_name(wanted.name) for wanted in DEPENDENCIES}
+    assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked - NOT_IMPORTED
+
+
+@pytest.mark.parametrize(
+    ("group", "name"),
+    [("console_scripts", "handeye"), ("pygments.lexers", "armal")],
+)
+def test_every_entry_point_leads_somewhere(group: str, name: str) -> None:
+    points = {"console_scripts": PROJECT["scripts"], **PROJECT["entry-points"]}
+    assert EntryPoint(name=name, group=group, value=points[group][name]).load() is not None
+
+
+def test_the_package_says_that_it_is_typed() -> None:
+    assert (ROOT / "handeye" / "py.typed").exists()
+    assert "Typing :: Typed" in PROJECT["classifiers"]

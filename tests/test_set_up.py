@@ -1,0 +1,127 @@
+"""`run.py` makes the environment, notices when it is out of date, and mends one that was left half made."""
+
+import sys
+from importlib.util import find_spec, module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PIECES = ("run.py", "pyproject.toml", "requirements.lock", "requirements-dev.lock")
+
+
+def module_of(checkout: Path) -> ModuleType:
+    """The `run.py` of a checkout."""
+    spec = spec_from_file_location("start", checkout / "run.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Pip:
+    """Notes what it is asked to install, and fails where told to."""
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+        self.fails_at: str | None = None
+
+    def __call__(self, *words: str) -> int:
+        self.asked.append(Path(words[-1]).name)
+        return int(self.asked[-1] == self.fails_at)
+
+
+@pytest.fixture
+def pip() -> Pip:
+    return Pip()
+
+
+@pytest.fixture
+def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pip: Pip) -> ModuleType:
+    """`run.py` of a checkout of its own, where an environment is a file and pip is ours."""
+    for name in PIECES:
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    module = module_of(tmp_path)
+
+    def make_environment() -> None:
+        module.PYTHON.parent.mkdir()
+        module.PYTHON.touch()
+
+    monkeypatch.setattr(module, "pip", pip)
+    monkeypatch.setattr(module, "make_environment", make_environment)
+    monkeypatch.setattr(module, "run", lambda command: 0)
+    return module
+
+
+def test_the_first_start_installs_the_lock_and_the_checkout_and_the_second_nothing(
+    start: ModuleType, pip: Pip, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert start.main(["check"]) == 0
+    assert pip.asked == ["requirements.lock", start.ROOT.name]
+    assert start.main(["check"]) == 0
+    assert len(pip.asked) == 2
+    assert capfd.readouterr().out == ""
+
+
+@pytest.mark.parametrize("piece", ["requirements.lock", "pyproject.toml"])
+def test_a_change_of_what_was_installed_is_installed(start: ModuleType, pip: Pip, piece: str) -> None:
+    start.main(["check"])
+    with (start.ROOT / piece).open("a") as file:
+        file.write("# another\n")
+    start.main(["check"])
+    assert pip.asked[2:] == pip.asked[:2]
+
+
+def test_an_environment_for_the_tests_serves_the_program_too(start: ModuleType, pip: Pip) -> None:
+    start.main(["test"])
+    start.main(["check"])
+    assert pip.asked == ["requirements-dev.lock", start.ROOT.name]
+
+
+def test_the_tests_install_what_the_program_does_without(start: ModuleType, pip: Pip) -> None:
+    start.main(["check"])
+    start.main(["test"])
+    assert pip.asked[2:] == ["requirements-dev.lock", start.ROOT.name]
+
+
+def test_an_environment_that_was_left_half_made_is_made_anew(
+    start: ModuleType, pip: Pip, capfd: pytest.CaptureFixture[str]
+) -> None:
+    pip.fails_at = "requirements.lock"
+    assert start.main(["check"]) == 2
+    assert "could not install what requirements.lock lists" in capfd.readouterr().err
+    (start.VENV / "half").touch()
+    pip.fails_at = None
+    assert start.main(["check"]) == 0
+    assert not (start.VENV / "half").exists()
+
+
+def test_an_environment_that_somebody_made_is_kept(start: ModuleType, pip: Pip) -> None:
+    start.VENV.mkdir()
+    start.make_environment()
+    (start.VENV / "theirs").touch()
+    assert start.main(["check"]) == 0
+    assert (start.VENV / "theirs").exists()
+
+
+def test_an_interruption_says_what_comes_next(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(*words: str) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(start, "pip", interrupted)
+    assert start.main(["check"]) == 130
+    assert capfd.readouterr().err.endswith("Setting up was interrupted; the next start completes it.\n")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(find_spec("pip") is None, reason="this environment was made without pip")
+def test_pip_speaks_on_standard_error_only(capfd: pytest.CaptureFixture[str]) -> None:
+    start = module_of(ROOT)
+    start.PYTHON = sys.executable
+    assert start.pip("--version") == 0
+    out, err = capfd.readouterr()
+    assert (out, err[:4]) == ("", "pip ")
