@@ -40,11 +40,10 @@ def full() -> Outer:
 def test_nothing_that_happens_to_a_record_changes_its_snapshot() -> None:
     record = full()
     snapshot = copied(record)
-    before = msgspec.structs.asdict(copied(snapshot))
+    before = str(msgspec.structs.asdict(snapshot))
     record.name, record.inner.count, record.spare, record.place = "other", 1, None, np.zeros(3)
     record.table["a"].append(3)
-    after = msgspec.structs.asdict(snapshot)
-    assert {name: str(value) for name, value in after.items()} == {n: str(v) for n, v in before.items()}
+    assert str(msgspec.structs.asdict(snapshot)) == before
 
 
 def test_an_owner_of_a_part_goes_on_with_what_was_put_back() -> None:

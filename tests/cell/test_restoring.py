@@ -4,12 +4,14 @@ import json
 from collections.abc import Callable
 from functools import cache
 
+import msgspec
 import numpy as np
 import pytest
 from driving import Drive, tick
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.state import CellState
+from handeye.errors import InvalidInput
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import JIFFY
@@ -85,3 +87,14 @@ def written(state: CellState) -> tuple[object, ...]:
     """Everything in a state, comparable."""
     figures = {name: values.tobytes() for name, values in state.figures.items()}
     return state.physics.tobytes(), figures, json.loads(state.noise), state.mechanisms
+
+
+@pytest.mark.parametrize("strange", [np.nan, np.inf])
+def test_a_state_that_is_not_finite_is_refused_and_changes_nothing(strange: float) -> None:
+    cell = drawn()
+    state = cell.capture()
+    physics = state.physics.copy()
+    physics[5] = strange
+    with pytest.raises(InvalidInput, match=r"work cell: some of its figures are not finite numbers$"):
+        cell.restore(msgspec.structs.replace(state, physics=physics))
+    assert written(cell.capture()) == written(state)

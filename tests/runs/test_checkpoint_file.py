@@ -124,6 +124,12 @@ def test_seconds_of_the_host_that_were_saved_once_are_left_out(data: bytes) -> N
     assert (encode(decode(old, "it")), "vision_s" in snapshot) == (data, False)
 
 
+def test_a_checkpoint_that_lacks_its_last_event_is_refused(data: bytes, runner: Runner) -> None:
+    events = msgspec.to_builtins(runner.checkpoint().events[:-1])
+    with pytest.raises(InvalidInput, match=r"it does not hold all that has happened$"):
+        decode(changed(data, events=events), "it")
+
+
 def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checkpoint_file, "LARGEST", 1000)
     with pytest.raises(InvalidInput, match="its state is too large"):

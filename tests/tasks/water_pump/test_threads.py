@@ -30,6 +30,10 @@ def test_a_screw_two_millimetres_off_never_engages_and_meets_no_torque() -> None
     assert end.height > 0.005
 
 
+def test_a_screw_that_is_turned_too_slowly_never_engages() -> None:
+    assert drive_screw(speed=2.5, seconds=4.0).thread.screw is None
+
+
 def test_a_tilted_screw_crosses_and_jams_high() -> None:
     end = outcome(tilt=0.07)
     assert end.thread.crossed

@@ -110,7 +110,7 @@ class Outcome:
 
 
 def drive_screw(
-    *, offset: float = 0.0, tilt: float = 0.0, seconds: float = 8.0, press: float = 6.0
+    *, offset: float = 0.0, tilt: float = 0.0, seconds: float = 8.0, press: float = 6.0, speed: float = SPEED
 ) -> Outcome:
     """Press and turn until the motor has to work too hard or the time is over; then switch it off."""
     world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6)
@@ -125,7 +125,7 @@ def drive_screw(
     torque = 0.0
     for _ in range(round(seconds / JIFFY)):
         data.qfrc_applied[model.joint("press").dofadr[0]] = weight - press
-        driver.drive(SPEED)
+        driver.drive(speed)
         threads.before(JIFFY)
         mujoco.mj_step(model, data, 16)
         assert not any(w.number for w in data.warning)
