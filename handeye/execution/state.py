@@ -25,6 +25,7 @@ from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
+from handeye.vision.marks import Mark, marks
 
 
 class Fault(Record, frozen=True, kw_only=True):
@@ -62,6 +63,10 @@ class Found:
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
     inspection: GasketInspection | None = None
+
+    def marks(self) -> list[Mark]:
+        """The same as marks on the picture."""
+        return marks(general=self.general, specific=self.specific, inspection=self.inspection)
 
 
 class DriveState(MutableRecord, kw_only=True):

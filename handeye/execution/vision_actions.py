@@ -17,6 +17,7 @@ from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look,
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel
 from handeye.vision.gasket import inspect as inspect_gasket
+from handeye.vision.marks import Mark
 
 
 def _tv(run: ExecutionContext) -> TvCamera:
@@ -137,6 +138,15 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     run.state.found[operation.after] = Found(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, cause=seen.cause))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, cause=seen.cause)
+
+
+def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
+    """Name of the picture in which the step under way has found something, and the marks of that on it."""
+    assert run.state.at is not None
+    operation = run.plan.program.steps[run.state.at].operation
+    assert isinstance(operation, General | Specific | Inspect)
+    name = operation.after if isinstance(operation, Inspect) else operation.picture
+    return name, run.state.found[name].marks()
 
 
 VISION_ACTIONS: Final[dict[type[Operation], Action]] = {

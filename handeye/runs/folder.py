@@ -14,6 +14,7 @@ from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent
 from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.vision_actions import just_found
 from handeye.files import read_whole, write_whole
 from handeye.ports.camera import Picture
 from handeye.runs.checkpoint_store import CheckpointStore
@@ -26,7 +27,8 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import digest_of, kind_of
 from handeye.trace.frames import Frames, NoFrames
-from handeye.trace.recorder import Recorder
+from handeye.trace.recorder import Looks, Recorder
+from handeye.vision.marks import Mark
 
 PLAN: Final = "plan.json"
 EVENTS: Final = "events.jsonl"
@@ -99,11 +101,16 @@ class RunFolder(Observer):
         setup, cell = self._runner.setup, self._runner.system.cell
         plan = kind_of(setup).encode(setup.plan)
         frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.task.arm)
-        return Recorder.resumed(self.path / TRACE, frames, self._picture, plan, len(events), events)
+        looks = Looks(picture=self._picture, found=self._found)
+        return Recorder.resumed(self.path / TRACE, frames, looks, plan, len(events), events)
 
     def _picture(self, name: str) -> Picture:
         assert self._runner is not None
         return context_of(self._runner.system).state.shots[name].picture
+
+    def _found(self) -> tuple[str, list[Mark]]:
+        assert self._runner is not None
+        return just_found(context_of(self._runner.system))
 
     # -- looking on -----------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import msgspec
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
 from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.Log_pb2 import Log
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
@@ -21,7 +22,7 @@ from handeye.trace.hand_message import hand_schema
 FORMAT: Final = "handeye trace"
 VERSION: Final = 3
 """Version of the format; a reader reads up to its own. The first did not say how the world was drawn, the second had
-no `HAND`."""
+neither `HAND` nor `ANNOTATIONS`."""
 REPEATABLE: Final = 2
 """Version from which on a run can be built again from its trace."""
 METADATA: Final = "handeye"
@@ -36,9 +37,10 @@ LOG: Final = "/log"
 SCENE: Final = "/scene"
 EVENTS: Final = "/events"
 HAND: Final = "/hand"
-MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND)
+ANNOTATIONS: Final = "/camera/annotations"
+MOMENTS: Final = (JOINTS, FRAMES, PICTURE, HAND, ANNOTATIONS)
 """Channels recorded beside the events: how it was at a moment."""
-NEWER: Final = {HAND: 3}
+NEWER: Final = {HAND: 3, ANNOTATIONS: 3}
 """Channels that the first version did not have, and the version that brought each."""
 
 WORLD: Final = "world"
@@ -98,6 +100,7 @@ CHANNELS: Final = (
         schema_encoding="jsonschema",
         schema=hand_schema(),
     ),
+    _typed(ANNOTATIONS, ImageAnnotations),
 )
 """All channels, in the order of their numbers in the file, which begin with 1."""
 

@@ -1,12 +1,21 @@
 """Records a run as it happens: every event, and sixty times a second where everything is."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from google.protobuf.message import DecodeError
 
 from handeye.errors import InvalidInput
-from handeye.events import Event, PictureTaken, RunStarted, StepStarted, WentBack
+from handeye.events import (
+    Event,
+    PartInspected,
+    PartSeen,
+    PictureTaken,
+    RunStarted,
+    StepStarted,
+    WentBack,
+)
 from handeye.execution.servo_period import ServoPeriod
 from handeye.files import read_whole
 from handeye.ports.camera import Picture
@@ -16,11 +25,22 @@ from handeye.trace.messages import Poses
 from handeye.trace.records import read_messages
 from handeye.trace.resuming import known, until
 from handeye.trace.writing import Writing
+from handeye.vision.marks import Mark
 
 
 def part(path: Path) -> Path:
     """Path of a growing trace that will be at `path` when it is whole."""
     return path.with_name(f"{path.name}.part")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Looks:
+    """What a program looks at, to be asked for when an event tells of it."""
+
+    picture: Callable[[str], Picture]
+    """The picture of a name, as it was taken last."""
+    found: Callable[[], tuple[str, Sequence[Mark]]]
+    """Name of the picture that the step under way has found something in, and the marks of that."""
 
 
 class Recorder:
@@ -33,7 +53,7 @@ class Recorder:
         self,
         path: Path,
         frames: Frames,
-        picture: Callable[[str], Picture],
+        looks: Looks,
         plan: bytes,
         *,
         old: bytes = b"",
@@ -42,7 +62,7 @@ class Recorder:
         """Begin a trace; what another run left unfinished at its place is replaced.
 
         Args:
-            picture: the picture of a name, as it was taken last.
+            looks: what the program looks at.
             plan: the bytes of `plan.json`.
             old: a trace to go on with, whole or not, and the events it is to begin with; see `resumed`.
             prefix: those events.
@@ -50,7 +70,7 @@ class Recorder:
         Raises:
             InvalidInput: it cannot be written; what was there is still there.
         """
-        self._path, self._frames, self._picture, self._plan = path, frames, picture, plan
+        self._path, self._frames, self._looks, self._plan = path, frames, looks, plan
         self._waiting: list[tuple[ServoPeriod, Poses, Mask]] = []
         head = next((event for event in prefix if isinstance(event, RunStarted)), None)
         kept = known(old, prefix)
@@ -65,7 +85,7 @@ class Recorder:
         cls,
         path: Path,
         frames: Frames,
-        picture: Callable[[str], Picture],
+        looks: Looks,
         plan: bytes,
         events: int,
         prefix: Sequence[Event],
@@ -82,7 +102,7 @@ class Recorder:
         prefix = prefix[:events]
         left = [read_whole(file) for file in (part(path), path) if file.exists()]
         old = max(left, key=lambda data: known(data, prefix), default=b"")
-        recorder = cls(path, frames, picture, plan, old=old, prefix=prefix)
+        recorder = cls(path, frames, looks, plan, old=old, prefix=prefix)
         recorder.flush()
         return recorder
 
@@ -105,7 +125,9 @@ class Recorder:
         if isinstance(event, StepStarted):
             self._writing.frames(event.time, self._frames.poses(), self._frames.there(), anew=True)
         if isinstance(event, PictureTaken):
-            self._writing.picture(event.time, self._picture(event.picture))
+            self._writing.picture(event, self._looks.picture(event.picture))
+        if isinstance(event, PartSeen | PartInspected):
+            self._writing.found(event.time, *self._looks.found())
         self._writing.event(event)
 
     def tick(self, period: ServoPeriod) -> None:

@@ -1,15 +1,27 @@
 """Turns what happens into the messages of a trace, in the order in which they stand in it."""
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
-from handeye.events import Event, RunStarted, StageFinished, StepStarted
+from handeye.events import Event, PictureTaken, RunStarted, StageFinished, StepStarted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.camera import Picture
 from handeye.trace import messages
-from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, PICTURE, SCENE, nanoseconds
+from handeye.trace.annotations import annotations
+from handeye.trace.channels import (
+    ANNOTATIONS,
+    EVENTS,
+    FRAMES,
+    HAND,
+    JOINTS,
+    LOG,
+    PICTURE,
+    SCENE,
+    nanoseconds,
+)
 from handeye.trace.events_read import read_event
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.hand_message import hand_message
@@ -18,6 +30,7 @@ from handeye.trace.messages import Poses
 from handeye.trace.records import RawMessage
 from handeye.trace.resuming import event_data
 from handeye.trace.sentences import LEVELS, sentence
+from handeye.vision.marks import Mark
 
 MOVED: Final = 1e-6
 """Change of a pose (m, or of a component of its quaternion) that is worth writing down."""
@@ -41,6 +54,7 @@ class Writing:
         """How many have been written."""
         self.head: RunStarted | None = None
         self._place = "", 0  # required file and line of the step under way
+        self._taken: dict[str, int] = {}  # when the picture of each name was taken last, ns
         self._sent: Poses = np.full(
             (len(frames.names), 7), np.nan, dtype=np.float32
         )  # as last written; NaN: never
@@ -58,8 +72,7 @@ class Writing:
         if isinstance(event, RunStarted) and self.head is None:
             self.begin(event)
             self.file.write(SCENE, time, self._frames.scene(time))
-        if isinstance(event, StepStarted):
-            self._place = event.file, event.line
+        self._note(event)
         assert self.head is not None
         if type(event) in LEVELS:
             level, name = LEVELS[type(event)], self.head.program
@@ -69,9 +82,17 @@ class Writing:
         self.file.write(EVENTS, time, event_data(event), boundary=isinstance(event, _BOUNDARIES))
         self.events += 1
 
-    def picture(self, time: float, picture: Picture) -> None:
-        """Write a picture; its event follows."""
-        self.file.write(PICTURE, nanoseconds(time), messages.picture(nanoseconds(time), picture))
+    def picture(self, event: PictureTaken, picture: Picture) -> None:
+        """Write a picture, as yet without marks; its event follows."""
+        time = nanoseconds(event.time)
+        self.file.write(PICTURE, time, messages.picture(time, picture))
+        self.file.write(
+            ANNOTATIONS, time, annotations(time, ())
+        )  # else those of the picture before would stay on it
+
+    def found(self, time: float, picture: str, marks: Sequence[Mark]) -> None:
+        """Write the marks of what was found in a picture; the event that tells of it follows."""
+        self.file.write(ANNOTATIONS, nanoseconds(time), annotations(self._taken[picture], marks))
 
     def period(self, period: ServoPeriod) -> None:
         """Write what was sensed after a servo period and put out in it, and what the hand felt."""
@@ -93,13 +114,20 @@ class Writing:
             message = self._frames_message.filled(nanoseconds(time), which.tolist(), poses[which])
             self.file.write(FRAMES, nanoseconds(time), message)
 
+    def _note(self, event: Event) -> None:
+        """Note what later messages refer to."""
+        if isinstance(event, StepStarted):
+            self._place = event.file, event.line
+        elif isinstance(event, PictureTaken):
+            self._taken[event.picture] = nanoseconds(event.time)
+
     def copy(self, message: RawMessage) -> None:
         """Write a message of another file."""
         event = read_event(message.data) if message.topic == EVENTS else None
         self.file.write(message.topic, message.time, message.data, boundary=isinstance(event, _BOUNDARIES))
         if event is not None:
             self.events += 1
-            self._place = (event.file, event.line) if isinstance(event, StepStarted) else self._place
+            self._note(event)
         elif message.topic == FRAMES:
             for frame in FrameTransforms.FromString(message.data).transforms:
                 place, turn = frame.translation, frame.rotation

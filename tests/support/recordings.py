@@ -31,12 +31,19 @@ from handeye.trace.channels import CHANNELS, NEWER
 from handeye.trace.frames import Frames
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
-from handeye.trace.recorder import Recorder
+from handeye.trace.recorder import Looks, Recorder
 from handeye.units import JIFFY
 from handeye.variation import WorldSpec
+from handeye.vision.marks import GREEN, RED, Disc, Line, Loop, Mark
 
 SCRIPT: Final = 'STAGE "open"\nOPEN 1\nSTAGE "close"\nCLOSE .1\nSTAGE "again"\nOPEN 2\n'
 GUARD: Final = ActiveGuard(guard=GuardKind.FORCE, limit=8.0, axis=np.array([0.0, 0.0, -1.0]))
+MARKS: Final[tuple[Mark, ...]] = (
+    Loop(points=((1.0, 0.0), (4.0, 0.0), (4.0, 3.0), (1.0, 3.0)), colour=RED),
+    Line(ends=((1.0, 1.0), (4.0, 2.0)), colour=RED),
+    Disc(centre=(2.5, 1.5), colour=GREEN, diameter=2.0),
+)
+"""What is found in the picture."""
 BODIES: Final = ("base", "finger", "screw", "carrier")
 
 
@@ -148,6 +155,8 @@ def history() -> list[Moment]:
         if stage == "close":
             picture = clock.rng.integers(0, 16, (4, 6), dtype=np.uint8)
             moments += [clock.event(happened.PictureTaken, picture, picture="WIDE", lens=0.025)]
+        if stage == "again":
+            moments += [clock.event(happened.PartSeen, part="BASE", x=0.5, y=0.6, yaw=None)]
         moments += [clock.event(StageFinished, stage=stage, status="done")]
     return [*moments, clock.event(happened.RunFinished, completed=True)]
 
@@ -168,18 +177,20 @@ class Recording:
     recorder: Recorder = field(init=False)
 
     @property
+    def looks(self) -> Looks:
+        return Looks(picture=self.pictures.__getitem__, found=lambda: ("WIDE", MARKS))
+
+    @property
     def part(self) -> Path:
         return self.path.with_name(self.path.name + ".part")
 
     def begin(self) -> "Recording":
-        self.recorder = Recorder(self.path, self.frames, self.pictures.__getitem__, PLAN)
+        self.recorder = Recorder(self.path, self.frames, self.looks, PLAN)
         return self
 
     def resume(self, events: int) -> "Recording":
         prefix = EVENTS[:events]
-        self.recorder = Recorder.resumed(
-            self.path, self.frames, self.pictures.__getitem__, PLAN, events, prefix
-        )
+        self.recorder = Recorder.resumed(self.path, self.frames, self.looks, PLAN, events, prefix)
         return self
 
     def play(self, first: int = 0, last: int = len(EVENTS)) -> "Recording":

@@ -22,6 +22,7 @@ TYPES = {
     "/scene": "foxglove.SceneUpdate",
     "/events": "handeye.Event",
     "/hand": "handeye.Hand",
+    "/camera/annotations": "foxglove.ImageAnnotations",
 }
 
 
@@ -101,9 +102,21 @@ def test_the_picture_is_a_grey_image_of_its_time(path: Path) -> None:
     assert message.log_time * 1e-9 == pytest.approx(taken.what.time)
 
 
+def test_what_was_found_stands_on_the_picture_of_its_time(path: Path) -> None:
+    ((_, _, _, image),) = _decoded(path, "/camera/picture")
+    (_, _, _, bare), (_, _, _, found) = _decoded(path, "/camera/annotations")
+    assert _seconds(bare.timestamp) == _seconds(found.timestamp) == _seconds(image.timestamp)
+    assert not [*bare.points, *bare.circles]
+    loop, line = found.points
+    corners = [(point.x, point.y) for point in loop.points]
+    assert corners == [(1.5, 0.5), (4.5, 0.5), (4.5, 3.5), (1.5, 3.5)]  # from the corner of the picture
+    assert [len(line.points), len(found.circles)] == [2, 1]
+    assert found.circles[0].position.x == 3.0
+
+
 def test_the_log_tells_the_story_with_lines_of_the_source(path: Path) -> None:
     told = [found.decoded_message for found in _decoded(path, "/log")]
-    assert Counter(entry.level for entry in told) == {1: 9, 2: 18}
+    assert Counter(entry.level for entry in told) == {1: 9, 2: 19}
     assert told[2].message == "OPEN 1"
     assert (told[2].file, told[2].line) == ("short", 2)
     assert told[3].message == "stopped: the hand presses with 32.4 ounces, over 28.8"

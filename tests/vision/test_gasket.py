@@ -8,9 +8,10 @@ from synthetic import FACE, GASKET, Canvas, draw_base, part, view
 
 from handeye.program.causes import BaseHoleUnseen, GasketHoleOff, GasketHoleUnseen, GasketWrong, NoGasket
 from handeye.units import DEGREE, INCH
-from handeye.vision.drawing import RED, annotate
+from handeye.vision.drawing import annotate
 from handeye.vision.gasket import GasketInspection, difference, inspect
 from handeye.vision.holes import hole_places
+from handeye.vision.marks import RED, marks
 
 PART = part(180 * DEGREE)
 POSE = (PART.at[0], PART.at[1], PART.at[3])
@@ -81,10 +82,10 @@ def test_an_absent_gasket_is_rejected():
 def test_expected_crosses_and_found_dots_are_drawn():
     before, after = pictures((0.3, 0.0))
     seen = inspect(before, after, WHERE, PART, POSE)
-    image = annotate(difference(before, after), inspection=seen, scale=3)
+    image = annotate(difference(before, after), marks(inspection=seen), scale=3)
     u, v = seen.expected[0]
     assert image.shape == (768, 999, 3)
-    assert tuple(image[round((v + 0.5) * 3), round((u + 0.5) * 3) + 10]) == RED
+    assert tuple(image[round((v + 0.5) * 3), round((u + 0.5) * 3) + 10]) == RED[::-1]
 
 
 def test_a_gasket_needs_a_face_brighter_than_itself():

@@ -19,6 +19,7 @@ from handeye.units import INCH
 from handeye.variation import WorldSpec
 from handeye.vision.base import Failure, SpecificLocation, locate_specific
 from handeye.vision.drawing import annotate
+from handeye.vision.marks import marks
 
 pytestmark = [pytest.mark.render, pytest.mark.slow]
 
@@ -74,7 +75,7 @@ def test_a_forgotten_refocus_fails_with_a_clear_message(seed: int):
 def test_the_overlay_marks_the_line_of_centres():
     still = StillPump(PumpWorld.sample(3), renderer="ray")
     location, pictures = locate(still.camera, still.true_camera, PART)
-    image = annotate(pictures[1][0], specific=location)
+    image = annotate(pictures[1][0], marks(specific=location))
     middle = np.mean([(hole.u, hole.v) for hole in location.holes], axis=0)
     column, row = (np.rint((middle + 0.5) * 3)).astype(int)
     blue, _, red = image[row, column].astype(int)

@@ -1,0 +1,60 @@
+"""Marks on a picture as the message that robotics tools draw over the picture."""
+
+from collections.abc import Sequence
+
+from foxglove_schemas_protobuf.CircleAnnotation_pb2 import CircleAnnotation
+from foxglove_schemas_protobuf.Color_pb2 import Color
+from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
+from foxglove_schemas_protobuf.Point2_pb2 import Point2
+from foxglove_schemas_protobuf.PointsAnnotation_pb2 import PointsAnnotation
+
+from handeye.trace.messages import stamp
+from handeye.vision.marks import Colour, Disc, Line, Loop, Mark, Point
+
+
+def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
+    """Marks on the picture that was taken at a time (ns); the tools put them on the picture of their time."""
+    message = ImageAnnotations(timestamp=stamp(taken))
+    for mark in marks:
+        match mark:
+            case Loop():
+                message.points.append(_lines(mark, PointsAnnotation.LINE_LOOP, mark.points, taken))
+            case Line():
+                message.points.append(_lines(mark, PointsAnnotation.LINE_STRIP, mark.ends, taken))
+            case Disc():
+                message.circles.append(_disc(mark, taken))
+    return message.SerializeToString()
+
+
+def _lines(
+    mark: Loop | Line, kind: PointsAnnotation.Type.ValueType, points: Sequence[Point], taken: int
+) -> PointsAnnotation:
+    return PointsAnnotation(
+        timestamp=stamp(taken),
+        type=kind,
+        points=map(_point, points),
+        outline_color=_colour(mark.colour),
+        thickness=mark.width,
+    )
+
+
+def _disc(mark: Disc, taken: int) -> CircleAnnotation:
+    return CircleAnnotation(
+        timestamp=stamp(taken),
+        position=_point(mark.centre),
+        diameter=mark.diameter,
+        fill_color=_colour(mark.colour),
+        outline_color=_colour(mark.colour),
+        thickness=1.0,
+    )
+
+
+def _point(point: Point) -> Point2:
+    """A picture point; theirs count from the corner of the first point, ours from its middle."""
+    u, v = point
+    return Point2(x=u + 0.5, y=v + 0.5)
+
+
+def _colour(colour: Colour) -> Color:
+    r, g, b = (level / 255 for level in colour)
+    return Color(r=r, g=g, b=b, a=1.0)

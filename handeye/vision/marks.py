@@ -1,0 +1,95 @@
+"""Marks for people on a picture: what was found in it, in picture points, for whoever draws.
+
+The box of general location is white; holes have a red cross and a yellow box, with the line of centres between them;
+expected centres of a gasket are red crosses, found ones discs, green if it is right.
+"""
+
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
+from handeye.vision.gasket import GasketInspection
+
+Colour = tuple[int, int, int]
+"""Red, green, blue, each 0 to 255."""
+Point = tuple[float, float]
+"""u and v, which count from the centre of the first point of the first line."""
+
+WHITE: Final = (255, 255, 255)
+RED: Final = (235, 40, 40)
+YELLOW: Final = (240, 220, 0)
+GREEN: Final = (60, 200, 90)
+BOLD: Final = 2 / 3
+THIN: Final = 1 / 3
+ARM: Final = 4.0
+"""Length of the four arms of a cross, in points, as the diameter of a disc."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Loop:
+    """A closed line through points."""
+
+    points: tuple[Point, ...]
+    colour: Colour
+    width: float = THIN
+    """Of the line, in points."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Line:
+    """A line from point to point."""
+
+    ends: tuple[Point, Point]
+    colour: Colour
+    width: float = THIN
+    """In points."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Disc:
+    """A filled circle."""
+
+    centre: Point
+    colour: Colour
+    diameter: float = ARM
+    """In points."""
+
+
+Mark = Loop | Line | Disc
+
+
+def marks(
+    *,
+    general: GeneralLocation | None = None,
+    specific: SpecificLocation | None = None,
+    inspection: GasketInspection | None = None,
+) -> list[Mark]:
+    """The marks of what was found in a picture, in the order in which they are drawn."""
+    drawn: list[Mark] = []
+    if general:
+        left, top, right, bottom = general.box
+        drawn.append(_box(left, top, right, bottom, WHITE, BOLD))
+    if specific:
+        first, second = specific.holes
+        drawn.append(Line(ends=((first.u, first.v), (second.u, second.v)), colour=RED))
+        drawn += [mark for hole in specific.holes for mark in _hole(hole)]
+    if inspection:
+        drawn += [mark for u, v in inspection.expected for mark in _cross(u, v)]
+        colour = GREEN if inspection.ok else RED
+        drawn += [Disc(centre=found, colour=colour) for found in inspection.found if found]
+    return drawn
+
+
+def _hole(hole: SeenHole) -> list[Mark]:
+    u, v, w, h = hole.u, hole.v, hole.width / 2, hole.height / 2
+    return [_box(u - w, v - h, u + w, v + h, YELLOW, THIN), *_cross(u, v)]
+
+
+def _box(left: float, top: float, right: float, bottom: float, colour: Colour, width: float) -> Mark:
+    corners = ((left, top), (right, top), (right, bottom), (left, bottom))
+    return Loop(points=corners, colour=colour, width=width)
+
+
+def _cross(u: float, v: float) -> list[Mark]:
+    along, down = ((u - ARM, v), (u + ARM, v)), ((u, v - ARM), (u, v + ARM))
+    return [Line(ends=ends, colour=RED, width=BOLD) for ends in (along, down)]
