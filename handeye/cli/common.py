@@ -25,7 +25,7 @@ PlanFile = Annotated[Path, Parameter(help="A plan made by `handeye plan` (.plan.
 CameraKind = Literal["auto", "gl", "ray"]
 
 
-def _whole(_: type, tokens: Sequence[Token]) -> int:
+def whole(_: type, tokens: Sequence[Token]) -> int:
     """A whole number as typed.
 
     Raises:
@@ -39,7 +39,7 @@ def _whole(_: type, tokens: Sequence[Token]) -> int:
     return int(typed)
 
 
-WholeNumber = Annotated[int, Parameter(converter=_whole)]
+WholeNumber = Annotated[int, Parameter(converter=whole)]
 PictureFile = Annotated[Path, Parameter(name=["--output", "-o"], help="The picture, PNG.")]
 SceneCamera = Annotated[str, Parameter(help="One of the scene's cameras.")]
 Width = Annotated[WholeNumber, Parameter(help="Points of the picture from left to right.")]

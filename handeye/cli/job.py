@@ -232,7 +232,7 @@ class _Work:
         kept = self.left if self.folder is None else self.folder.path
         if kept is not None:
             note(f"resume with: handeye resume {shlex.quote(str(kept))}")
-        elif runner is not None and runner.position > self.job.start.position:
+        elif runner is not None and runner.position > max(0, self.job.start.position):
             note(NOT_KEPT)
 
     def _finished(self, runner: Runner, pause: Pause) -> int:

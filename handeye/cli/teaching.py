@@ -173,9 +173,9 @@ def _workplace(
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.teaching.workplace import Workplace
 
-    if first is not None and world.errors != ANY_WORLD.errors:
+    if first is not None and world != ANY_WORLD:
         raise InvalidInput(
-            f"{first} brings its own world; --level, --without and --set do not go with --from"
+            f"{first} brings its own world; --seed, --level, --without and --set do not go with --from"
         )
     if first is not None:
         return Workplace.at(read_checkpoint(first), taught, panic)

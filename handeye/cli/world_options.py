@@ -5,7 +5,7 @@ from typing import Annotated, Final, Literal
 
 from cyclopts import Group, Parameter
 
-from handeye.cli.common import WholeNumber
+from handeye.cli.common import whole
 from handeye.errors import InvalidInput
 from handeye.tasks import task
 from handeye.variation import WorldSpec
@@ -52,7 +52,11 @@ class ErrorOptions:
             raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
         if seed > LARGEST:
             raise InvalidInput(f"the largest seed is {LARGEST}; {seed} is larger")
-        off = [name.strip() for names in self.without or () for name in names.split(",") if name.strip()]
+        off = [name.strip() for names in self.without or () for name in names.split(",")]
+        if "" in off:
+            raise InvalidInput(
+                "--without needs names of errors, with one comma between two; `handeye world` lists them"
+            )
         wanted = overrides(task().variation(seed), off, self.settings or ())
         return WorldSpec(seed=seed, level=self.level, overrides=wanted)
 
@@ -69,8 +73,12 @@ class WorldOptions:
     """A world, or the first of several."""
 
     seed: Annotated[
-        WholeNumber, Parameter(help="Number of the world: draws where things lie, and every error.")
-    ] = 0
+        int | None,
+        Parameter(
+            converter=whole,
+            help="Number of the world: draws where things lie, and every error. By default 0.",
+        ),
+    ] = None
     errors: Annotated[ErrorOptions, Parameter(name="*")] = ErrorOptions()
 
     @property
@@ -80,11 +88,11 @@ class WorldOptions:
         Raises:
             InvalidInput: no such seed, name, unit or value.
         """
-        return self.errors.spec(self.seed)
+        return self.errors.spec(self.seed or 0)
 
     def words(self) -> list[str]:
         """The options as they would be typed."""
-        return ["--seed", str(self.seed), *self.errors.words()]
+        return ["--seed", str(self.seed or 0), *self.errors.words()]
 
 
 ANY_WORLD: Final = WorldOptions()

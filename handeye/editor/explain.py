@@ -9,18 +9,16 @@ from handeye.al.definition import Instruction
 from handeye.al.includes import sewn_of
 from handeye.al.instructions import EXPLAINED
 from handeye.al.operand_help import origin, part, takes
-from handeye.boxes import Box
 from handeye.codes import CODES
 from handeye.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
 from handeye.editor.checking import planning
 from handeye.editor.document import Document
+from handeye.editor.error_numbers import error_text
 from handeye.editor.fix import cured
 from handeye.editor.fixes import fixes
+from handeye.editor.samples import SAMPLE
 from handeye.errors import ERRORS, InvalidInput
-from handeye.program.program import Fixture, Held, Hole, Part, Position
-from handeye.program.taught import Taught
 from handeye.source import Source
-from handeye.units import DEGREE, INCH
 
 _FOUND: Final = {
     "language": "while the script is checked",
@@ -29,38 +27,6 @@ _FOUND: Final = {
 }
 _FILES = 2
 """Required files of an example that are shown."""
-_DOWN = (90 * DEGREE, 90 * DEGREE, 0.0)
-
-
-def _position(x: float, y: float, z: float) -> Position:
-    return Position(at=(x * INCH, y * INCH, z * INCH, *_DOWN))
-
-
-def _box(x: float, y: float, low: float, high: float) -> Box:
-    return (-x * INCH, -y * INCH, low * INCH, x * INCH, y * INCH, high * INCH)
-
-
-SAMPLE = Taught(
-    positions={
-        "PARK": _position(20, 28, 8),
-        "P": _position(18, 44, 3),
-        "T": _position(25, 38, 4),
-        "LOW": _position(25, 38, -1),
-        "FAR": _position(200, 38, 4),
-    },
-    parts={
-        "BASE": Part(
-            at=(25 * INCH, 38 * INCH, 0.0, 0.0),
-            holes=(Hole(x=0.0, y=0.0, diameter=2 * INCH), Hole(x=3 * INCH, y=0.0, diameter=INCH)),
-            region=(3 * INCH, 3 * INCH),
-            outline=(-2 * INCH, -2 * INCH, 4 * INCH, 2 * INCH),
-        ),
-        "GASKET": Part(at=(26 * INCH, 48 * INCH, 0.0, 0.0)),
-    },
-    fixtures={"STAND": Fixture(at=(32 * INCH, 46 * INCH, 0.0, 0.0), boxes=(_box(2, 2, 0, 1.75),))},
-    held={"STICK": Held(positions=("P",), boxes=(_box(0.2, 0.2, -0.5, 2.5),))},
-)
-"""Taught file of the examples."""
 
 
 def explanation(word: str) -> str:
@@ -74,7 +40,7 @@ def explanation(word: str) -> str:
     if word.upper() in EXPLAINED:
         return _instruction(EXPLAINED[word.upper()])
     if word.isascii() and word.isdigit() and int(word) in ERRORS:
-        return f"error {int(word)}: {ERRORS[int(word)]}"
+        return error_text(int(word))
     near = suggestion(word, {*CODES, *EXPLAINED, *map(str, ERRORS)}) or suggestion(
         word, [code for code in CODES if word.lower() in code]
     )

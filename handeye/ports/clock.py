@@ -6,6 +6,8 @@ from typing import Final
 
 from handeye.errors import InvalidInput
 
+LONGEST: Final = 86400.0
+"""s that may pass at once: a day, far longer than any job."""
 _ROUNDING: Final = 1e-6
 """Share of a step by which a period may miss a whole number of steps: what floating-point numbers lose."""
 _DIGITS: Final = ".12g"
@@ -36,10 +38,12 @@ def whole_steps(seconds: float, step: float) -> int:
     """The number of physics steps (s each) in a period (s).
 
     Raises:
-        InvalidInput: not a whole number of them, or not one.
+        InvalidInput: not a whole number of them, or not one, or longer than `LONGEST`.
     """
     if not (math.isfinite(seconds) and seconds > 0):
         raise InvalidInput(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
+    if seconds > LONGEST:
+        raise InvalidInput(f"time cannot pass by {seconds:g} s at once; the longest period is {LONGEST:g} s")
     steps = round(seconds / step)
     if steps < 1 or abs(seconds / step - steps) > _ROUNDING:
         low = max(1, int(seconds / step))

@@ -12,6 +12,7 @@ DEFAULT: Final = "water_pump"
 """The task that is meant where none is named."""
 _BUILT_IN: Final = {"water_pump": ("handeye.tasks.water_pump.task", "WATER_PUMP")}
 """Where the tasks that come with handeye are found; they are imported when they are asked for."""
+_ELSEWHERE: Final = " (a task of your own is known to the Python program that calls `handeye.tasks.register`)"
 _REGISTERED: Final[dict[str, Task]] = {}
 
 
@@ -38,7 +39,7 @@ def task(name: str = DEFAULT) -> Task:
     if name not in _BUILT_IN:
         known = {*_BUILT_IN, *_REGISTERED}
         near = suggestion(name, known) or f"there are {', '.join(map(quoted, sorted(known)))}"
-        raise InvalidInput(f"no task is called {quoted(name)}; {near}")
+        raise InvalidInput(f"no task is called {quoted(name)}; {near}{_ELSEWHERE}")
     module, value = _BUILT_IN[name]
     found: Task = getattr(import_module(module), value)
     return found

@@ -16,6 +16,9 @@ from handeye.ports.camera import COLUMNS, RASTER, ROWS
 from handeye.pose import Array, Pose, pose
 
 CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
+SHORTEST: Final = 0.001
+LONGEST: Final = 1.0
+"""m, focal lengths of any lens."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +33,11 @@ class LensModel:
     """m, from the crossing of the pan and tilt axes to the centre of projection, along the line of sight."""
     up: float
     """m, the same, upwards in the picture."""
+
+    def __post_init__(self) -> None:
+        """Raises ValueError if no lens is such: what is read from a file would ask for pictures without end."""
+        if not SHORTEST <= self.focal_length * self.scale <= LONGEST:
+            raise ValueError(f"no lens has a focal length of {self.focal_length * self.scale:g} m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,7 +20,7 @@ from handeye import al
 from handeye.al import AL
 from handeye.arm.ik import solve
 from handeye.diagnostics import Diagnostic, arranged, render
-from handeye.editor.explain import SAMPLE
+from handeye.editor.samples import SAMPLE
 from handeye.events import AnyEvent
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor

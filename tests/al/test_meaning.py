@@ -5,7 +5,7 @@ from al_support import diagnose
 
 from handeye.al import AL, compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
-from handeye.editor.explain import SAMPLE
+from handeye.editor.samples import SAMPLE
 from handeye.planning.scripts import plan_program
 from handeye.source import Source
 

@@ -17,7 +17,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.codes import CODES
 from handeye.diagnostics import has_errors
-from handeye.editor.explain import SAMPLE
+from handeye.editor.samples import SAMPLE
 
 
 def marks(case: Case) -> list[pytest.MarkDecorator]:

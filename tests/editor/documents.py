@@ -2,8 +2,8 @@
 
 from handeye.diagnostics import Diagnostic
 from handeye.editor.document import Document
-from handeye.editor.explain import SAMPLE
 from handeye.editor.navigation import Edit
+from handeye.editor.samples import SAMPLE
 from handeye.source import Source
 
 TAUGHT = """\

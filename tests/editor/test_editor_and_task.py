@@ -10,8 +10,8 @@ from pygls.workspace import Workspace
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.editor.checking import planning
-from handeye.editor.explain import SAMPLE
 from handeye.editor.hover import hover
+from handeye.editor.samples import SAMPLE
 from handeye.editor.script import EditedScript
 from handeye.runs.scripts import taught
 from handeye.tasks import task

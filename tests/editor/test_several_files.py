@@ -5,10 +5,10 @@ import pytest
 from handeye.al.includes import led_by, sewn_of
 from handeye.editor.completion import completions
 from handeye.editor.document import Document
-from handeye.editor.explain import SAMPLE
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
 from handeye.editor.navigation import Found, definition, references, rename
+from handeye.editor.samples import SAMPLE
 from handeye.source import Source
 
 FILES = {

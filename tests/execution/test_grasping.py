@@ -9,7 +9,7 @@ from fakes import FakeCell
 from handeye.al import compile_text
 from handeye.arm.hand import GraspModel
 from handeye.arm.robots.stanford import STANFORD
-from handeye.editor.explain import SAMPLE
+from handeye.editor.samples import SAMPLE
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan

@@ -15,7 +15,7 @@ from fakes import FakeCell
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.editor.explain import SAMPLE
+from handeye.editor.samples import SAMPLE
 from handeye.events import AnyEvent, to_line
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor

@@ -24,6 +24,14 @@ def test_time_passes_neither_backwards_nor_for_ever_nor_not_at_all(seconds: floa
 
 
 @pytest.mark.parametrize("step", STEPS)
+def test_no_more_than_a_day_passes_at_once(step: float) -> None:
+    with pytest.raises(
+        InvalidInput, match=r"^time cannot pass by 1e\+12 s at once; the longest period is 86400 s$"
+    ):
+        whole_steps(1e12, step)
+
+
+@pytest.mark.parametrize("step", STEPS)
 @pytest.mark.parametrize("share", [0.4, 1.5, 16.01, 1000.3])
 def test_the_periods_that_a_refusal_names_are_taken(step: float, share: float) -> None:
     with pytest.raises(InvalidInput, match=r"is not a whole number of physics steps of .*; use ") as refused:

@@ -1,5 +1,6 @@
 """The camera model: where points fall in the picture, and back."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -63,3 +64,9 @@ def test_a_lens_stands_where_its_drawing_says_from_the_crossing_of_the_axes():
     model = replace(DRAWING, lenses=(LensModel(focal_length=0.05, forward=0.1, up=0.03),))
     off = model.view(0.05, 0.0, 0.0).X_WC[:3, 3] - model.mount
     assert off == pytest.approx((0.0, -0.1, 0.03))
+
+
+@pytest.mark.parametrize("focal", [0.0, -0.05, 1e9, math.nan])
+def test_no_lens_has_a_focal_length_that_would_ask_for_endless_pictures(focal: float) -> None:
+    with pytest.raises(ValueError, match=r"^no lens has a focal length of .* m$"):
+        LensModel(focal_length=focal, forward=0.1, up=0.03)

@@ -1,0 +1,126 @@
+"""The numbers of errors: what raises each, what a script can do about it, and an example."""
+
+from dataclasses import dataclass
+from functools import cache
+from textwrap import fill, indent
+from typing import Final
+
+from handeye import errors
+from handeye.al.compiler import compile_text
+from handeye.al.formatter import format_text
+from handeye.editor.samples import SAMPLE
+from handeye.errors import ERRORS
+from handeye.source import Source
+
+WIDTH: Final = 100
+"""Columns of a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """What a script can do about an error."""
+
+    advice: str
+    example: str
+    """A text that does it."""
+
+
+REMEDIES: Final[dict[int, Remedy]] = {
+    errors.JOINT_LIMIT: Remedy(
+        "The planner tells of it where a place is planned. In work it comes up when a part lies farther off than "
+        "planned: go another way.",
+        "MOVE T\nSKIPE 1 ;T has come to lie too far off\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
+    ),
+    errors.NOTHING_HELD: Remedy(
+        "Give CLOSE or CENTER a minimum gap. When there is nothing, open the hand and try elsewhere, or ask.",
+        'MOVE P\nCLOSE .1\nSKIPN 2 ;something is in the hand\nWAIT "NO PIN THERE"\nMOVE T',
+    ),
+    errors.NO_SOLUTION: Remedy(
+        "The planner tells of it where a place is planned. In work it comes up when what was seen lies too far "
+        "off: leave that part alone.",
+        "MOVE T\nSKIPE 3 ;T has come to lie out of reach\nJUMP NEAR\nMOVE P\nNEAR: OPEN 1",
+    ),
+    errors.SERVO_LAG: Remedy(
+        "Something stands where nothing was expected. Expect it with a STOP, on which the motion ends, or "
+        "ask.",
+        'MOVE T\nCHANGE [0 0 -1] .5\nSKIPN 4 ;nothing is in the way\nWAIT "CLEAR THE TABLE"\nMOVE P',
+    ),
+    errors.WATCHDOG: Remedy(
+        "It is the computer that failed, and not the work: leave it untested, or put it into words for the operator.",
+        'MOVE T\nSKIPN 5 ;the computer kept up\nWAIT "THE COMPUTER WAS LATE"\nMOVE P',
+    ),
+    errors.SEARCH_EXHAUSTED: Remedy(
+        "A search has 49 places. Untested, the error calls the operator, which is mostly right: it is not here. Count "
+        "with SOJG to give up sooner.",
+        "ASSIGN TRIES 9\nSEARCH .07\nL: MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPN 23 ;it met something\n"
+        'JUMP IN\nSOJG TRIES NEXT\nWAIT "NO HOLE HERE"\nNEXT: AOJ L\nIN: OPEN 1',
+    ),
+    errors.WRONG_THICKNESS: Remedy(
+        "Give CLOSE a maximum gap too. What is too thick is something else: let go of it.",
+        "MOVE P\nCLOSE .1 .3\nSKIPE 7 ;too thick for a pin\nJUMP HELD\nOPEN 1\nHELD: PARK",
+    ),
+    errors.WRONG_TRAVEL: Remedy(
+        "A motion that a force ended may have ended too soon, as with a pin on the rim of its hole. TRAVEL asks how "
+        "far it went.",
+        "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met at all\nJUMP OUT\nTRAVEL .5 .6\n"
+        'SKIPN 8 ;as deep as the hole\nOUT: WAIT "NOT IN ITS HOLE"\nOPEN 1',
+    ),
+    errors.NO_FORCE: Remedy(
+        "It says that nothing was met. That may be what was hoped for: a pin that meets nothing is in its hole.",
+        "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met: the pin is in\n"
+        'WAIT "THERE IS NO HOLE"\nOPEN 1',
+    ),
+    errors.NO_TORQUE: Remedy(
+        "The screw never resisted: it has found no thread, or there is none in the driver.",
+        'MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 24 ;it is tight\nWAIT "NOT TIGHT"\nTOOL 0',
+    ),
+    errors.NO_TOUCH: Remedy(
+        "Neither finger met anything: the thing is not where the hand felt for it.",
+        'MOVE P\nOPEN 1\nTOUCH 3\nCHANGE X 1\nSKIPN 25 ;a finger touches it\nWAIT "NOTHING THERE"\nPARK',
+    ),
+    errors.PART_NOT_SEEN: Remedy(
+        "Nothing of the size of the part stands out in the picture: ask for the part.",
+        'LOOK V\nGENERAL BASE V\nSKIPN 30 ;it is there\nWAIT "PUT A BASE ON THE TABLE"\nMOVE P',
+    ),
+    errors.FEATURES_NOT_SEEN: Remedy(
+        "The part is there, but its two largest holes do not show: it lies upside down, or in a shadow.",
+        'LOOK V\nGENERAL BASE V\nLOOK W\nSPECIFIC BASE W\nSKIPN 31 ;its holes are found\nWAIT "TURN THE BASE"\nMOVE P',
+    ),
+    errors.GASKET_WRONG: Remedy(
+        "The pictures before and after do not differ as a gasket makes them differ: lay it on anew, or ask.",
+        "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
+        'WAIT "CHECK THE GASKET"\nPARK',
+    ),
+}
+"""Every error number, with what can be done."""
+
+_MOTIONS: Final = ("MOVE P", "CHANGE Z 1", "TURN T 10", "PARK", "PLACE")
+ACTIONS: Final = "\n".join(
+    (
+        *_MOTIONS, *(f"{guard}\n{motion}" for guard in ("STOP 9", "TORQUE 42", "TOUCH 3") for motion in _MOTIONS[:-1]),
+        "SEARCH .1\nL: MOVE T\nRESTORE H\nAOJ L", "OPEN 1", "CLOSE .1 .3", "CENTER .1", "CHANGE Z 1\nTRAVEL .1 .9",
+        "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V",
+    )
+)  # fmt: skip
+"""Every instruction that can raise an error, with whatever lets it raise more."""
+
+
+@cache
+def raised_by() -> dict[int, tuple[str, ...]]:
+    """The instructions that raise each error, by what their operations declare."""
+    program, _ = compile_text(Source(name="actions.al", text=ACTIONS), SAMPLE)
+    assert program is not None
+    raising = {(number, step.word) for step in program.steps for number in step.operation.raises}
+    return {number: tuple(sorted(word for raised, word in raising if raised == number)) for number in ERRORS}
+
+
+def error_text(number: int) -> str:
+    """The explanation of an error number, for people; no final newline."""
+    tested = (
+        f"SKIPE {number} skips the next instruction if the error was raised, SKIPN {number} if it was not. Untested, "
+        "it sets the brakes and calls the operator."
+    )
+    example = indent(format_text(REMEDIES[number].example).rstrip("\n"), "    ")
+    by = fill(f"raised by {', '.join(raised_by()[number])}", WIDTH, subsequent_indent="    ")
+    advice, tested = fill(REMEDIES[number].advice, WIDTH), fill(tested, WIDTH)
+    return f"error {number}: {ERRORS[number]}\n{by}\n\n{advice}\n\n{tested}\n\nfor example\n\n{example}"
