@@ -211,6 +211,39 @@ def test_a_break_leaves_a_checkpoint_in_the_folder_of_checkpoints(command: Comma
     assert command("resume", str(left), "--no-judge")[0] == 0
 
 
+def everything(folder: str) -> dict[Path, bytes]:
+    """All files of a run."""
+    return {file: file.read_bytes() for file in Path(folder).rglob("*") if file.is_file()}
+
+
+def test_a_run_that_has_ended_is_shown_and_not_resumed(command: Command, planned: Planned) -> None:
+    assert command("run", planned("OPEN 1\n"), "--judge", "--out", "it")[0] == 3  # it assembles nothing
+    before = everything("it")
+    for words, code in ((("resume", "it"), 3), (("show", "it"), 0)):
+        ended, out, err = command(*words, "--json")
+        assert (ended, out.encode()) == (code, before[Path("it/result.json")])
+        assert ("the run in it has ended: there is nothing to be resumed" in err) == (code == 3)
+    assert everything("it") == before
+
+
+def test_the_referee_can_be_called_to_a_run_that_has_ended(command: Command, planned: Planned) -> None:
+    assert command("run", planned("OPEN 1\n"), "--out", "it")[0] == 0
+    first = json.loads(Path("it/result.json").read_bytes())
+    code, out, _ = command("resume", "it", "--judge", "--json")
+    assert (code, first["assembled"], json.loads(out)["assembled"]) == (3, None, False)
+    assert json.loads(out)["timing"]["run_cpu_s"] > first["timing"]["run_cpu_s"]
+
+
+def test_a_run_that_stopped_is_shown_with_how_to_go_on(command: Command, planned: Planned) -> None:
+    assert command("run", planned('OPEN 1\nWAIT "HELP"\n'), "--out", "it")[0] == 1
+    code, out, err = command("show", "it")
+    assert (code, "HELP" in out, err) == (0, True, "resume with: handeye resume it\n")
+
+
+def test_what_is_no_run_cannot_be_shown(command: Command) -> None:
+    assert command("show", ".") == (2, "", "handeye: . is not the folder of a run: it has no plan.json\n")
+
+
 def test_leaving_a_run_that_has_ended_leaves_nothing_behind(command: Command, planned: Planned) -> None:
     before = sorted(Path().iterdir())
     plan = planned("OPEN 1\n")

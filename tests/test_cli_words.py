@@ -38,7 +38,7 @@ def test_what_is_missing_is_called_as_in_the_help(
 
 
 COMMANDS = [
-    "assemble", "run", "resume", "do", "repl", "teach", "check", "plan", "stages", "fmt", "explain", "lsp",
+    "assemble", "run", "resume", "show", "do", "repl", "teach", "check", "plan", "stages", "fmt", "explain", "lsp",
     "inspect", "diff", "schema", "trace show", "trace stats", "trace photograph", "trace verify", "world", "render",
     "trials assembly", "trials base", "trials gasket", "trials breaking", "bench timing", "bench overhead",
     "bench language",

@@ -6,7 +6,19 @@ from typing import Final, NoReturn
 
 from cyclopts import App, CycloptsError, Parameter
 
-from handeye.cli import benches, completion, editing, plans, runs, scripts, teaching, traces, trials, worlds
+from handeye.cli import (
+    benches,
+    completion,
+    editing,
+    plans,
+    records,
+    runs,
+    scripts,
+    teaching,
+    traces,
+    trials,
+    worlds,
+)
 from handeye.cli.common import complain, note, notes, screen
 from handeye.cli.panic_button import terminable
 from handeye.cli.streams import let_go_of_streams, prepare_streams
@@ -28,7 +40,19 @@ app = App(
     console=screen,
     error_console=notes,
 )
-for commands in (runs, teaching, scripts, editing, plans, traces, worlds, trials, benches, completion):
+for commands in (
+    runs,
+    records,
+    teaching,
+    scripts,
+    editing,
+    plans,
+    traces,
+    worlds,
+    trials,
+    benches,
+    completion,
+):
     commands.register(app)
 
 

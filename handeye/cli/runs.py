@@ -171,6 +171,8 @@ def resume(
 ) -> int:
     """Resume an interrupted run.
 
+    Of a run that has ended the result is shown, and nothing is changed; with `--step` it can go back.
+
     Exit codes are those of `run`.
 
     Parameters
@@ -179,6 +181,8 @@ def resume(
         A checkpoint, or the folder of a run, which resumes from its newest sound checkpoint.
     """
     from handeye.cli.job import Job, work
+    from handeye.cli.records import shown
+    from handeye.report.kept_run import has_ended
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import CHECKPOINTS, PLAN, open_again
     from handeye.runs.systems import listing_of
@@ -199,6 +203,10 @@ def resume(
     stops = _stops(listing_of(start.setup), to=to, until=until, breaks=breaks or [])
     _check_order(listing_of(start.setup), start.stage, to)
     _check_ahead(start, stops, breaks or [])
+    wanted = start.setup.judged if judge is None else judge
+    if folder is not None and not step and has_ended(folder.path, start, judged=wanted):
+        note(f"the run in {folder.path} has ended: there is nothing to be resumed")
+        return shown(folder.path, json=json).result.exit_code
     done = "no steps" if start.position < 1 else counted(start.position, "step")
     stage = "its end" if start.stage is None and start.position > 0 else start.stage or "its beginning"
     note(f"resuming after {done}: {stage}")
@@ -214,7 +222,7 @@ def resume(
             step=step,
             on_stop=on_stop,
             json=json,
-            referee=start.setup.judged if judge is None else judge,
+            referee=wanted,
         )
     )
 

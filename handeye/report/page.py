@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator, Mapping
 
+import msgspec
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from handeye.diagnostics import visible
 from handeye.report.result import Result, Timing
 from handeye.tasks import task
 from handeye.tasks.task import Period
@@ -21,6 +23,7 @@ _MARK = {
 
 def page(result: Result) -> RenderableType:
     """Stages, timing table of a run that is over, findings of the referee, and the verdict."""
+    result = printable(result)
     parts: list[RenderableType] = [stages(result)]
     if not result.paused:
         parts += [Text(), timing(result), camera(result)]
@@ -28,6 +31,22 @@ def page(result: Result) -> RenderableType:
         parts += [Text(), referee(result)]
     parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
     return Group(*parts, Text(), verdict(result))
+
+
+def printable(result: Result) -> Result:
+    """A result whose words cannot steer a terminal, wherever they are from."""
+
+    def made(value: object) -> object:
+        match value:
+            case str():
+                return visible(value)
+            case dict():
+                return {visible(name): made(item) for name, item in value.items()}
+            case list() | tuple():
+                return [made(item) for item in value]
+        return value
+
+    return msgspec.convert(made(msgspec.to_builtins(result)), Result)
 
 
 def stages(result: Result) -> Table:
@@ -108,7 +127,8 @@ def referee(result: Result) -> Table:
     for check in result.referee.values():
         mark = Text("✓", "green") if check.ok else Text("✗", "red")
         sign = ">=" if check.relation == "at least" else "<="
-        table.add_row(mark, check.subject, f"{check.value:.3g}", f"{sign} {check.limit:.3g}", check.unit)
+        figures = f"{check.value:.3g}", f"{sign} {check.limit:.3g}"
+        table.add_row(mark, Text(check.subject), *figures, Text(check.unit))
     return table
 
 

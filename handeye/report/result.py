@@ -22,8 +22,9 @@ class Timing(Record, frozen=True, kw_only=True):
     clock) is the host's, is another each time, and is summed over all sessions of a run that was resumed.
     """
 
-    calibration_s: float
-    """Simulated: the camera was calibrated, before the working phase."""
+    calibration_s: float | None
+    """Simulated: the camera was calibrated, before the working phase. None, here and below: an older handeye did
+    not record it."""
     manipulation_s: float
     """Simulated: the working phase without the camera's mechanism."""
     lens_s: float
@@ -33,12 +34,12 @@ class Timing(Record, frozen=True, kw_only=True):
     planning_cpu_s: float
     """0: the plan was there already."""
     vision_cpu_s: float
-    run_cpu_s: float
+    run_cpu_s: float | None
     run_wall_s: float
     """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
     real_time_factor: float
     """Simulated seconds, calibration included, for one of `run_wall_s`: the host's, and another each time."""
-    host_from_step: int
+    host_from_step: int | None
     """Steps done before the host's seconds were counted; 0: they are those of the whole run."""
 
 
@@ -73,7 +74,7 @@ class Result(Record, frozen=True, kw_only=True):
     completed: bool
     """The program's."""
     paused: bool
-    """The run pauses because that was asked for."""
+    """The run stands before its end: that was asked for, or it was interrupted, or is under way."""
     stopped_at: str | None
     error: int | None
     message: str

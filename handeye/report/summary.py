@@ -12,6 +12,7 @@ from handeye.events import (
     StageStarted,
 )
 from handeye.judge.finding import Finding, Findings, all_right
+from handeye.ports.camera import Renderer
 from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Timing
 from handeye.runs.advance import Pause
@@ -21,6 +22,7 @@ from handeye.runs.runner import Runner
 from handeye.trace.sentences import renderer_name
 from handeye.units import INCH
 from handeye.versions import versions
+from handeye.vision.calibration import Calibration
 
 
 def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: HostSeconds) -> Result:
@@ -42,7 +44,7 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
         message=pause_sentence(pause),
         interventions=tuple(interventions(runner.events)),
         stages=stage_times(names, runner.events),
-        timing=_timing(runner.events, runner.time, host),
+        timing=timing(runner.events, runner.time, host),
         referee=checks,
         task=runner.setup.task,
         program=runner.listing.name,
@@ -58,9 +60,9 @@ def _check(found: Finding) -> Check:
     return Check(
         ok=found.ok,
         subject=found.subject,
-        value=found.value,
+        value=float(found.value),
         relation=found.relation,
-        limit=found.limit,
+        limit=float(found.limit),
         unit=found.unit,
         sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
     )
@@ -96,7 +98,7 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
     return tuple(Stage(name=name, status=status[name], arm_s=round(seconds[name], 3)) for name in names)
 
 
-def _timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
+def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
     """Times of a run of which these events have happened; `clock` is the cell's (s)."""
     begun = next((event.time for event in events if isinstance(event, RunStarted)), clock)
     lens = sum((event.seconds for event in events if isinstance(event, CameraBusy)), 0.0)
@@ -117,11 +119,15 @@ def _timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timi
 
 def _camera(runner: Runner) -> CameraReport:
     if runner.system.cell is None:
-        return CameraReport(renderer="none", sightings_rms_px={}, residual_in=None)
-    renderer, calibration = renderer_name(runner.cell.renderer), context_of(runner.system).state.calibration
-    if calibration is None:
-        return CameraReport(renderer=renderer, sightings_rms_px={}, residual_in=None)
-    residuals = {f"{lens * 1000:.0f} mm": rms for lens, rms in calibration.residual_px.items()}
+        return camera_report(Renderer(method="none"), None)
+    return camera_report(runner.cell.renderer, context_of(runner.system).state.calibration)
+
+
+def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:
+    """Report on a camera, which nobody may have calibrated."""
+    residuals = {} if calibration is None else calibration.residual_px
     return CameraReport(
-        renderer=renderer, sightings_rms_px=residuals, residual_in=calibration.residual_m / INCH
+        renderer=renderer_name(renderer),
+        sightings_rms_px={f"{lens * 1000:.0f} mm": rms for lens, rms in residuals.items()},
+        residual_in=None if calibration is None else calibration.residual_m / INCH,
     )

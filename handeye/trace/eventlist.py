@@ -11,13 +11,18 @@ from handeye.files import read_whole
 from handeye.trace.events_read import read_event
 
 
-def read_events(path: Path) -> list[AnyEvent]:
+def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
     """The events in a file, one JSON object a line, those undone later included.
+
+    Args:
+        growing: a last line that is cut short is left out.
 
     Raises:
         InvalidInput: it cannot be read, or one of its lines is cut short or not an event.
     """
     text = read_whole(path)
+    if growing:
+        text = text[: text.rfind(b"\n") + 1]
     events = []
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         if not line.endswith(b"\n"):

@@ -2,10 +2,11 @@
 
 import io
 
+import msgspec
 import pytest
 from rich.console import Console
 
-from handeye.report.page import clock, referee, timing, verdict
+from handeye.report.page import clock, page, referee, timing, verdict
 from handeye.report.result import CameraReport, Check, Result, Timing
 from handeye.variation import WorldSpec
 
@@ -90,6 +91,15 @@ def test_the_referee_is_shown_by_what_was_measured_and_how_it_must_stand_to_its_
     assert cells[1:] == [
         ["gap under a head", "screws in their threads"], ["5", "6"], ["<= 0.2", ">= 6"], ["mm", "screws"]
     ]  # fmt: skip
+
+
+def test_no_word_of_a_result_steers_a_terminal_or_is_taken_for_a_style() -> None:
+    odd = msgspec.structs.replace(GAP, subject="[/x]gap\x1b[31m", unit="[red]mm")
+    console = Console(file=io.StringIO(), width=80)
+    with console.capture() as shown:
+        console.print(page(result(completed=False, assembled=False, message="\x1b[2J", checks={"gap": odd})))
+    assert "\x1b" not in shown.get()
+    assert "[/x]gap␛[31m" in shown.get()
 
 
 def test_a_silent_failure_says_what_the_referee_found() -> None:

@@ -1,0 +1,54 @@
+"""Command on the records that runs leave."""
+
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Json, note, screen
+
+if TYPE_CHECKING:
+    from handeye.report.kept_run import KeptRun
+
+Folder = Annotated[Path, Parameter(help="The folder of a run.")]
+
+
+def register(app: App) -> None:
+    """Add the command to the command line."""
+    app.command(show)
+
+
+def show(folder: Folder, /, *, json: Json = False) -> int:
+    """Show what a run came to, or how far it has come; its folder stays as it is.
+
+    Exit code 0: it is shown, whatever the run came to; 2: there is no run that could be shown.
+    """
+    kept = shown(folder, json=json)
+    if not (kept.left and kept.result.completed):
+        note(f"resume with: handeye resume {shlex.quote(str(folder))}")
+    return 0
+
+
+def shown(folder: Path, *, json: bool) -> "KeptRun":
+    """Print what is known of the run in a folder.
+
+    Raises:
+        InvalidInput: there is no run that could be shown.
+    """
+    from handeye.report.kept_run import kept_run
+    from handeye.report.page import page
+    from handeye.report.result import to_json
+
+    kept = kept_run(folder)
+    for fault in kept.faults:
+        note(f"left out: {fault}")
+    if kept.missing:
+        note(f"an older handeye left this result, which does not say: {', '.join(kept.missing)}")
+    if json:
+        sys.stdout.buffer.write(to_json(kept.result))
+        sys.stdout.flush()
+    else:
+        screen.print(page(kept.result))
+    return kept
