@@ -18,6 +18,7 @@ EXAMPLES |= {
     "pin.toml",
     "NAME.al",
     "example.al",
+    "host.json",
     "result.json",
     "plan.json",
 }
