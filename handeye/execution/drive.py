@@ -38,7 +38,7 @@ class ArmDrive(ServoLoop):
         self._pass(self.braking(seconds))
 
     def float(self, seconds: float) -> None:
-        """Let go of the arm and let time pass: gravity is borne, and whoever pushes the hand moves it."""
+        """Let go of the arm and let time pass: gravity and load are borne, and whoever pushes the hand moves it."""
         self._pass(self.floating(seconds))
 
     def follow(

@@ -98,13 +98,14 @@ class ServoLoop:
         self.state.q = self.sensed.q.copy()
 
     def floating(self, seconds: float) -> Motion[None]:
-        """Let go of the arm: gravity is borne, and whoever pushes the hand moves it.
+        """Let go of the arm: gravity and the load are borne, and whoever pushes the hand moves it.
 
         The set-point becomes where the arm then is.
         """
         for _ in range(self._periods(seconds)):
             q, qd = self.sensed.q, self.sensed.qd
-            yield from self._wait(gravity(self.arm, q) - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
+            borne = gravity(self.arm, q) + jacobian(self.arm, q)[2] * self.state.load
+            yield from self._wait(borne - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
         self.state.q = self.sensed.q.copy()
 
     def following(
