@@ -70,7 +70,10 @@ def only(text: str, kind: type) -> object:
 
 
 def walk(program: Program, raised: Mapping[str, Sequence[int | None]]) -> list[str]:
-    """Statements in the order they are carried out when each statement raises, in turn, the errors given."""
+    """Statements in the order to which the compiler's graph leads, when each raises, in turn, the errors given.
+
+    It shows what the compiler makes of a text. It is not the executor, and shows nothing of how that goes.
+    """
     errors = {text: list(numbers) for text, numbers in raised.items()}
     trace: list[str] = []
     error: int | None = None

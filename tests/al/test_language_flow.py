@@ -1,35 +1,12 @@
-"""Where a program goes: error tests, jumps, searches and macros, without an arm."""
+"""Where a compiled program leads: error tests, jumps, searches and macros, without an arm.
+
+How the executor follows it, the tests of `tests/execution` show.
+"""
 
 import pytest
 from al_support import LISTING, codes, compiled, diagnose, walk
 
 DOWN = "CHANGE [0 0 -1] 0.6"
-SKIPS = f"{DOWN}\n{{}}\nOPEN 1\nOPEN 2"
-
-
-def opened(skip: str, error: int | None) -> list[str]:
-    trace = walk(compiled(SKIPS.format(skip)), {DOWN: [error]})
-    return [text for text in trace if text.startswith("OPEN")]
-
-
-def test_skipe_skips_when_the_error_occurred() -> None:
-    assert opened("SKIPE 23", 23) == ["OPEN 2"]
-
-
-def test_skipe_does_not_skip_without_error() -> None:
-    assert opened("SKIPE 23", None) == ["OPEN 1", "OPEN 2"]
-
-
-def test_skipn_skips_without_error() -> None:
-    assert opened("SKIPN 23", None) == ["OPEN 2"]
-
-
-def test_skipn_does_not_skip_when_the_error_occurred() -> None:
-    assert opened("SKIPN 23", 23) == ["OPEN 1", "OPEN 2"]
-
-
-def test_skipe_does_not_skip_on_another_error() -> None:
-    assert opened("SKIPE 23", 2) == ["OPEN 1", "OPEN 2"]
 
 
 def test_skip_of_the_last_instruction_ends_the_program() -> None:
@@ -81,6 +58,7 @@ def test_macro_is_replaced_by_its_instructions() -> None:
     assert walk(program, {}) == ["MOVE P", "CLOSE .1", "PARK", "MOVE P", "CLOSE .1"]
 
 
+@pytest.mark.row(43)
 def test_macro_without_a_blank_line_is_reported() -> None:
     assert codes("PARK\nDEFINE GRASP\nMOVE P\nCLOSE .1\n") == ["unterminated-macro"]
     assert codes("GRASP\nDEFINE GRASP\nMOVE P\nCLOSE .1\n\n") == []

@@ -11,6 +11,7 @@ from handeye.program.vision_operations import Lens, Look
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH, RPM
 
 
+@pytest.mark.row(1)
 def test_pin_insertion_compiles_as_printed() -> None:
     assert diagnose(LISTING) == []
     assert len(compiled(LISTING).steps) == 15

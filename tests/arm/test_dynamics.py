@@ -6,7 +6,7 @@ import pytest
 from arm_in_mujoco import build, postures
 from robots import ROBOTS
 
-from handeye.arm.dynamics import bias, gravity, mass_matrix
+from handeye.arm.dynamics import GRAVITY, bias, gravity, mass_matrix
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.robots.stanford import STANFORD
 from handeye.units import INCH
@@ -53,13 +53,46 @@ def test_bias_counts_friction(arm: ArmModel) -> None:
     np.testing.assert_allclose(friction, arm.joints[-1].damping * qd, atol=1e-12)
 
 
+def pull(arm: ArmModel, boom: float) -> float:
+    """Torque (N m) that gravity has on joint 2, the boom level and out so far (in), the wrist straight."""
+    return -float(gravity(arm, np.array([0, np.pi / 2, boom * INCH, 0, 0, 0]))[1])
+
+
+LUMPED = tuple(replace(joint, centre=(0.0, 0.0, -joint.d)) for joint in STANFORD.joints[3:])
+"""The three links of the wrist with their mass at the wrist's centre."""
+BARE = replace(STANFORD, hand=replace(STANFORD.hand, mass=0.0))
+"""The arm without fingers."""
+
+
+@pytest.mark.row(33)
+@pytest.mark.parametrize(("boom", "torque"), [(16.67, 2.5), (20, 8.1), (30, 24.8)])
+def test_gravity_pulls_joint_2_of_the_arm_as_modelled(boom: float, torque: float) -> None:
+    assert pull(STANFORD, boom) == pytest.approx(torque, abs=0.1)
+
+
+@pytest.mark.parametrize("boom", [16.67, 20, 30])
+def test_gravity_pulls_joint_2_of_the_scene_as_it_does_that_of_the_arm(boom: float) -> None:
+    model = ROBOTS["stanford"].model()
+    data = mujoco.MjData(model)
+    data.qpos[:6] = 0, np.pi / 2, boom * INCH, 0, 0, 0
+    mujoco.mj_forward(model, data)
+    assert -data.qfrc_bias[1] == pytest.approx(pull(STANFORD, boom), abs=1e-3)
+
+
 @pytest.mark.parametrize(("boom", "torque"), [(12, -7.5), (16.67, 0.0), (20, 5.4), (30, 21.5), (40, 37.6)])
-def test_gravity_pulls_joint_2_as_the_reference_lists(boom: float, torque: float) -> None:
-    """The listed figures put the three wrist links at the wrist centre and leave the fingers away."""
-    lumped = tuple(replace(j, centre=(0.0, 0.0, -j.d)) for j in STANFORD.joints[3:])
-    arm = replace(STANFORD, joints=STANFORD.joints[:3] + lumped, hand=replace(STANFORD.hand, mass=0.0))
-    pull = -gravity(arm, np.array([0, np.pi / 2, boom * INCH, 0, 0, 0]))[1]
-    assert pull == pytest.approx(torque, abs=0.1)
+def test_without_fingers_and_with_the_wrist_in_one_point_it_is_what_the_reference_lists(
+    boom: float, torque: float
+) -> None:
+    assert pull(replace(BARE, joints=STANFORD.joints[:3] + LUMPED), boom) == pytest.approx(torque, abs=0.1)
+
+
+@pytest.mark.parametrize("boom", [16.67, 20, 30])
+def test_the_rest_is_the_fingers_and_the_wrist_reaching_beyond_its_centre(boom: float) -> None:
+    """Fingers of .24 kg, .20 m beyond the wrist's centre; the mass centres of links 4 to 6 as published."""
+    listed = pull(replace(BARE, joints=STANFORD.joints[:3] + LUMPED), boom)
+    fingers = 0.24 * GRAVITY * (boom * INCH + 0.20)
+    wrist = GRAVITY * (-1.08 * 0.0092 + 0.63 * 0.0566 + 0.51 * 0.1554)
+    assert pull(STANFORD, boom) - listed == pytest.approx(fingers + wrist, abs=0.01)
 
 
 def test_fingers_weigh_on_every_joint_that_carries_them() -> None:

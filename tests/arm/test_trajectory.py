@@ -39,6 +39,7 @@ def example() -> Trajectory:
     return four_three_four(np.array([0 * one, 5 * one, 40 * one, 45 * one]), np.array([0.5, 1.0, 0.5]))
 
 
+@pytest.mark.row(36)
 def test_the_worked_example_has_the_listed_coefficients() -> None:
     listed = [[0, 0, 0, 60, -40], [5, 25, 30, -20, 0], [40, 25, -30, -20, 40]]
     np.testing.assert_allclose(example().coefficients[:, :, 0], listed, atol=1e-6)
@@ -139,6 +140,7 @@ def test_a_hand_that_points_down_never_tilts() -> None:
         np.testing.assert_allclose(X[:, 2, 2], -1, atol=1e-12)
 
 
+@pytest.mark.row(45)
 def test_a_move_rises_first_and_comes_down_from_above() -> None:
     for trajectory in moves():
         p = forward(STANFORD, trajectory.at(np.linspace(0, trajectory.duration, 200)).q)[:, :3, 3]

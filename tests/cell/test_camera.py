@@ -50,6 +50,7 @@ def camera(world: PumpWorld | None = None, renderer: SceneRenderer | None = None
     return SimulatedCamera(scene(), world.camera, world.generator("camera"), renderer or Plain(), DRAWING)
 
 
+@pytest.mark.row(50, nominal=1)
 def test_a_picture_has_256_lines_of_333_integers_from_0_to_15():
     picture, _ = camera().digitise()
     assert picture.shape == (256, 333)

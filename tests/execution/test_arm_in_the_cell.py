@@ -2,15 +2,10 @@
 
 import numpy as np
 import pytest
-from driving import Drive, tick
 from pump_bench import Bench, bench, written
 
-from handeye.arm.dynamics import gravity
-from handeye.arm.robots.stanford import STANFORD
-from handeye.cell.simulated import SimulatedCell
 from handeye.errors import WATCHDOG
 from handeye.ports.workcell import Sensed
-from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import DEGREE
 
@@ -20,37 +15,34 @@ POUND = 4.448
 """Weight of a pound, N."""
 
 
-def released(cell: SimulatedCell, seconds: float, weight: float = 0.0) -> Sensed:
-    """Brakes off, no set-point: the drives carry the arm's own weight wherever it is."""
-    for _ in range(round(seconds * 60)):
-        tick(cell.devices, Drive(torque=gravity(STANFORD, cell.devices.arm.read().q)))
-    return cell.devices.sense()
-
-
-def push(cell: SimulatedCell, axis: int, force: float) -> None:
+def pushed(run: Bench, axis: int, force: float) -> Bench:
     """The experimenter pushes at the hand along an axis of W (N)."""
-    cell.truth.data.xfrc_applied[cell.truth.model.body("stanford/link6").id, axis] = force
+    truth = run.cell.truth
+    truth.data.xfrc_applied[truth.model.body("stanford/link6").id, axis] = force
+    return run
 
 
-@pytest.fixture
-def cell() -> SimulatedCell:
-    return build_cell(PumpWorld.nominal(), camera="ray")
+def drift(run: Bench, seconds: float) -> np.ndarray:
+    """How far the joints go (rad, m) while the arm is let go of."""
+    before = run.run.drive.sensed.q
+    run.run.drive.float(seconds)
+    return np.abs(run.run.drive.sensed.q - before)
 
 
-def test_row_31_the_released_arm_drifts_less_than_half_a_degree_in_ten_seconds(cell: SimulatedCell) -> None:
-    before = cell.devices.sense().q
-    assert np.abs(released(cell, 10.0).q - before)[[0, 1, 3, 4, 5]].max() < 0.5 * DEGREE
+@pytest.mark.row(31, nominal=1)
+def test_row_31_the_released_arm_drifts_less_than_half_a_degree_in_ten_seconds() -> None:
+    assert drift(bench("PARK"), 10.0)[[0, 1, 3, 4, 5]].max() < 0.5 * DEGREE
 
 
-def test_row_31_a_push_of_three_pounds_moves_the_released_arm(cell: SimulatedCell) -> None:
-    before = cell.devices.sense().q
-    push(cell, 1, 3 * POUND)
-    assert np.abs(released(cell, 1.0).q - before).max() > 2 * DEGREE
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_row_31_a_push_of_three_pounds_moves_the_released_arm(axis: int) -> None:
+    assert drift(pushed(bench("PARK"), axis, 3 * POUND), 1.0).max() > 2 * DEGREE
 
 
-def late_in(script: str, ticks: int) -> Bench:
+def late_in(script: str, ticks: int, world: PumpWorld | None = None) -> Bench:
     """A run in which the computer misses one servo period, `ticks` after the hand was at T."""
-    run = bench("OPEN 2\nMOVE T\nSEARCH 1\n" + script, positions={"T": written(25, 38, 6, 0)}).to("SEARCH")
+    script = "OPEN 2\nMOVE T\nSEARCH 1\n" + script
+    run = bench(script, world=world, positions={"T": written(25, 38, 6, 0)}).to("SEARCH")
     count = iter(range(10_000))
 
     def watch(_: object) -> None:
@@ -64,13 +56,15 @@ def late_in(script: str, ticks: int) -> Bench:
 ACTIONS = ["CHANGE [0 0 -1] 2", "STOP 9\nCHANGE [0 0 1] 2", "MOVE PARK", "CENTER", "OPEN 3"]
 
 
+@pytest.mark.row(34, drawn=1)
 @pytest.mark.parametrize("script", ACTIONS)
 def test_row_34_a_missed_servo_period_aborts_the_action(script: str) -> None:
-    run = late_in(script, 20)
+    run = late_in(script, 20, PumpWorld.sample(1))
     assert run.errors == [WATCHDOG]
     assert run.told == "the computer missed a servo period: drives cut, brakes set"
 
 
+@pytest.mark.row(34, nominal=1)
 def test_row_34_the_arm_stands_still_at_once_with_its_brakes_set() -> None:
     run = late_in("CHANGE [0 0 -1] 2", 30)
     start = run.hand()

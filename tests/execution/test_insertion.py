@@ -4,16 +4,32 @@ The base stands in its standard position; the hole is displaced by teaching T be
 far the hole lies from T.
 """
 
+from functools import cache
+from math import cos, sin
+
 import msgspec
 import pytest
-from pump_bench import INSERT, SEATED, TAUGHT, Bench, at_standard, bench, shifted, written
+from pump_bench import (
+    COUNT,
+    IN_WORLDS,
+    INSERT,
+    SEATED,
+    TAUGHT,
+    Bench,
+    at_standard,
+    bench,
+    shifted,
+    world_of,
+    written,
+)
 
 from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
-from handeye.events import Saved, SearchAdvanced
+from handeye.events import GuardTripped, Saved, SearchAdvanced
 from handeye.planfile.plan import Plan
 from handeye.program.flow_operations import Search
 from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
+from handeye.units import OUNCE_FORCE
 
 pytestmark = pytest.mark.slow
 
@@ -21,34 +37,67 @@ PLAY = 0.02
 """Sideways play (in) of the hand that holds a seated pin: pin in hole, pin in fingers, give of the servo."""
 
 
-def inserting(T: Position, more: str = "") -> Bench:
+def inserting(T: Position, more: str = "", seed: int | None = None) -> Bench:
     positions = {"P": TAUGHT.positions["P1"], "T": T}
-    return bench("OPEN 1\n" + INSERT + more, positions=positions, lay=at_standard())
+    return bench("OPEN 1\n" + INSERT + more, world=world_of(seed), positions=positions, lay=at_standard())
 
 
-def hole_off(x: float, y: float, more: str = "") -> Bench:
+def hole_off(x: float, y: float, more: str = "", seed: int | None = None) -> Bench:
     """A run with the hole displaced from T by (x, y) in."""
-    return inserting(shifted("T1", -x, -y), more)
+    return inserting(shifted("T1", -x, -y), more, seed)
 
 
 def over_large_hole() -> Bench:
     return inserting(written(25.0, 38.0, 3.931, -90))
 
 
+DEEP = 0.963
+"""How far (in) the hand goes down from T until a pin is seated."""
+
+
+@cache
+def went_in(off: float) -> tuple[Bench, float]:
+    """The run to its end, the hole `off` (in) along x, and how far (in) the hand truly went down from T to SAVE."""
+    run = hole_off(off, 0.0)
+    above = run.to("CHANGE").hand()[2]
+    seated = run.to("SAVE").hand()[2]
+    return run.go(), float(above - seated)
+
+
+@pytest.mark.row(12, nominal=1)
 def test_row_12_a_hole_exactly_at_t_is_found_at_the_first_place() -> None:
-    run = hole_off(0.0, 0.0).go()
+    run, deep = went_in(0.0)
     assert (run.finished, run.tries) == (True, 1)
-    assert run.saved("H")[:2] == pytest.approx([0.0, 0.0], abs=PLAY)
+    assert deep == pytest.approx(DEEP, abs=0.01)
+    assert run.saved("H") == pytest.approx([0.0, 0.0, -deep], abs=PLAY)
     assert run.place("pin0")[2] == pytest.approx(SEATED, abs=0.005)
 
 
+@pytest.mark.row(13, nominal=1)
 def test_row_13_a_hole_one_step_off_is_found_at_the_second_place() -> None:
-    run = hole_off(0.07, 0.0).go()
+    run, deep = went_in(0.07)
     assert (run.finished, len(run.all(SearchAdvanced))) == (True, 1)
-    assert run.saved("H")[:2] == pytest.approx([0.07, 0.0], abs=PLAY)
+    assert deep == pytest.approx(DEEP, abs=0.01)
+    assert run.saved("H") == pytest.approx([0.07, 0.0, -deep], abs=PLAY)
 
 
-@pytest.mark.parametrize("off", [(0.1, 0.0), (0.0, 0.1), (-0.0707, -0.0707), (0.0707, -0.0707)])
+def test_row_13_the_first_try_lands_on_the_base_with_fifty_ounces() -> None:
+    landed, seated = went_in(0.07)[0].all(GuardTripped)
+    assert (landed.limit, seated.limit) == pytest.approx((50 * OUNCE_FORCE, 60 * OUNCE_FORCE))
+    assert 0.0 < landed.value - landed.limit < 3.0
+
+
+def around(distance: float) -> list[tuple[float, float]]:
+    """Four places at a distance (in), one of them along the grid of the search."""
+    return [(round(distance * cos(a), 4), round(distance * sin(a), 4)) for a in (0.0, 1.3, 3.9, 5.5)]
+
+
+TENTH = around(0.1)
+FIFTEEN = [(0.0, -0.15), around(0.15)[1]]
+
+
+@pytest.mark.row(14, nominal=len(TENTH))
+@pytest.mark.parametrize("off", TENTH)
 def test_row_14_a_hole_a_tenth_off_is_found_within_nine_tries(off: tuple[float, float]) -> None:
     run = hole_off(*off).go()
     assert run.finished
@@ -56,15 +105,21 @@ def test_row_14_a_hole_a_tenth_off_is_found_within_nine_tries(off: tuple[float, 
     assert run.saved("H")[:2] == pytest.approx(off, abs=PLAY)
 
 
-def test_row_15_a_hole_fifteen_hundredths_off_is_found_within_twenty_four_tries() -> None:
-    run = hole_off(0.0, -0.15).go()
+@pytest.mark.row(15, nominal=len(FIFTEEN))
+@pytest.mark.parametrize("off", FIFTEEN)
+def test_row_15_a_hole_fifteen_hundredths_off_is_found_within_twenty_four_tries(
+    off: tuple[float, float],
+) -> None:
+    run = hole_off(*off).go()
     assert run.finished
     assert 10 <= run.tries <= 24
-    assert run.saved("H")[:2] == pytest.approx([0.0, -0.15], abs=PLAY)
+    assert run.saved("H")[:2] == pytest.approx(off, abs=PLAY)
 
 
-def test_row_16_beside_the_base_nothing_resists_and_the_search_goes_on() -> None:
-    run = inserting(written(25.0, 34.0, 3.931, -90))
+@pytest.mark.row(16, **COUNT)
+@IN_WORLDS
+def test_row_16_beside_the_base_nothing_resists_and_the_search_goes_on(seed: int | None) -> None:
+    run = inserting(written(25.0, 34.0, 3.931, -90), seed=seed)
     run.go(lambda: run.tries > 3)
     assert run.errors == [23, 23] * 3
     assert not run.all(Saved)
@@ -76,6 +131,7 @@ def test_row_17_over_the_large_hole_both_force_tests_pass() -> None:
     assert not run.all(SearchAdvanced)
 
 
+@pytest.mark.row(17, nominal=1)
 def test_row_17_a_pin_that_fell_over_in_the_large_hole_is_missed_by_the_closing_hand() -> None:
     """Set down squarely the pin may stand on the floor of the hole; the experimenter flicks it over."""
     run = over_large_hole().to("OPEN  .5")
@@ -95,6 +151,7 @@ def two_places(plan: Plan) -> Plan:
     return msgspec.structs.replace(plan, program=msgspec.structs.replace(plan.program, steps=tuple(steps)))
 
 
+@pytest.mark.row(18, nominal=1)
 def test_row_18_at_600_oz_the_pin_is_in_the_hole_and_the_search_goes_on() -> None:
     """So 60 oz it must have been. The checker warns of it; to save time the search has two places only."""
     script = "OPEN 1\n" + INSERT.replace("-60]", "-600]")
@@ -106,8 +163,10 @@ def test_row_18_at_600_oz_the_pin_is_in_the_hole_and_the_search_goes_on() -> Non
     assert not run.all(Saved)
 
 
-def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() -> None:
-    run = hole_off(0.08, 0.0, "MOVE T\nRESTORE H\n").to("SAVE")
+@pytest.mark.row(19, **COUNT)
+@IN_WORLDS
+def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search(seed: int | None) -> None:
+    run = hole_off(0.08, 0.0, "MOVE T\nRESTORE H\n", seed).to("SAVE")
     inserted, tries = run.hand(), run.tries
     run.go()
     assert run.finished
@@ -115,7 +174,11 @@ def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search() ->
     assert run.tries == tries
 
 
-@pytest.mark.parametrize("off", [(0.06, -0.04), (0.12, -0.08)])
+SHIFTS = [(0.06, -0.04), (0.12, -0.08)]
+
+
+@pytest.mark.row(22, nominal=len(SHIFTS))
+@pytest.mark.parametrize("off", SHIFTS)
 def test_row_22_one_hole_found_helps_to_find_the_next(off: tuple[float, float]) -> None:
     """The base stands off its place; the second pin goes to the diagonal hole."""
     second = INSERT.replace("L1", "L2").replace("MOVE  P", "MOVE  P2").replace("MOVE  T", "MOVE  T2")

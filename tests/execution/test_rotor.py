@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from pump_bench import Bench, bench, stacked, stage
+from pump_bench import COUNT, IN_WORLDS, Bench, bench, stacked, stage, world_of
 
 from handeye.errors import NO_FORCE
 from handeye.events import GuardTripped
@@ -11,9 +11,9 @@ from handeye.events import GuardTripped
 pytestmark = pytest.mark.slow
 
 
-def turning(friction: float | None = None) -> Bench:
+def turning(friction: float | None = None, seed: int | None = None) -> Bench:
     """The program's last stage; the experimenter may have jammed the rotor (N m)."""
-    run = bench(stage("turn the rotor"), lay=stacked())
+    run = bench(stage("turn the rotor"), world=world_of(seed), lay=stacked())
     if friction is not None:
         model = run.cell.truth.model
         model.dof_frictionloss[model.joint("rotor").dofadr[0]] = friction
@@ -31,8 +31,10 @@ def test_a_free_rotor_turns_and_meets_no_such_resistance() -> None:
     assert turned(run) > 50
 
 
-def test_row_56_a_jammed_rotor_stops_the_motion_and_the_operator_is_told() -> None:
-    run = turning(friction=5.0)
+@pytest.mark.row(56, **COUNT)
+@IN_WORLDS
+def test_row_56_a_jammed_rotor_stops_the_motion_and_the_operator_is_told(seed: int | None) -> None:
+    run = turning(friction=5.0, seed=seed)
     assert run.all(GuardTripped)[-1].guard == "against"
     assert run.told == "THE ROTOR IS HARD TO TURN"
     assert abs(turned(run)) < 2

@@ -72,6 +72,7 @@ def planners_called() -> Iterator[set[tuple[str, str]]]:
         sys.setprofile(before)
 
 
+@pytest.mark.row(44)
 def test_row_44_motions_to_places_are_not_planned_again() -> None:
     plan = plan_of(UNDISTURBED)
     with planners_called() as called:
@@ -79,6 +80,7 @@ def test_row_44_motions_to_places_are_not_planned_again() -> None:
     assert called == set()
 
 
+@pytest.mark.row(44)
 @pytest.mark.parametrize("text", [UNDISTURBED, SHIFTED])
 def test_row_44_a_second_run_of_a_plan_is_the_first_to_the_byte(text: str) -> None:
     plan = plan_of(text)

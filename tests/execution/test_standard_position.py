@@ -26,11 +26,16 @@ def test_row_59_every_push_is_stopped_by_force() -> None:
     assert [trip.guard for trip in pushed().all(GuardTripped)] == ["force", "force", "force"]
 
 
+@pytest.mark.row(59, nominal=1)
 def test_row_59_the_base_ends_within_five_hundredths_of_its_standard_position() -> None:
     assert pushed().place("base")[:2] == pytest.approx([25.0, 38.0], abs=0.05)
 
 
-@pytest.mark.parametrize("seed", [0, 1])
+ARMS = (0, 1)
+
+
+@pytest.mark.row(59, drawn=len(ARMS))
+@pytest.mark.parametrize("seed", ARMS)
 def test_row_59_it_lies_against_both_blocks_though_the_arm_is_wrong(seed: int) -> None:
     findings = judge(pushed(replace(PumpWorld.nominal(), arm=PumpWorld.sample(seed).arm)).cell.truth)
     assert max(findings[f"base_{side}"].value for side in ("far", "left")) < 0.05 * INCH * 1000

@@ -65,6 +65,7 @@ def count(events: list[Event], kind: type[Event]) -> int:
     return sum(isinstance(event, kind) for event in events)
 
 
+@pytest.mark.row(55, drawn=1)
 def test_row_55_the_eleven_stages_are_done_in_order(whole: Whole) -> None:
     started = tuple(e.stage for e in whole.events if isinstance(e, StageStarted))
     done = tuple(e.stage for e in whole.events if isinstance(e, StageFinished) and e.status == "done")
@@ -76,6 +77,7 @@ def test_row_55_nobody_calls_the_operator(whole: Whole) -> None:
     assert (whole.finished.result.completed, whole.finished.result.error) == (True, None)
 
 
+@pytest.mark.row(60, drawn=1)
 @pytest.mark.parametrize(
     ("stage", "screws"), [("drive the first two screws", 2), ("drive the last four screws", 4)]
 )
@@ -107,6 +109,7 @@ def test_the_gasket_is_accepted_by_sight(whole: Whole) -> None:
     assert seen.ok, seen.cause
 
 
+@pytest.mark.row(22, drawn=1)
 def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole: Whole) -> None:
     """The labels K1 to K6 of the program are the six screw holes, L1 and L2 those of the pins."""
     texts = [event.text for event in whole.events if isinstance(event, StepStarted)]
@@ -114,6 +117,7 @@ def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole:
     assert {label for label in again if again.count(label) > 1} <= {"L1"}
 
 
+@pytest.mark.row(58, drawn=1)
 def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> None:
     result, timing = whole.finished.result, whole.finished.result.timing
     lens = sum(event.seconds for event in whole.events if isinstance(event, CameraBusy))
@@ -122,6 +126,7 @@ def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> 
     assert timing.working_s == pytest.approx(timing.manipulation_s + timing.lens_s, abs=0.01)
 
 
+@pytest.mark.row(58)
 def test_row_58_vision_is_a_tiny_share_and_the_lens_a_large_one(whole: Whole) -> None:
     timing = whole.finished.result.timing
     assert timing.vision_cpu_s < 0.02 * timing.working_s

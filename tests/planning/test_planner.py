@@ -32,6 +32,7 @@ def only(text: str) -> Diagnostic:
     return problem
 
 
+@pytest.mark.row(2)
 def test_row_2_change_displaces_from_the_present_place() -> None:
     plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 0 -1] 0.6")
     assert plan is not None
@@ -39,6 +40,7 @@ def test_row_2_change_displaces_from_the_present_place() -> None:
     assert end - start == pytest.approx([0, 0, -0.6 * INCH], abs=1e-9)
 
 
+@pytest.mark.row(3)
 def test_row_3_the_length_of_the_direction_does_not_matter() -> None:
     plan, _ = plan_of("TRANS T [25 38 4 90 90 0]\nMOVE T\nCHANGE [0 0 -2] 0.6")
     assert plan is not None
@@ -47,12 +49,14 @@ def test_row_3_the_length_of_the_direction_does_not_matter() -> None:
     assert operation.displacement == pytest.approx((0, 0, -0.6 * INCH))
 
 
+@pytest.mark.row(39)
 def test_row_39_a_wrist_inside_the_cylinder_is_found_in_planning() -> None:
     problem = only("TRANS T [20 15 5 90 90 0]\nMOVE T")
     assert problem.code == "unreachable-position"
     assert "it cannot come nearer than 6.1 in" in problem.notes[0]
 
 
+@pytest.mark.row(40)
 def test_row_40_a_hand_through_the_table_is_found_in_planning() -> None:
     problem = only("TRANS T [25 38 4 90 90 0]\nTRANS LOW [25 38 -1 90 90 0]\nMOVE T\nMOVE LOW")
     assert problem.code == "hand-through-table"

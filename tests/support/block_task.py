@@ -16,21 +16,30 @@ from handeye.cell.device_errors import ArmErrors, HandErrors
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
-from handeye.distributions import Normal, Uniform
+from handeye.distributions import Normal, Range, Uniform
 from handeye.judge.finding import Findings, at_most
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.program.taught import load_taught
-from handeye.source import read_source
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.source import Source, read_source
 from handeye.tasks.task import Task, Words
 from handeye.units import INCH, OUNCE_FORCE
-from handeye.variation import Quantity, Variation, World, WorldSpec
+from handeye.variation import Overrides, Quantity, Variation, World, WorldSpec
 
 SCRIPT: Final = Path(__file__).with_name("block.al")
-HALF: Final = 0.6 * INCH
-"""Of the block's edge, m."""
+EDGE: Final = 1.2
+"""Of the block, in."""
+HALF: Final = EDGE / 2 * INCH
+"""m."""
+FOOT: Final = HALF / 4
+"""Half the height of the foot of a fin, m."""
 GOAL: Final = np.array([30.0, 30.0]) * INCH
 """Where the block is to stand, x and y, m."""
+STIFF: Final = [0.003, 1.0]
+"""Of contacts with the block, else the fingers sink .05 in into it: s, damping ratio."""
 PLACE: Final = (
     0.3  # in: .2 across the finger line, where the hand feels nothing, and what is off with the arm
 )
@@ -38,6 +47,10 @@ LEAN: Final = 1.0  # deg
 HEIGHT: Final = 0.5  # mm, of its middle off half an edge
 
 VARIATION: Final = Variation(
+    Quantity(
+        name="block.thickness", unit="in", distribution=Range(EDGE, EDGE), nominal=EDGE, limits=(0.02, EDGE),
+        source="Along the finger line. Where it is less than the edge, the block is a fin on a foot.",
+    ),
     *(
         Quantity(name=f"block.{axis}", unit="in", distribution=Uniform(0.2), source="Where the block stands.")
         for axis in "xy"
@@ -76,9 +89,11 @@ class Block(Task):
             name="block", pos=[20 * INCH + world["block.x"], 24 * INCH + world["block.y"], HALF]
         )
         block.add_freejoint(name="block")
-        block.add_geom(
-            name="block", type=mujoco.mjtGeom.mjGEOM_BOX, size=[HALF] * 3, mass=0.2, contype=1, conaffinity=3
-        )
+        for size, height in _boxes(world["block.thickness"]):
+            block.add_geom(
+                type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=[0.0, 0.0, height - HALF], mass=0.2,
+                contype=1, conaffinity=3, solref=STIFF, priority=1,
+            )  # fmt: skip
         return scene.compile()
 
     def cell(self, spec: WorldSpec, camera: str) -> SimulatedCell:
@@ -104,6 +119,13 @@ class Block(Task):
         }
 
 
+def _boxes(thickness: float) -> list[tuple[list[float], float]]:
+    """Half sizes, and height of the middle, of the boxes that a block of some thickness (m) is made of."""
+    if thickness > 2 * HALF - 1e-9:
+        return [([HALF] * 3, HALF)]
+    return [([HALF, HALF, FOOT], FOOT), ([HALF, thickness / 2, HALF - FOOT], HALF + FOOT)]
+
+
 def _errors(world: World) -> ArmErrors:
     none, ones = np.zeros(3), np.ones(3)
     return ArmErrors(
@@ -123,10 +145,18 @@ tasks.register(BLOCK)
 
 
 @cache
-def block_plan() -> Plan:
-    """The plan of the script beside this file, for the small arm."""
-    program, _ = compile_text(read_source(SCRIPT), load_taught(SCRIPT.with_suffix(".toml")))
-    assert program is not None
-    plan, _ = make_plan(program, CARTESIAN)
-    assert plan is not None
+def block_plan(script: str | None = None) -> Plan:
+    """The plan of a script for the small arm, with the positions beside this file; of the script there if none."""
+    source = read_source(SCRIPT) if script is None else Source(name="small.al", text=script)
+    program, problems = compile_text(source, load_taught(SCRIPT.with_suffix(".toml")))
+    assert program is not None, problems
+    plan, findings = make_plan(program, CARTESIAN)
+    assert plan is not None, findings
     return plan
+
+
+def block_run(script: str, seed: int = 0, **set: float) -> Runner:
+    """A run of a script in the drawn world of a seed, with some quantities set (SI), that has not begun."""
+    world = WorldSpec(seed=seed, overrides=Overrides(set=set))
+    setup = Setup(plan=block_plan(script), world=world, camera="ray", task="block")
+    return Runner(Checkpoint(setup=setup))

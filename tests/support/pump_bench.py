@@ -11,6 +11,7 @@ from typing import Final, TypeVar
 
 import mujoco
 import numpy as np
+import pytest
 from driving import Drive, tick
 
 from handeye.al import compile_text
@@ -74,6 +75,21 @@ def stage(*names: str) -> str:
 def without(word: str, script: str) -> str:
     """A script without the lines that begin with an instruction."""
     return re.sub(rf"(?m)^\s*{word}\b.*\n", "", script)
+
+
+SEEDS: Final = (None, 1)
+"""Worlds in which a claim is shown that holds in any: the one without errors, and seeds of drawn ones."""
+IN_WORLDS: Final = pytest.mark.parametrize(
+    "seed", SEEDS, ids=lambda seed: "nominal" if seed is None else f"seed {seed}"
+)
+"""Shows a claim in each of them."""
+COUNT: Final = {"nominal": SEEDS.count(None), "drawn": len(SEEDS) - SEEDS.count(None)}
+"""Their number, for the mark of a row."""
+
+
+def world_of(seed: int | None) -> PumpWorld:
+    """The world without errors, or the drawn one of a seed."""
+    return PumpWorld.nominal() if seed is None else PumpWorld.sample(seed)
 
 
 SEATED: Final = 1.7309

@@ -73,6 +73,7 @@ def test_the_script_makes_a_plan_that_differs_by_one_screw(hole: Position) -> No
     assert more[:start] + more[start + added :] == texts
 
 
+@pytest.mark.row(57, nominal=1)
 def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position) -> None:
     text = stage("drive the last four screws")
     first, last = text.index("        SEARCH  .05\nM3:"), text.index("        SEARCH  .07\nD2:")

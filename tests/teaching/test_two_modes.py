@@ -42,6 +42,7 @@ def plannings(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 # -- rows 41 and 42 of the reference ----------------------------------------------------------------------
 
 
+@pytest.mark.row(41, drawn=1)
 def test_row_41_open_3_park_do_makes_a_plan_of_two_functions_and_carries_both_out_in_order(
     console: Console,
 ) -> None:
@@ -54,6 +55,7 @@ def test_row_41_open_3_park_do_makes_a_plan_of_two_functions_and_carries_both_ou
     assert console.gap == pytest.approx(3, abs=0.05)
 
 
+@pytest.mark.row(42, drawn=1)
 def test_row_42_do_open_3_then_do_park_plans_twice_does_the_same_and_leaves_what_is_collected(
     tmp_path: Path, plannings: list[str]
 ) -> None:
@@ -113,6 +115,7 @@ def test_what_is_collected_is_written_as_a_script_that_do_carries_out_by_its_nam
 # -- doing ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.row(43, drawn=1)
 def test_a_macro_is_carried_out_by_its_name(console: Console) -> None:
     console.type("DEFINE WIDE", "OPEN 3.5", "", "PARK", "DO WIDE")
     assert console.steps == ["OPEN 3.5"]

@@ -84,6 +84,7 @@ def test_the_holes_are_where_threshold_and_contours_find_them(seed: int):
         assert np.hypot(*(centres - (hole.u, hole.v)).T).min() < 0.5
 
 
+@pytest.mark.row(54)
 def test_a_part_whose_largest_hole_is_hidden_is_not_guessed():
     found = located(POSES[0], holes=1)
     assert found == Failure(cause=NoHoles(blobs=1))

@@ -11,7 +11,7 @@ from handeye.units import DEGREE, INCH
 from handeye.vision.drawing import annotate
 from handeye.vision.gasket import GasketInspection, difference, inspect
 from handeye.vision.holes import hole_places
-from handeye.vision.marks import RED, marks
+from handeye.vision.marks import GREEN, RED, marks
 
 PART = part(180 * DEGREE)
 POSE = (PART.at[0], PART.at[1], PART.at[3])
@@ -52,12 +52,14 @@ def test_the_difference_is_the_same_both_ways():
     assert (difference(before, after) == difference(after, before)).all()
 
 
+@pytest.mark.row(51)
 @pytest.mark.parametrize("noise", [1.0, 1.5, 2.0])
 def test_a_gasket_in_its_place_is_accepted_in_noise(noise: float):
     seen = inspected((0.01, -0.01), noise=noise)
     assert seen.ok, seen.cause
 
 
+@pytest.mark.row(52)
 @pytest.mark.parametrize("direction", range(0, 360, 45))
 def test_a_gasket_off_by_three_tenths_of_an_inch_is_rejected(direction: int):
     angle = direction * DEGREE
@@ -72,6 +74,7 @@ def test_the_shift_of_a_gasket_is_measured_on_its_rim():
     assert seen.shift == pytest.approx(0.2 * INCH, abs=0.06 * INCH)
 
 
+@pytest.mark.row(53)
 def test_an_absent_gasket_is_rejected():
     seen = inspected(None)
     assert not seen.ok
@@ -79,6 +82,7 @@ def test_an_absent_gasket_is_rejected():
     assert seen.found == (None, None)
 
 
+@pytest.mark.row(52)
 def test_expected_crosses_and_found_dots_are_drawn():
     before, after = pictures((0.3, 0.0))
     seen = inspect(before, after, WHERE, PART, POSE)
@@ -86,6 +90,20 @@ def test_expected_crosses_and_found_dots_are_drawn():
     u, v = seen.expected[0]
     assert image.shape == (768, 999, 3)
     assert tuple(image[round((v + 0.5) * 3), round((u + 0.5) * 3) + 10]) == RED[::-1]
+
+
+@pytest.mark.row(51)
+@pytest.mark.row(52)
+@pytest.mark.parametrize(("shift", "colour"), [((0.0, 0.0), GREEN), ((0.3, 0.0), RED)])
+def test_the_dot_of_a_centre_that_was_found_is_green_only_if_the_gasket_is_right(
+    shift: tuple[float, float], colour: tuple[int, int, int]
+):
+    before, after = pictures(shift)
+    seen = inspect(before, after, WHERE, PART, POSE)
+    image = annotate(difference(before, after), marks(inspection=seen), scale=3)
+    dots = [found for found in seen.found if found is not None]
+    assert dots
+    assert {tuple(image[round((v + 0.5) * 3), round((u + 0.5) * 3)]) for u, v in dots} == {colour[::-1]}
 
 
 def test_a_gasket_needs_a_face_brighter_than_itself():

@@ -28,6 +28,7 @@ def ellipse(width: float, height: float, inside: int = 3, outside: int = 11) -> 
     return np.where(within, inside, outside).astype(np.uint8)
 
 
+@pytest.mark.row(47)
 def test_a_beam_meets_a_step_where_it_is():
     edge = beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 4, 200)
     assert edge is not None
@@ -35,6 +36,7 @@ def test_a_beam_meets_a_step_where_it_is():
     assert (edge.before, edge.after) == (3, 11)
 
 
+@pytest.mark.row(47)
 def test_a_beam_finds_nothing_below_its_threshold():
     assert beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 8.5, 200) is None
 
@@ -66,6 +68,7 @@ def test_a_beam_keeps_account_of_the_points_it_reads():
     assert not scan.read[:100].any()
 
 
+@pytest.mark.row(48)
 @settings(max_examples=60, deadline=None)
 @given(angle=st.floats(0, 2 * math.pi), share=st.floats(0, 0.75))
 def test_bouncing_finds_an_ellipse_from_any_seed_inside(angle: float, share: float):
@@ -87,6 +90,7 @@ def test_the_characteriser_works_on_bright_blobs_too():
     assert (blob.u, blob.v) == pytest.approx((160, 120), abs=1)
 
 
+@pytest.mark.row(49)
 @pytest.mark.parametrize("seed", range(8))
 def test_the_localiser_puts_a_tight_box_around_a_blob(seed: int):
     rng = np.random.default_rng(seed)

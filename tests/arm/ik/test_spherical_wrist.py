@@ -21,6 +21,7 @@ def at(x: float, y: float, z: float, yaw: float = 90.0) -> np.ndarray:
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])
 
 
+@pytest.mark.row(37)
 def test_all_four_branches_lead_back_to_the_pose() -> None:
     q = postures(STANFORD, 10_000, seed=3)
     X = forward(STANFORD, q)
@@ -50,6 +51,7 @@ def test_solve_takes_the_branch_nearest_inside_the_limits() -> None:
         assert (np.abs(q - near) / speed).sum() == pytest.approx(cost.min())
 
 
+@pytest.mark.row(38)
 def test_a_straight_wrist_keeps_joint_4_and_the_sum_of_4_and_6() -> None:
     q = np.array([0.1, 1.5, 0.6, 0.4, 0.0, 0.5])
     result = solve(STANFORD, forward(STANFORD, q), np.array([0.1, 1.5, 0.6, 0.7, 0.0, 0.0])).q
