@@ -3,6 +3,7 @@
 from typing import Literal
 
 import msgspec
+from msgspec import UNSET, UnsetType
 
 from handeye.ports.camera import Renderer
 from handeye.program.causes import Cause, InspectionCause, Recorded
@@ -38,6 +39,13 @@ class RunStarted(Event, frozen=True, kw_only=True):
     camera: Renderer
     """How pictures are made."""
     versions: dict[str, str]
+    replaced: dict[str, str] | UnsetType = UNSET
+    """Parts that code of whoever began the run took the place of, with the names of that code."""
+
+    @property
+    def own_parts(self) -> dict[str, str]:
+        """The same; empty where all parts were handeye's own."""
+        return self.replaced or {}
 
 
 class StageStarted(Event, frozen=True, kw_only=True):

@@ -8,6 +8,7 @@ quantity moves no other, and one can be switched off or set while all others sta
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from operator import index
 from typing import Annotated, Final, Literal
 from zlib import crc32
 
@@ -22,6 +23,9 @@ from handeye.units import UNITS, Unit
 
 DRAWING: Final = 2
 """How a world comes from its seed: raised when equal seeds give other worlds than before."""
+
+LARGEST_SEED: Final = (1 << 63) - 1
+"""What is written to disk has 64 bits and a sign."""
 
 Level = Literal["low", "nominal", "high"]
 SPREADS: Final[dict[Level, float]] = {"low": 0.5, "nominal": 1.0, "high": 2.0}
@@ -191,3 +195,20 @@ def drawn(quantity: Quantity, spec: WorldSpec) -> float:
     if spec.level != "nominal" and distribution.is_error:
         value = nominal + SPREADS[spec.level] * (value - nominal)
     return value * quantity.measure.size
+
+
+def checked_seed(seed: object) -> int:
+    """A seed, as a plain number.
+
+    Raises:
+        InvalidInput: it is none.
+    """
+    try:
+        number = -1 if isinstance(seed, bool) else index(seed)  # type: ignore[arg-type]
+    except TypeError:
+        number = -1
+    if number < 0:
+        raise InvalidInput(f"a seed is a whole number from 0 up; {seed!r} is not")
+    if number > LARGEST_SEED:
+        raise InvalidInput(f"the largest seed is {LARGEST_SEED}; {seed} is larger")
+    return number

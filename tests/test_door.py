@@ -1,7 +1,10 @@
-"""The public door: three functions that stay functions whatever is imported."""
+"""The public door: its names load what they need when they are used, and stay what they are whatever is imported."""
 
+import ast
 import importlib
 import pkgutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -9,66 +12,76 @@ import pytest
 
 import handeye
 from handeye.errors import InvalidInput
-from handeye.planfile.plan import Plan
-from handeye.trace.trace import Trace
 
-pytestmark = pytest.mark.slow
-
-SCRIPT = """\
-        STAGE   "shut the hand"
-        OPEN    .5
-        OPEN    .4
-"""
+ROOT = Path(__file__).parent.parent
+SOURCE = Path(handeye.__file__).read_text(encoding="utf-8")
+HEAVY = ("numpy", "scipy", "cv2", "mujoco", "msgspec", "rich")
 
 
-@pytest.fixture(scope="module", autouse=True)
-def everything() -> None:
-    """Every submodule has been imported, so that one that bore the name of a function would have taken its place."""
+def in_a_fresh_interpreter(code: str) -> str:
+    """What a program prints."""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+def seen_by_type_checkers() -> set[str]:
+    """Names that the door imports for type checkers."""
+    (block,) = (node for node in ast.parse(SOURCE).body if isinstance(node, ast.If))
+    imported = [node for node in block.body if isinstance(node, ast.ImportFrom)]
+    declared = [node.target.id for node in block.body if isinstance(node, ast.AnnAssign)]
+    return {*declared, *(alias.asname or alias.name for node in imported for alias in node.names)}
+
+
+def test_the_import_loads_nothing_until_a_name_needs_it() -> None:
+    code = f"import sys, handeye; print([m for m in sys.modules if m.split('.')[0] in {HEAVY} or 'handeye.' in m])"
+    assert in_a_fresh_interpreter(code) == "[]"
+
+
+def test_a_plan_is_made_without_a_simulator() -> None:
+    code = "import sys, handeye; handeye.plan('OPEN 1\\n'); print({'mujoco', 'cv2'} & {*sys.modules})"
+    assert in_a_fresh_interpreter(code) == "set()"
+
+
+def test_type_checkers_see_every_name() -> None:
+    assert seen_by_type_checkers() == {*handeye.__all__}
+
+
+def test_the_names_are_listed_in_their_order_and_all_of_them_are_there() -> None:
+    assert handeye.__all__ == sorted(handeye.__all__)
+    assert {*handeye.__all__} <= {*dir(handeye)}
+    assert all(getattr(handeye, name) is not None for name in handeye.__all__)
+
+
+def test_a_name_that_is_not_there_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match=r"^module 'handeye' has no attribute 'asemble'"):
+        handeye.asemble  # noqa: B018
+
+
+@pytest.mark.slow
+def test_no_submodule_takes_the_place_of_a_name() -> None:
+    before = {name: getattr(handeye, name) for name in handeye.__all__}
     for found in pkgutil.walk_packages(handeye.__path__, "handeye."):
         if not found.name.endswith("__main__"):
             importlib.import_module(found.name)
-
-
-@pytest.fixture(scope="module")
-def script(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    file = tmp_path_factory.mktemp("door") / "short.al"
-    file.write_text(SCRIPT, encoding="utf-8")
-    return file
-
-
-def test_a_script_becomes_a_plan(script: Path) -> None:
-    made = handeye.plan(script)
-    assert isinstance(made, Plan)
-    assert made.program.stages == ("shut the hand",)
-
-
-def test_a_script_with_mistakes_is_refused_with_all_of_them(tmp_path: Path) -> None:
-    (tmp_path / "wrong.al").write_text("OPNE 3\nMOVE NOWHERE\n", encoding="utf-8")
-    with pytest.raises(InvalidInput, match=r"(?s)OPNE.*NOWHERE"):
-        handeye.plan(tmp_path / "wrong.al")
-
-
-def test_a_script_is_carried_out_and_its_trace_opened(script: Path, tmp_path: Path) -> None:
-    result = handeye.assemble(seed=3, script=script, camera="ray", out=tmp_path / "run")
-    trace = handeye.open(tmp_path / "run")
-    assert (result.completed, result.seed) == (True, 3)
-    assert isinstance(trace, Trace)
-    assert trace.head.program == "short"
-
-
-def test_a_file_that_is_no_trace_is_refused(script: Path) -> None:
-    with pytest.raises(InvalidInput, match="is not a trace"):
-        handeye.open(script)
+    assert {name: getattr(handeye, name) for name in handeye.__all__} == before
 
 
 def test_the_version_is_that_of_the_package() -> None:
-    project = Path(__file__).parent.parent / "pyproject.toml"
-    assert handeye.__version__ == tomllib.loads(project.read_text(encoding="utf-8"))["project"]["version"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert handeye.__version__ == project["version"]
 
 
-@pytest.mark.parametrize(
-    "words", [{"seed": -1}, {"seed": "3"}, {"seed": 1.5}, {"world": 3}, {"world": {"seed": 3}}]
-)
-def test_a_seed_or_a_world_that_is_none_is_refused(words: dict[str, object]) -> None:
-    with pytest.raises(InvalidInput, match=r"^the (seed|world) must be a"):
-        handeye.assemble(**words)
+def test_the_package_says_that_it_has_types() -> None:
+    assert (ROOT / "handeye" / "py.typed").is_file()
+
+
+@pytest.mark.parametrize("wrong", [None, 3, "", b"run"])
+def test_what_is_no_trace_is_refused_in_one_sentence(wrong: object) -> None:
+    with pytest.raises(InvalidInput, match=r"^a trace is a file or the folder of a run, not "):
+        handeye.open(wrong)
+
+
+def test_a_file_that_is_no_trace_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "short.al").write_text("OPEN 1\n", encoding="utf-8")
+    with pytest.raises(InvalidInput, match="is not a trace"):
+        handeye.open(tmp_path / "short.al")

@@ -4,16 +4,18 @@ import mujoco
 
 from handeye.cell.opengl import OpenGlRenderer
 from handeye.cell.raycasting import RayRenderer
-from handeye.cell.rendering import SceneRenderer
+from handeye.cell.rendering import RendererMaker, SceneRenderer
 from handeye.errors import InvalidInput
 
 
-def make_renderer(kind: str, model: mujoco.MjModel) -> SceneRenderer:
-    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere.
+def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
+    """A renderer: `gl`, `ray`, or `auto`: OpenGL where it works, rays elsewhere; or one that somebody else makes.
 
     Raises:
         InvalidInput: another `kind`, or OpenGL is asked for and does not work here.
     """
+    if not isinstance(kind, str):
+        return kind(model)
     if kind == "ray":
         return RayRenderer(model)
     if kind == "gl":

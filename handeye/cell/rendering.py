@@ -6,6 +6,7 @@ gives the same values every time. Neither changes the state.
 """
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import Final
 
 import mujoco
@@ -32,6 +33,10 @@ class SceneRenderer(ABC):
     @abstractmethod
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
         """Light on the target, shape (256, 333); `data` must be up to date on geoms and lights."""
+
+
+RendererMaker = Callable[[mujoco.MjModel], SceneRenderer]
+"""Makes the renderer of a scene."""
 
 
 def averaged(fine: Array) -> Luminance:

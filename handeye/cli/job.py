@@ -18,9 +18,9 @@ from handeye.debugger.formatting import MOST
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
-from handeye.events import RunStarted
 from handeye.execution.servo_loop import Halted
 from handeye.host_time import HostTimer
+from handeye.report.cautions import cautions
 from handeye.report.finishing import finished
 from handeye.report.page import page
 from handeye.report.progress import Progress
@@ -36,8 +36,6 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
-from handeye.trace.sentences import renderer_name
-from handeye.versions import versions
 
 PANIC: Final = Pause(kind="panic")
 NOT_KEPT: Final = "not kept; with --out FOLDER it could be resumed"
@@ -135,7 +133,8 @@ class _Work:
             if self.folder is not None and self.job.folder is None:
                 self.folder.discard()
             raise
-        _warn(runner)
+        for sentence in cautions(runner, judged=self.job.referee):
+            note(sentence)
         if self.folder is not None and self.folder.lost:
             note(
                 f"the trace in {self.folder.path} was lost or damaged: it lacks the motions before {runner.time:.2f} s"
@@ -265,17 +264,3 @@ def work(job: Job) -> int:
         if under_way.folder is not None:
             closing.callback(under_way.folder.close)
         return under_way.do()
-
-
-def _warn(runner: Runner) -> None:
-    """Tell why a resumed run may come out otherwise than it would have."""
-    begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
-    if begun is None:
-        return
-    here = runner.cell.renderer
-    if begun.camera != here:
-        before, now = renderer_name(begun.camera), renderer_name(here)
-        note(f"the run began with pictures by {before}; now they are by {now}")
-    changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
-    if changed:
-        note(f"the run began with other versions of {', '.join(changed)}; the result may differ")

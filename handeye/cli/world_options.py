@@ -8,12 +8,10 @@ from cyclopts import Group, Parameter
 from handeye.cli.common import whole
 from handeye.errors import InvalidInput
 from handeye.tasks import task
-from handeye.variation import WorldSpec
+from handeye.variation import WorldSpec, checked_seed
 from handeye.world_options import overrides
 
 _GROUP: Final = Group("World", sort_key=1)
-LARGEST: Final = (1 << 63) - 1
-"""The greatest seed: what is written to disk has 64 bits and a sign."""
 
 
 @Parameter(name="*", group=_GROUP)
@@ -48,10 +46,7 @@ class ErrorOptions:
         Raises:
             InvalidInput: no such seed, name, unit or value.
         """
-        if seed < 0:
-            raise InvalidInput(f"a seed is a whole number from 0 up; {seed} is not")
-        if seed > LARGEST:
-            raise InvalidInput(f"the largest seed is {LARGEST}; {seed} is larger")
+        checked_seed(seed)
         off = [name.strip() for names in self.without or () for name in names.split(",")]
         if "" in off:
             raise InvalidInput(

@@ -8,7 +8,7 @@ from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.listing import SourceLine, excerpt
 from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
-from handeye.errors import HandeyeError, InvalidInput
+from handeye.errors import InvalidInput
 from handeye.events import StepStarted
 from handeye.execution.servo_loop import Halted
 from handeye.runs.advance import Pause, advance, ended
@@ -83,7 +83,7 @@ class DebugSession:
     def go(self, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
         """Go on to the next of these stops or a break, or so many steps.
 
-        A step that is broken off, by the panic button or because something cannot be written, is undone.
+        A step that is broken off, by the panic button or because something fails, is undone.
 
         Raises:
             InvalidInput: the run cannot go on.
@@ -93,7 +93,7 @@ class DebugSession:
             raise InvalidInput(refusal)
         try:
             pause = advance(self.runner, [*self.stops, *self.breaks.values(), *stops], steps)
-        except HandeyeError:
+        except BaseException:  # whatever broke it off: Ctrl-C, or code of a caller
             self.runner.undo()
             raise
         if pause.kind == "panic":

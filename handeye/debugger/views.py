@@ -113,7 +113,7 @@ def _search(runner: Runner) -> SearchView | None:
     search = context_of(runner.system).state.search
     if search is None:
         return None
-    x, y = search.offset()
+    x, y = search.offset(context_of(runner.system).search)
     return SearchView(
         place=search.count + 1, places=search.limit, offset_in=(_round(x / INCH), _round(y / INCH))
     )
@@ -152,9 +152,14 @@ def _positions(runner: Runner) -> dict[str, PositionView]:
     return shown
 
 
-def _picture(runner: Runner) -> PictureShown | None:
+def last_picture(runner: Runner) -> str | None:
+    """The name of the picture that was taken last and is still there; None if there is none."""
     taken = [event.picture for event in runner.events if isinstance(event, PictureTaken)]
-    name = next((name for name in reversed(taken) if name in context_of(runner.system).state.shots), None)
+    return next((name for name in reversed(taken) if name in context_of(runner.system).state.shots), None)
+
+
+def _picture(runner: Runner) -> PictureShown | None:
+    name = last_picture(runner)
     return None if name is None else PictureShown(name=name, file=None)
 
 

@@ -13,6 +13,7 @@ from handeye.mutable_records import put_back
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.program.world_model import WorldModel
+from handeye.touch.spiral import SearchPattern, spiral
 from handeye.vision.camera_model import CameraModel
 
 
@@ -26,6 +27,8 @@ class ExecutionContext:
     camera: CameraModel | None
     """The calibrated camera; None in a cell without one."""
     emit: Callable[[AnyEvent], None]
+    search: SearchPattern = spiral
+    """The places that a search tries."""
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision; the working phase itself never reads a clock of the host."""
     state: ExecutionState = field(init=False)

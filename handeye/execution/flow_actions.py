@@ -58,7 +58,7 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
         tried = NoSearch() if found is None else PlacesTried(places=found.limit)
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=tried)
     found.count += 1
-    x, y = found.offset()
+    x, y = found.offset(run.search)
     run.emit(SearchAdvanced(time=run.time, count=found.count, offset=(round(x, 6), round(y, 6))))
     return None
 

@@ -20,7 +20,7 @@ from handeye.program.causes import Cause
 from handeye.program.world_model import WorldState
 from handeye.record import Record
 from handeye.system_state import Natural, SystemState
-from handeye.touch.spiral import spiral
+from handeye.touch.spiral import SearchPattern
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera_model import View
@@ -36,15 +36,15 @@ class Fault(Record, frozen=True, kw_only=True):
 
 
 class SearchState(MutableRecord, kw_only=True):
-    """A spiral search under way."""
+    """A search under way."""
 
     step: float
     limit: Natural
     count: Natural = 0
 
-    def offset(self) -> tuple[float, float]:
-        """Horizontal offset of the present place, m."""
-        i, j = spiral(self.count)
+    def offset(self, pattern: SearchPattern) -> tuple[float, float]:
+        """Horizontal offset of the present place in a pattern, m."""
+        i, j = pattern(self.count)
         return i * self.step, j * self.step
 
 

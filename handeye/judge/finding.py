@@ -1,7 +1,7 @@
 """Findings of the referee, as facts."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 Relation = Literal["at most", "at least"]
@@ -20,6 +20,11 @@ class Finding:
     """How the value must stand to its limit; it may reach it."""
     limit: float
     unit: str
+
+    def limited(self, limit: float) -> "Finding":
+        """The same measurement against another limit, in the same unit."""
+        ok = self.value <= limit if self.relation == "at most" else self.value >= limit
+        return replace(self, limit=limit, ok=ok)
 
 
 Findings = Mapping[str, Finding]

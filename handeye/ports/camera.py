@@ -27,9 +27,10 @@ Picture = NDArray[np.uint8]
 class Renderer(Record, frozen=True, kw_only=True):
     """Method by which pictures are made; two methods, or two platforms, need not give the same picture."""
 
-    method: Literal["opengl", "rays", "none"]
+    method: Literal["opengl", "rays", "none", "replaced"]
+    """`replaced`: by code of whoever began the run."""
     platform: str = ""
-    """Library that draws for OpenGL: `EGL`, `OSMesa`, ..."""
+    """Library that draws for OpenGL: `EGL`, `OSMesa`, ...; name of the code that replaces it."""
 
 
 class TvCamera(ABC):

@@ -69,7 +69,16 @@ def load_taught(path: str | Path) -> Taught:
     Raises:
         InvalidInput: the file cannot be read, or what is in it cannot be used; the sentence names the key.
     """
-    source = read_source(path)
+    return read_taught(read_source(path))
+
+
+def read_taught(source: Source) -> Taught:
+    """What a text in TOML teaches (inches and degrees).
+
+    Raises:
+        InvalidInput: what is in it cannot be used; the sentence names the key.
+    """
+    path = source.name
     try:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
         return _taught(tables)

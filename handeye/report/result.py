@@ -1,6 +1,7 @@
 """The result of a run: one record, printed as a page or as one JSON object."""
 
 import msgspec
+from msgspec import UNSET, UnsetType
 
 from handeye.judge.finding import Relation
 from handeye.record import Record
@@ -89,6 +90,8 @@ class Result(Record, frozen=True, kw_only=True):
     world: WorldSpec
     camera: CameraReport
     versions: dict[str, str]
+    replaced: dict[str, str] | UnsetType = UNSET
+    """Parts that code of whoever began the run took the place of, with the names of that code."""
 
     @property
     def exit_code(self) -> int:

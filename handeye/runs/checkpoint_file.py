@@ -13,6 +13,7 @@ from typing import Annotated, Any, Final
 
 import msgspec
 import numpy as np
+from msgspec import UNSET, UnsetType
 
 from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
@@ -62,6 +63,8 @@ class Head(Record, frozen=True, kw_only=True):
     task: str = DEFAULT
     judged: bool = False
     """The referee is to look at what came out."""
+    replaced: dict[str, str] | UnsetType = UNSET
+    """Parts that code took the place of, with its names: the run goes on only with parts of the same names."""
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -101,6 +104,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         touched=checkpoint.touched,
         task=setup.task,
         judged=setup.judged,
+        replaced=setup.replaced or UNSET,
     )
 
 
@@ -138,6 +142,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
         camera=head.camera,
         task=head.task,
         judged=head.judged,
+        replaced=head.replaced or {},
     )
     try:
         kind.check(setup)

@@ -15,6 +15,7 @@ from handeye.runs.checkpoint_file import (
     read_head,
     write_checkpoint,
 )
+from handeye.runs.parts import deciding, named
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import digest_of, listing_of
@@ -74,6 +75,11 @@ class CheckpointStore:
                 raise InvalidInput(
                     f"{path} is of another run ({head.world}, camera {head.camera}) than this "
                     f"({setup.world}, camera {setup.camera}); choose another folder"
+                )
+            if deciding(head.replaced or {}) != deciding(setup.replaced):
+                raise InvalidInput(
+                    f"{path} is of a run with other parts ({named(head.replaced or {})}) than this "
+                    f"({named(setup.replaced)}); choose another folder"
                 )
 
     def claim(self, setup: Setup) -> None:

@@ -39,6 +39,17 @@ PICTURES: Final = "pictures"
 HOST: Final = "host.json"
 
 
+class HoldsRun(InvalidInput):
+    """A folder holds a run, which would be lost."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(
+            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it, "
+            "and another folder keeps it"
+        )
+        self.path = path
+
+
 class RunFolder(Observer):
     """Keeps a run in a folder."""
 
@@ -249,12 +260,9 @@ def _holds_run(path: Path) -> bool:
 
 
 def _refuse_run(path: Path) -> None:
-    """Raises InvalidInput if a folder holds a run."""
+    """Raises HoldsRun if a folder holds a run."""
     if _holds_run(path):
-        raise InvalidInput(
-            f"{path} holds a run: `handeye resume {path}` resumes it, --overwrite replaces it, "
-            "and another folder keeps it"
-        )
+        raise HoldsRun(path)
 
 
 def _refuse_others(path: Path) -> None:

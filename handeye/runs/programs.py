@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
+from msgspec import UNSET
 
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.errors import InvalidInput
@@ -22,6 +23,7 @@ from handeye.runs.system import Settable, Surroundings, System, SystemKind
 from handeye.system_state import SystemState
 from handeye.tasks import task
 from handeye.tasks.task import Eye
+from handeye.touch.spiral import spiral
 from handeye.units import DEGREE, INCH
 from handeye.versions import versions
 
@@ -39,7 +41,7 @@ class ProgramSystem(System):
         self.plan = plan_of(setup)
         self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
         check(setup)
-        self._cell = task(setup.task).cell(setup.world, setup.camera)
+        self._cell = task(setup.task).cell(setup.world, around.parts.camera or setup.camera)
         check_devices(self.plan.program, self._cell.devices)
         self.run = ExecutionContext(
             plan=self.plan,
@@ -47,6 +49,7 @@ class ProgramSystem(System):
             cell=self._cell.devices,
             camera=None if self._eye is None else self._eye.drawing,
             emit=around.emit,
+            search=around.parts.search or spiral,
             vision=around.vision,
         )
         self.run.drive.halt, self.run.drive.watch = around.halt, around.watch
@@ -84,6 +87,7 @@ class ProgramSystem(System):
             task=self._setup.task,
             camera=self._cell.renderer,
             versions=versions(),
+            replaced=self._setup.replaced or UNSET,
         )
 
     def step(self) -> None:

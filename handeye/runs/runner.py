@@ -27,6 +27,7 @@ from handeye.execution.stopwatch import Stopwatch
 from handeye.mutable_records import copied
 from handeye.plain_text import counted
 from handeye.runs.observer import Observer
+from handeye.runs.parts import OWN, Parts
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
 from handeye.runs.system import StepFacts, Surroundings, System
 from handeye.runs.systems import kind_of, listing_of
@@ -51,25 +52,30 @@ class Runner:
         *,
         halt: Callable[[], bool] = lambda: False,
         observers: Callable[["Runner"], Sequence[Observer]] = lambda _: (),
+        parts: Parts = OWN,
     ) -> None:
         """Build the cell; calibrate its camera, or put it into the state of the checkpoint.
 
         Args:
             halt: the panic button, asked at every servo period.
             observers: makes those who look on, once the cell is built and before anything happens in it.
+            parts: parts of the run that are not handeye's own.
 
         Raises:
             InvalidInput: there is no such task, the plan is for another arm or needs devices that the cell does not
-                have, the camera cannot work as asked, or the checkpoint does not fit this scene.
+                have, the camera cannot work as asked, the checkpoint does not fit this scene, or the run was begun with
+                other parts.
             Halted: the panic button was hit during calibration.
         """
+        parts.check(start.setup.replaced)
         self.setup = start.setup
         self.listing = listing_of(start.setup)
         """Stages and steps of what is carried out."""
         self.vision = Stopwatch(time.process_time)
         """Processor time that vision has taken since this object took the run up, undone steps included."""
         self.system: System = kind_of(start.setup).build(
-            start.setup, Surroundings(emit=self._emit, watch=self._watch, halt=halt, vision=self.vision)
+            start.setup,
+            Surroundings(emit=self._emit, watch=self._watch, halt=halt, vision=self.vision, parts=parts),
         )
         self.events: list[AnyEvent] = []
         """Everything that has happened and was not undone."""

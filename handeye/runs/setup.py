@@ -1,5 +1,7 @@
 """Setup: what decides a run."""
 
+import msgspec
+
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
 from handeye.record import Record
@@ -21,6 +23,8 @@ class Setup(Record, frozen=True, kw_only=True):
     """Name of the task."""
     judged: bool = False
     """The referee is to look at what came out. It decides nothing of the run."""
+    replaced: dict[str, str] = msgspec.field(default_factory=dict)
+    """Parts that code of whoever began the run takes the place of, with the names of that code."""
 
 
 def plan_of(setup: Setup) -> Plan:

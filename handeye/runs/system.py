@@ -13,6 +13,7 @@ from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
 from handeye.program.operation import Device
 from handeye.record import Record
+from handeye.runs.parts import OWN, Parts
 from handeye.runs.setup import Setup
 from handeye.system_state import SystemState
 
@@ -170,6 +171,7 @@ class Surroundings:
     """The panic button, asked at every servo period."""
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision."""
+    parts: Parts = OWN
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,7 +27,14 @@ def setup_of(trace: Trace) -> Setup:
     begun = trace.head
     plan = system_kind(begun.system).decode(trace.plan, f"the plan in {trace.name}")
     camera = "gl" if begun.camera.method == "opengl" else "ray"
-    return Setup(system=begun.system, plan=plan, world=begun.world, camera=camera, task=begun.task)
+    return Setup(
+        system=begun.system,
+        plan=plan,
+        world=begun.world,
+        camera=camera,
+        task=begun.task,
+        replaced=begun.own_parts,
+    )
 
 
 def settled(events: Sequence[AnyEvent]) -> int:

@@ -21,6 +21,7 @@ from handeye.vision.camera_model import CameraModel
 if TYPE_CHECKING:  # a plan is made and checked without a simulator
     import mujoco
 
+    from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
 
@@ -104,8 +105,8 @@ class Task(ABC):
         """
 
     @abstractmethod
-    def cell(self, spec: WorldSpec, camera: str) -> SimulatedCell:
-        """The cell of a world, switched on; pictures are made by `auto`, `gl` or `ray`.
+    def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
+        """The cell of a world, switched on; pictures are made by `auto`, `gl` or `ray`, or by what is made so.
 
         Raises:
             InvalidInput: there is no such world, or pictures cannot be made so here.

@@ -1,6 +1,10 @@
 """The square spiral in which nearby places are searched."""
 
 import math
+from collections.abc import Callable
+
+SearchPattern = Callable[[int], tuple[float, float]]
+"""The place of a number, from 0, in steps of the search along x and y of the table; number 0 is (0, 0)."""
 
 
 def spiral(k: int) -> tuple[int, int]:

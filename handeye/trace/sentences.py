@@ -58,8 +58,10 @@ def inches(vector: Sequence[float], places: int = 2) -> str:
 
 
 def renderer_name(renderer: Renderer) -> str:
-    """How pictures are made: `OpenGL (EGL)`, `ray casting`, `none`."""
-    named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none"}[renderer.method]
+    """How pictures are made: `OpenGL (EGL)`, `ray casting`, `none`, `the caller's code (fog.Foggy)`."""
+    named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none", "replaced": "the caller's code"}[
+        renderer.method
+    ]
     return f"{named} ({renderer.platform})" if renderer.platform else named
 
 
@@ -68,6 +70,9 @@ def sentence(event: Event) -> str:
     match event:
         case happened.RunStarted():
             world = f"the world of {event.world}, pictures by {renderer_name(event.camera)}"
+            world += "".join(
+                f", {part} by {name}" for part, name in event.own_parts.items() if part != "camera"
+            )
             steps = counted(event.steps, "step")
             return (
                 f"{event.program}: {steps} on the {event.arm} arm, {world}"

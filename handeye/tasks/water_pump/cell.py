@@ -8,6 +8,7 @@ from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.lamp import SimulatedLamp
 from handeye.cell.renderers import make_renderer
+from handeye.cell.rendering import RendererMaker
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.water_pump.clamping import Clamping
@@ -18,11 +19,11 @@ from handeye.tasks.water_pump.scene import ARM, build
 from handeye.tasks.water_pump.threads import Threads
 
 
-def build_cell(world: PumpWorld, *, camera: str = "auto", rest: bool = True) -> SimulatedCell:
+def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: bool = True) -> SimulatedCell:
     """The cell of a world.
 
     Args:
-        camera: how to make pictures: `auto`, `gl` or `ray`.
+        camera: how to make pictures: `auto`, `gl` or `ray`, or what makes their renderer.
         rest: let parts sleep at rest and move as one when clamped; without, the same, slower.
 
     Raises:

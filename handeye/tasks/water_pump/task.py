@@ -19,6 +19,7 @@ from handeye.variation import Variation, WorldSpec
 if TYPE_CHECKING:
     import mujoco
 
+    from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
 
@@ -56,7 +57,7 @@ class WaterPump(Task):
 
         return build(PumpWorld.draw(spec))
 
-    def cell(self, spec: WorldSpec, camera: str) -> SimulatedCell:
+    def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
         from handeye.tasks.water_pump.cell import build_cell
 
         return build_cell(PumpWorld.draw(spec), camera=camera)

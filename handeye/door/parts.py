@@ -1,0 +1,126 @@
+"""Replaceable parts as people give them: checked, and wrapped so that what they give back is checked as well."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, Final, Protocol, TypeVar
+
+import mujoco
+import numpy as np
+from numpy.typing import ArrayLike
+
+from handeye.cell.rendering import RendererMaker, SceneRenderer
+from handeye.cell.vidicon import Luminance
+from handeye.diagnostics import quoted, suggestion
+from handeye.errors import InvalidInput
+from handeye.judge.finding import Finding, Findings
+from handeye.ports.camera import COLUMNS, ROWS, Renderer
+from handeye.report.judging import LimitedReferee, Limits, Referee
+from handeye.runs.parts import Parts, name_of
+from handeye.tasks.task import Task
+from handeye.touch.spiral import SearchPattern
+from handeye.vision.camera_model import View
+
+CAMERAS: Final = ("auto", "gl", "ray")
+
+
+class PictureMaker(Protocol):
+    """Works out how much light falls on the target of the television camera."""
+
+    def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
+        """Light on the target, shape (256, 333), 1 for a white surface in full light.
+
+        Args:
+            data: the scene as it is; it must not be changed.
+            view: the camera: lens, and where it stands and looks.
+        """
+
+
+Camera = str | Callable[[mujoco.MjModel], PictureMaker]
+"""`auto`, `gl` (OpenGL), `ray` (ray casting), or what makes a maker of pictures for a scene: a class will do."""
+
+Code = TypeVar("Code", bound=Callable[..., Any])
+
+
+def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
+    """Parts of a run that are not handeye's own.
+
+    Raises:
+        InvalidInput: one of them cannot be called, or there is no such camera.
+    """
+    if isinstance(camera, str):
+        if camera not in CAMERAS:
+            near = suggestion(camera, CAMERAS)
+            raise InvalidInput(f"there is no camera {quoted(camera)}; {near}")
+        maker = None
+    else:
+        maker = _checked_camera(camera)
+    return Parts(search=None if search is None else _checked_search(search), camera=maker)
+
+
+def referee_of(given: Referee | Limits | None, task: Task) -> Referee | None:
+    """A referee that is not the task's own.
+
+    Raises:
+        InvalidInput: it is no referee, and no table of limits.
+    """
+    if given is None:
+        return None
+    if isinstance(given, Mapping):
+        return LimitedReferee(given, task)
+    if not callable(given):
+        raise InvalidInput(
+            f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"
+        )
+    return _named(lambda truth: _checked_findings(given(truth)), given)
+
+
+def _checked_search(search: SearchPattern) -> SearchPattern:
+    if not callable(search):
+        raise InvalidInput(f"a search is called with the number of a place and gives it; not {search!r}")
+
+    def place(number: int) -> tuple[float, float]:
+        given = np.asarray(search(number), dtype=object)
+        try:
+            x, y = (float(each) for each in given)
+        except (TypeError, ValueError):
+            x = y = np.nan
+        if not np.isfinite([x, y]).all():
+            raise InvalidInput(f"the search must give two numbers for place {number}, not {search(number)!r}")
+        return x, y
+
+    return _named(place, search)
+
+
+def _checked_camera(camera: Callable[[mujoco.MjModel], PictureMaker]) -> RendererMaker:
+    if not callable(camera):
+        raise InvalidInput(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
+    name = name_of(camera)
+    return _named(lambda model: _Replaced(camera(model), name), camera)
+
+
+def _checked_findings(findings: object) -> Findings:
+    if not isinstance(findings, Mapping) or not all(isinstance(each, Finding) for each in findings.values()):
+        raise InvalidInput(f"a referee must give findings by their names, not {findings!r}")
+    return findings
+
+
+class _Replaced(SceneRenderer):
+    """A maker of pictures that somebody brought."""
+
+    def __init__(self, maker: PictureMaker, name: str) -> None:
+        self.identity = Renderer(method="replaced", platform=name)
+        self._maker = maker
+
+    def render(self, data: mujoco.MjData, view: View) -> Luminance:
+        light = np.asarray(self._maker.render(data, view), dtype=np.float32)
+        if light.shape != (ROWS, COLUMNS) or not np.isfinite(light).all():
+            raise InvalidInput(
+                f"{self.identity.platform} must give a picture of {ROWS} by {COLUMNS} finite numbers, "
+                f"not of shape {light.shape}"
+            )
+        return light
+
+
+def _named(wrapped: Code, code: Any) -> Code:
+    """Code that goes by the name of other code."""
+    wrapped.__module__, _, wrapped.__qualname__ = name_of(code).partition(".")
+    return wrapped

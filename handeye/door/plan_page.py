@@ -1,0 +1,24 @@
+"""The page of a plan for notebooks."""
+
+from collections.abc import Sequence
+
+from handeye.door.diagnostic import Diagnostic
+from handeye.door.html import bar, frame, heading, page, table
+from handeye.inspection.inspection import Inspection
+from handeye.plain_text import counted
+
+
+def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic]) -> str:
+    """The stages of a plan with the time that each takes, and what is doubtful about its script."""
+    longest = max((stage.seconds for stage in found.stages), default=0.0) or 1.0
+    steps = sum(len(stage.steps) for stage in found.stages)
+    said = (
+        f"{found.name}: {counted(len(found.stages), 'stage')}, {counted(steps, 'step')}, "
+        f"{counted(found.motions, 'motion')} of the {found.arm} arm, {found.seconds:.1f} s planned"
+    )
+    rows = [
+        (each.number, each.name, len(each.steps), each.seconds, bar(each.seconds / longest))
+        for each in found.stages
+    ]
+    shown = table(("", "stage", "steps", "motion, s", ""), rows)
+    return page(heading(said), shown, *(frame(str(each)) for each in diagnostics))

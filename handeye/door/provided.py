@@ -1,0 +1,9 @@
+"""What comes with handeye."""
+
+from pathlib import Path
+from typing import Final
+
+from handeye.resources import plans
+
+scripts: Final[Path] = plans()
+"""Folder of the scripts that come with handeye, with what is taught for them: `handeye.scripts / "water_pump.al"`."""

@@ -1,0 +1,72 @@
+"""The page of a run for notebooks."""
+
+from typing import Final
+
+from handeye.door.html import Markup, heading, inked, line, page, picture, table
+from handeye.door.state import State
+from handeye.report.page import verdict
+from handeye.report.result import Result
+
+_INKS: Final = {
+    "done": "good",
+    "under way": "doubtful",
+    "skipped": "doubtful",
+    "stopped": "bad",
+    "not reached": "quiet",
+}
+"""Colours of the states of a stage."""
+
+
+def run_page(result: Result, state: State, name: str | None, png: bytes | None) -> str:
+    """A run: where it stands or what came of it, its stages, the referee's findings, and its last picture."""
+    pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
+    if result.referee:
+        pieces.append(_findings(result))
+    pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
+    pieces += [
+        line(inked(f"{part}: the caller's own, {code}", "doubtful")) for part, code in own_parts(result)
+    ]
+    if name is not None and png is not None:
+        pieces += [line(f"last picture: {name}"), picture(png, f"picture {name}")]
+    return page(*pieces)
+
+
+def own_parts(result: Result) -> list[tuple[str, str]]:
+    """Parts of a run that were not handeye's own, with the names of their code."""
+    return [*(result.replaced or {}).items()]
+
+
+def _standing(result: Result, state: State) -> Markup:
+    """The verdict on a run that is over; where any other stands."""
+    if result.paused:
+        return inked(str(state), "plain")
+    good = result.completed and result.assembled is not False
+    return inked(verdict(result).plain, "good" if good else "bad")
+
+
+def _stages(result: Result) -> Markup:
+    rows = [
+        (
+            number,
+            each.name,
+            inked(each.status, _INKS[each.status]),
+            each.arm_s if each.status != "not reached" else None,
+        )
+        for number, each in enumerate(result.stages, 1)
+    ]
+    return table(("", "stage", "status", "arm time, s"), rows)
+
+
+def _findings(result: Result) -> Markup:
+    rows = [
+        (
+            inked("✓", "good") if each.ok else inked("✗", "bad"),
+            name,
+            each.subject,
+            f"{each.value:.3g}",
+            f"{each.relation} {each.limit:.3g}",
+            each.unit,
+        )
+        for name, each in result.referee.items()
+    ]
+    return table(("", "", "referee", "value", "limit", "unit"), rows)

@@ -1,0 +1,116 @@
+"""The state of a run that pauses, as a caller from Python sees it: SI units, arrays that nobody can change."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from handeye.plain_text import counted
+from handeye.pose import Array, Pose
+from handeye.runs.programs import context_of
+from handeye.runs.runner import Runner
+from handeye.source import line_name
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Memory:
+    """What the program remembers; differences and places are of the frame W."""
+
+    error: int | None
+    """The error that was raised and that the next step may test."""
+    saved: Mapping[str, Array]
+    """Differences that `SAVE` saved, shape (3,), m."""
+    counters: Mapping[str, int]
+    parts: Mapping[str, Pose]
+    """Where parts were measured: X_WP, shape (4, 4), m."""
+    place: int | None
+    """Number of the place that a search has come to, from 0; None if none is under way."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class State:
+    """Where a run pauses, and how the arm stands by its own sensors.
+
+    >>> state = handeye.begin("OPEN 1\\nCLOSE .5\\n", camera="ray").step()
+    >>> state
+    <State 1 step done, 0.85 s, program, line 2: CLOSE .5; paused after 1 step>
+    >>> state.joints.shape, round(state.gap / 0.0254, 2)
+    ((6,), 1.0)
+    """
+
+    position: int
+    """Steps done since the run began."""
+    time: float
+    """s on the clock of the cell."""
+    stage: str | None
+    """The stage under way, or the one about to begin; None after the last."""
+    step: int | None
+    """Number of the step that comes next; None if the run cannot go on by itself."""
+    file: str
+    """The required file that its line is in; empty: the script itself."""
+    line: int | None
+    text: str | None
+    """Its statement."""
+    why: str
+    """Why the run pauses, in words."""
+    joints: Array
+    """Joint positions, shape (n,), rad, and m for joints that slide (joint 3 of the Stanford arm)."""
+    gap: float
+    """Between the fingers, m."""
+    hand: Pose
+    """X_WT, shape (4, 4), m: midway between the finger tips, z along the approach, y along the finger line."""
+    force: Array
+    """Force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N."""
+    memory: Memory
+
+    def __repr__(self) -> str:
+        return f"<State {self}>"
+
+    def __str__(self) -> str:
+        done = f"{counted(self.position, 'step')} done, {self.time:.2f} s"
+        stage = "" if self.stage is None else f", {self.stage}"
+        line = "" if self.line is None else f", line {line_name(self.line, self.file)}: {self.text}"
+        return f"{done}{stage}{line}; {self.why}"
+
+
+def state_of(runner: Runner, stage: str | None, why: str) -> State:
+    """The state of a run that pauses.
+
+    Raises:
+        InvalidInput: its system moves no arm.
+    """
+    run, step = context_of(runner.system), runner.next
+    drive = run.drive
+    return State(
+        position=runner.position,
+        time=runner.time,
+        stage=stage,
+        step=runner.at,
+        file="" if step is None else step.file,
+        line=None if step is None else step.line,
+        text=None if step is None else step.text,
+        why=why,
+        joints=_kept(drive.sensed.q),
+        gap=float(drive.sensed.gap),
+        hand=_kept(drive.hand()),
+        force=_kept(-drive.state.wrench[:3]),
+        memory=_memory(runner),
+    )
+
+
+def _memory(runner: Runner) -> Memory:
+    state = context_of(runner.system).state
+    return Memory(
+        error=None if state.pending is None else state.pending.number,
+        saved={name: _kept(difference) for name, difference in sorted(state.saved.items())},
+        counters=dict(state.counters),
+        parts={name: _kept(X_WP) for name, X_WP in sorted(state.world.measured.items())},
+        place=None if state.search is None else state.search.count,
+    )
+
+
+def _kept(values: Array) -> Array:
+    """A copy that nobody can change."""
+    copy = np.array(values)
+    copy.flags.writeable = False
+    return copy

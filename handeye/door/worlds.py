@@ -1,0 +1,104 @@
+"""Worlds as a caller from Python chooses them."""
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+
+from handeye import tasks
+from handeye.door.arguments import given_names
+from handeye.errors import InvalidInput
+from handeye.variation import SPREADS, Level, WorldSpec, checked_seed
+from handeye.world_options import overrides
+
+
+class World:
+    """A world: where things lie and every error, drawn from a seed. Equal worlds are the same to the last digit.
+
+    Its quantities, their names and their units are those that `handeye world` lists.
+
+    >>> world = handeye.World(seed=3, level="high", without=["arm.offset"], set={"arm.friction": 0})
+    >>> world
+    World(seed=3, level='high', without=['arm.offset'], set={'arm.friction': 0})
+    >>> world["arm.offset.3"], world.unit("arm.offset.3")
+    (0.0, 'in')
+    """
+
+    def __init__(
+        self,
+        seed: int = 0,
+        *,
+        level: Level = "nominal",
+        without: Iterable[str] = (),
+        set: Mapping[str, float | str] | None = None,
+        task: str = tasks.DEFAULT,
+    ) -> None:
+        """Choose a world.
+
+        Args:
+            seed: draws it, from 0 up.
+            level: how large its errors are: `low` half as large as `nominal`, `high` twice as large.
+            without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) that have their nominal values.
+            set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
+                unit, as `".3 in"`.
+            task: name of the task whose cell it is.
+
+        Raises:
+            InvalidInput: there is no such seed, level, quantity, unit or value; the nearest name is told.
+        """
+        number = checked_seed(seed)
+        if level not in SPREADS:
+            raise InvalidInput(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
+        self._without, self._set = given_names(without, "`without`"), dict(set or {})
+        self._table, self._task = tasks.task(task).variation(number), task
+        settings = [f"{name}={value}" for name, value in self._set.items()]
+        self.spec = WorldSpec(
+            seed=number, level=level, overrides=overrides(self._table, self._without, settings)
+        )
+        """What a run records of it, in SI units."""
+
+    @property
+    def seed(self) -> int:
+        """The seed."""
+        return self.spec.seed
+
+    @cached_property
+    def values(self) -> Mapping[str, float]:
+        """The value of each quantity by its name, each in its own unit."""
+        drawn, table = self._table.draw(self.spec), self._table.quantities
+        return {name: value / table[name].measure.size for name, value in drawn.values.items()}
+
+    def __getitem__(self, name: str) -> float:
+        """The value of a quantity, in its unit.
+
+        Raises:
+            InvalidInput: there is no such quantity; the nearest name is told.
+        """
+        return self.values[self._quantity(name)]
+
+    def unit(self, name: str) -> str:
+        """The unit of a quantity; empty for a plain number.
+
+        Raises:
+            InvalidInput: there is no such quantity; the nearest name is told.
+        """
+        return self._table.quantities[self._quantity(name)].unit
+
+    def _quantity(self, name: str) -> str:
+        """The name of one quantity."""
+        if name not in self._table.quantities:
+            group = [quantity.name for quantity in self._table.select(name)]
+            raise InvalidInput(f"`{name}` is a group of quantities: {', '.join(group)}")
+        return name
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, World) and (self.spec, self._task) == (other.spec, other._task)
+
+    def __hash__(self) -> int:
+        return hash((self.seed, self.spec.level))
+
+    def __repr__(self) -> str:
+        said = [f"seed={self.seed}"]
+        said += [f"level={self.spec.level!r}"] if self.spec.level != "nominal" else []
+        said += [f"without={list(self._without)}"] if self._without else []
+        said += [f"set={self._set}"] if self._set else []
+        said += [f"task={self._task!r}"] if self._task != tasks.DEFAULT else []
+        return f"World({', '.join(said)})"

@@ -1,0 +1,28 @@
+"""Cautions for whoever takes up a run: why it may come out otherwise than it would have."""
+
+from collections.abc import Iterator
+
+from handeye.events import RunStarted
+from handeye.runs.runner import Runner
+from handeye.trace.sentences import renderer_name
+from handeye.versions import versions
+
+
+def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
+    """Tell in what a run goes on otherwise than it began, a sentence each; nothing of one that only begins.
+
+    Args:
+        judged: the task's own referee is to be called.
+    """
+    begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
+    if begun is None:
+        return
+    here = None if runner.system.cell is None else runner.cell.renderer
+    if here is not None and begun.camera != here:
+        yield f"the run began with pictures by {renderer_name(begun.camera)}; now they are by {renderer_name(here)}"
+    changed = [name for name, version in versions().items() if begun.versions.get(name) != version]
+    if changed:
+        yield f"the run began with other versions of {', '.join(changed)}; the result may differ"
+    referee = runner.setup.replaced.get("referee")
+    if judged and referee is not None:
+        yield f"the run was begun with another referee, `{referee}`, which is in no file; the task's own judges it"
