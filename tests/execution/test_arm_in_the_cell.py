@@ -5,7 +5,6 @@ import pytest
 from pump_bench import Bench, bench, written
 
 from handeye.errors import WATCHDOG
-from handeye.ports.workcell import Sensed
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import DEGREE
 
