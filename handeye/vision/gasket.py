@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from handeye.errors import InvalidInput
-from handeye.ports.camera import Picture
+from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.pose import Array
 from handeye.program.causes import (
     BaseHoleUnseen,
@@ -91,6 +91,15 @@ def inspect(
     places = hole_places(part, pose)[:2]
     expected = tuple((float(u), float(v)) for u, v in view.project(places))
     pairs = list(zip(places, part.holes, strict=False))
+    outside = tuple(
+        BaseHoleUnseen(hole=name)
+        for name, (place, hole) in zip(_NAMES, pairs, strict=True)
+        if not _in_picture(_ring(view, place, hole))
+    )
+    if outside:
+        return GasketInspection(
+            cause=GasketWrong(faults=outside), expected=expected, found=(None, None), shift=None
+        )
     if np.median([_around(new, view, place, hole) for place, hole in pairs]) < ABSENT:
         return GasketInspection(cause=NoGasket(), expected=expected, found=(None, None), shift=None)
     checks = [
@@ -159,10 +168,19 @@ def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Step
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
     """Intensities on a ring around a hole, where there is face or gasket and little else, shape (24,)."""
+    return np.array([scan.patch(float(u), float(v), 1).mean() for u, v in _ring(view, place, hole)])
+
+
+def _ring(view: View, place: Array, hole: Hole) -> Array:
+    """Points (u, v) of a ring around a hole, shape (24, 2)."""
     angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
-    points = view.project(place + ring * (hole.diameter / 2 + BESIDE))
-    return np.array([scan.patch(float(u), float(v), 1).mean() for u, v in points])
+    return view.project(place + ring * (hole.diameter / 2 + BESIDE))
+
+
+def _in_picture(points: Array) -> bool:
+    """True if points (u, v) lie in the picture."""
+    return bool(np.all((points >= 0) & (points <= (COLUMNS - 1, ROWS - 1))))
 
 
 def _centre(

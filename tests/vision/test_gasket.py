@@ -82,6 +82,13 @@ def test_an_absent_gasket_is_rejected():
     assert seen.found == (None, None)
 
 
+def test_a_gasket_whose_hole_is_not_in_the_picture_is_not_accepted_and_the_hole_is_named():
+    elsewhere = view(0.050, (POSE[0] + 5 * INCH, POSE[1], 2.75 * INCH))  # the second hole is at its edge
+    before, after = pictures((0.0, 0.0))
+    seen = inspect(before, after, elsewhere, PART, POSE)
+    assert seen.cause == GasketWrong(faults=(BaseHoleUnseen(hole="second"),))
+
+
 @pytest.mark.row(52)
 def test_expected_crosses_and_found_dots_are_drawn():
     before, after = pictures((0.3, 0.0))
