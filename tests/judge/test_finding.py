@@ -23,3 +23,7 @@ def test_one_wrong_point_makes_the_work_wrong() -> None:
     right, wrong = at_most(0.1, 0.5, "mm", "a gap"), at_least(1.0, 40.0, "N", "a clamp")
     assert all_right({"gap": right})
     assert not all_right({"gap": right, "clamp": wrong})
+
+
+def test_a_referee_that_looked_at_nothing_has_found_nothing_right() -> None:
+    assert not all_right({})

@@ -130,6 +130,23 @@ def test_a_checkpoint_that_lacks_its_last_event_is_refused(data: bytes, runner: 
         decode(changed(data, events=events), "it")
 
 
+@pytest.mark.parametrize(
+    ("was", "forged"),
+    [
+        (b'"program":"short"', b'"program":"other"'),
+        (b'"position":4', b'"position":5'),
+        (b'"touched":false', b'"touched":true'),
+    ],
+)
+def test_a_head_that_does_not_match_what_is_below_it_is_refused(
+    data: bytes, was: bytes, forged: bytes
+) -> None:
+    head, _, packed = data.partition(b"\n")[2].partition(b"\n")
+    assert head.count(was) == 1
+    with pytest.raises(InvalidInput, match=r"its head does not match its content$"):
+        decode(sealed(head.replace(was, forged) + b"\n" + packed), "it")
+
+
 def test_what_would_fill_the_memory_is_refused(data: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checkpoint_file, "LARGEST", 1000)
     with pytest.raises(InvalidInput, match="its state is too large"):
