@@ -9,6 +9,7 @@ import pytest
 from hypothesis import settings
 
 from handeye import cli
+from handeye.tasks.water_pump.task import WaterPump
 
 # No claim here is about a clock, and what has passed once passes again.
 settings.register_profile("handeye", deadline=None, derandomize=True)
@@ -27,8 +28,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture
 def command(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Command:
-    """Runs `handeye` in an empty folder, `typed` into it: exit code, standard output, standard error."""
+    """Runs `handeye` in an empty folder, `typed` into it: exit code, standard output, standard error.
+
+    A run kept in a folder is not photographed at its end: that takes longer than all else where software draws.
+    """
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(WaterPump, "photographs", ())
     app = cli.app
 
     def run(*words: str, typed: str = "") -> tuple[int, str, str]:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.events import PanicStopped, StepStarted
+from handeye.events import PanicStopped, RunStarted, StepStarted
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
 from handeye.trace.eventlist import effective, read_events
@@ -44,6 +44,20 @@ def done(out: str) -> dict[str, str]:
     return {stage["name"]: stage["status"] for stage in json.loads(out)["stages"]}
 
 
+def carried_out(place: Path, script: str, *words: str) -> Path:
+    """The folder of a whole run of a script, made by a process of its own."""
+    (place / "job.al").write_text(script, encoding="utf-8")
+    for line in (("plan", "job.al"), ("run", "job.plan.json", "--out", "it", *words)):
+        subprocess.run([sys.executable, "-m", "handeye", *line], cwd=place, capture_output=True, check=True)
+    return place / "it"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a whole run, with the photographs of its end."""
+    return carried_out(tmp_path_factory.mktemp("whole"), SCRIPT)
+
+
 # -- stages -------------------------------------------------------------------------------------------
 
 
@@ -64,13 +78,14 @@ def test_a_stage_alone_without_a_checkpoint_has_the_earlier_ones_carried_out_fir
     assert "no checkpoint of “once more” for this plan and world: carrying out the steps before it" in err
 
 
-def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(command: Command, planned: Planned) -> None:
-    plan = planned(SCRIPT)
-    assert command("run", plan, "--out", "all")[0] == 0
-    code, out, err = command("run", plan, "--stage", "2", "--checkpoints", "all", "--out", "one", "--json")
+def test_a_stage_alone_begins_at_its_checkpoint_if_there_is_one(
+    command: Command, planned: Planned, folder: Path
+) -> None:
+    words = ("--stage", "2", "--checkpoints", str(folder), "--out", "one", "--json")
+    code, out, err = command("run", planned(SCRIPT), *words)
     assert (code, "no checkpoint" in err) == (0, False)
     assert done(out) == {"to and fro": "done", "once more": "done", "feel": "not reached"}
-    alone, whole = (Path(place, "checkpoints", "0005-feel.checkpoint") for place in ("one", "all"))
+    alone, whole = (place / "checkpoints" / "0005-feel.checkpoint" for place in (Path("one"), folder))
     assert alone.read_bytes() == whole.read_bytes()
 
 
@@ -110,10 +125,9 @@ def test_what_the_plan_does_not_have_ends_with_two(
     assert sentence in err
 
 
-def test_checkpoints_of_another_plan_end_with_two(command: Command, planned: Planned) -> None:
-    assert command("run", planned(SCRIPT), "--out", "all")[0] == 0
+def test_checkpoints_of_another_plan_end_with_two(command: Command, planned: Planned, folder: Path) -> None:
     other = planned(SCRIPT.replace("OPEN    3", "OPEN    4"))
-    code, _, err = command("run", other, "--stage", "2", "--checkpoints", "all")
+    code, _, err = command("run", other, "--stage", "2", "--checkpoints", str(folder))
     assert code == 2
     assert "is of another plan" in err
 
@@ -121,17 +135,21 @@ def test_checkpoints_of_another_plan_end_with_two(command: Command, planned: Pla
 # -- stopping and stepping ----------------------------------------------------------------------------
 
 
-def test_a_wrong_option_costs_nobody_the_record_of_a_run(command: Command, planned: Planned) -> None:
+def test_a_wrong_option_costs_nobody_the_record_of_a_run(
+    command: Command, planned: Planned, folder: Path
+) -> None:
     plan = planned(SCRIPT)
-    assert command("run", plan, "--out", "it")[0] == 0
+    shutil.copytree(folder, "it")
     before = {file: file.read_bytes() for file in Path("it").rglob("*.*")}
     for words in (("--on-stop", "sleep"), ("--step", "--on-stop", "sleep"), ("--seed", "1")):
         assert command("run", plan, "--out", "it", *words)[0] == 2
     assert {file: file.read_bytes() for file in Path("it").rglob("*.*")} == before
 
 
-def test_a_run_takes_the_place_of_another_only_if_it_is_told_to(command: Command, planned: Planned) -> None:
-    assert command("run", planned(SCRIPT), "--out", "it")[0] == 0
+def test_a_run_takes_the_place_of_another_only_if_it_is_told_to(
+    command: Command, planned: Planned, folder: Path
+) -> None:
+    shutil.copytree(folder, "it")
     other = planned("        OPEN    2\n")
     code, _, err = command("run", other, "--out", "it")
     assert (code, "it holds a run: `handeye resume it` resumes it, --overwrite replaces it" in err) == (
@@ -333,10 +351,10 @@ def test_a_run_kept_in_a_folder_says_where_and_how_to_go_on(command: Command, pl
 
 
 def test_back_in_a_run_that_begins_at_a_stage_uses_the_checkpoints_of_the_folder(
-    command: Command, planned: Planned
+    command: Command, planned: Planned, folder: Path
 ) -> None:
     plan = planned(SCRIPT)
-    assert command("run", plan, "--out", "all")[0] == 0
+    shutil.copytree(folder, "all")
     code, out, _ = command(
         "run", plan, "--checkpoints", "all", "--from", "feel", "--step", typed="bs\nback\nback 1000\n"
     )
@@ -374,12 +392,20 @@ def test_each_stage_is_tried_again_as_often_as_told(command: Command, planned: P
 MANY = "        MOVE    HERE_\n        MOVE    THERE\n" * 4
 LONG = SCRIPT.replace('STAGE   "once more"', f'STAGE   "half way"\n{MANY}        STAGE   "once more"')
 """Long enough to be broken off."""
+BY_RAYS = ("--camera", "ray")
+"""Without OpenGL nothing is photographed at the end."""
+
+
+@pytest.fixture(scope="module")
+def unbroken(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a long run that nobody broke off."""
+    return carried_out(tmp_path_factory.mktemp("unbroken"), LONG, *BY_RAYS)
 
 
 def started(plan: str, folder: str) -> "subprocess.Popen[str]":
     """A run in a process of its own that has come half way."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "handeye", "run", plan, "--out", folder],
+        [sys.executable, "-m", "handeye", "run", plan, "--out", folder, *BY_RAYS],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
@@ -394,30 +420,26 @@ def started(plan: str, folder: str) -> "subprocess.Popen[str]":
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
 def test_a_run_broken_off_goes_on_as_if_nothing_had_happened(
-    command: Command, planned: Planned, number: signal.Signals
+    command: Command, planned: Planned, unbroken: Path, number: signal.Signals
 ) -> None:
-    plan = planned(LONG)
-    assert command("run", plan, "--out", "whole")[0] == 0
-    process = started(plan, "broken")
+    process = started(planned(LONG), "broken")
     process.send_signal(number)
     process.communicate()
     assert process.returncode == (130 if number == signal.SIGINT else -signal.SIGKILL)
     if number == signal.SIGINT:
         assert isinstance(read_events(Path("broken/events.jsonl"))[-1], PanicStopped)
     assert command("resume", "broken", "--no-judge")[0] == 0
-    assert Path("broken/trace.mcap").read_bytes() == Path("whole/trace.mcap").read_bytes()
-    assert effective(read_events(Path("broken/events.jsonl"))) == read_events(Path("whole/events.jsonl"))
+    assert Path("broken/trace.mcap").read_bytes() == (unbroken / "trace.mcap").read_bytes()
+    assert effective(read_events(Path("broken/events.jsonl"))) == read_events(unbroken / "events.jsonl")
 
 
 def test_a_disk_that_fills_up_loses_neither_checkpoints_nor_the_trace_so_far(
-    command: Command, planned: Planned
+    command: Command, planned: Planned, unbroken: Path
 ) -> None:
     """A limit on the size of files stands for the full disk."""
-    plan = planned(LONG)
-    assert command("run", plan, "--out", "whole")[0] == 0
-    room = Path("whole/trace.mcap").stat().st_size * 6 // 10
+    room = (unbroken / "trace.mcap").stat().st_size * 6 // 10
     done = subprocess.run(
-        [sys.executable, "-m", "handeye", "run", plan, "--out", "full"],
+        [sys.executable, "-m", "handeye", "run", planned(LONG), "--out", "full", *BY_RAYS],
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room)),
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -433,7 +455,7 @@ def test_a_disk_that_fills_up_loses_neither_checkpoints_nor_the_trace_so_far(
     assert "was interrupted" in err
     assert "TO AND FRO" in out
     assert command("resume", "full", "--no-judge")[0] == 0
-    assert Path("full/trace.mcap").read_bytes() == Path("whole/trace.mcap").read_bytes()
+    assert Path("full/trace.mcap").read_bytes() == (unbroken / "trace.mcap").read_bytes()
 
 
 DAMAGE: dict[str, Callable[[bytes], bytes]] = {
@@ -442,16 +464,6 @@ DAMAGE: dict[str, Callable[[bytes], bytes]] = {
     "a bit flipped": lambda data: data[:-2000] + bytes([data[-2000] ^ 4]) + data[-1999:],
     "something else": lambda _: b"hello",
 }
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a whole run."""
-    place = tmp_path_factory.mktemp("whole")
-    (place / "job.al").write_text(SCRIPT, encoding="utf-8")
-    for words in (("plan", "job.al"), ("run", "job.plan.json", "--out", "it")):
-        subprocess.run([sys.executable, "-m", "handeye", *words], cwd=place, capture_output=True, check=True)
-    return place / "it"
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
@@ -520,6 +532,15 @@ def test_there_is_no_photograph_of_a_time_outside_the_run(command: Command, fold
     code, out, err = command("trace", "photograph", str(folder), f"--at={at}", "-o", "it.png")
     assert (code, out) == (2, "")
     assert err == f"handeye: {folder} covers 0.00 to {end:.2f} s; {at} s is outside\n"
+
+
+def test_the_end_of_a_run_is_photographed_where_there_is_opengl(folder: Path) -> None:
+    _, checkpoint, _ = open_again(folder)
+    (begun, *_) = checkpoint.events
+    assert isinstance(begun, RunStarted)
+    photographs = {path.name for path in (folder / "pictures").iterdir()}
+    drawn = begun.camera.method == "opengl"
+    assert photographs == ({"end_pump.png", "end_studio.png"} if drawn else set())
 
 
 def test_a_folder_of_which_nothing_was_carried_out_says_so(command: Command, folder: Path) -> None:

@@ -41,8 +41,12 @@ def closed(word: str, seed: int | None, across: float = 0.0) -> Closed:
     return Closed(run=run.go(), off=off)
 
 
-def feeling() -> Bench:
-    return bench(stage("feel for the grasp"), world=base_off(*VISION_ERROR))
+@pytest.fixture(scope="module")
+def felt() -> tuple[Bench, float]:
+    """The base grasped where it was felt, and its yaw before."""
+    run = bench(stage("feel for the grasp"), world=base_off(*VISION_ERROR))
+    turn = yaw(run.pose("base"))
+    return run.go(), turn
 
 
 @IN_WORLDS
@@ -88,16 +92,13 @@ def test_row_27_center_measures_along_the_finger_line_only(seed: int | None) -> 
 
 
 @pytest.mark.row(28, nominal=1)
-def test_row_28_two_grasp_points_give_the_place_of_the_base_within_a_tenth() -> None:
-    run = feeling().to("OPEN    1.85")
-    felt = run.saved("DA") + run.saved("DB")
-    assert felt[:2] == pytest.approx(VISION_ERROR, abs=0.1)
+def test_row_28_two_grasp_points_give_the_place_of_the_base_within_a_tenth(felt: tuple[Bench, float]) -> None:
+    run, _ = felt
+    assert (run.saved("DA") + run.saved("DB"))[:2] == pytest.approx(VISION_ERROR, abs=0.1)
 
 
-def test_row_28_feeling_leaves_the_base_as_it_was() -> None:
-    run = feeling()
-    turn = yaw(run.pose("base"))
-    run.go()
+def test_row_28_feeling_leaves_the_base_as_it_was(felt: tuple[Bench, float]) -> None:
+    run, turn = felt
     assert run.finished
     assert run.moved("base") < 0.02
     assert yaw(run.pose("base")) == pytest.approx(turn, abs=0.5 * DEGREE)

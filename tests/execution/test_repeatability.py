@@ -1,14 +1,24 @@
 """Equal seeds give equal runs, byte for byte, pictures included."""
 
 import pytest
-from pump_bench import bench, stage
+from pump_bench import bench
 
 from handeye.events import PartSeen, to_line
 from handeye.tasks.water_pump.pump_world import PumpWorld
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
 
-SHORT = stage("find the base", "feel for the grasp")
+SHORT = """
+        LENS    25
+        AIM     BASE
+        LOOK    WIDE
+        GENERAL BASE WIDE
+        OPEN    1.775
+        MOVE    A
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] 1.5
+        CENTER  .5
+"""
 
 
 def trace(seed: int) -> bytes:

@@ -50,11 +50,12 @@ def moved(driven: Bench) -> Bench:
     return run.to("MOVE H5")
 
 
-@pytest.fixture
-def crossed(monkeypatch: pytest.MonkeyPatch) -> Bench:
+@pytest.fixture(scope="module")
+def crossed() -> Bench:
     """In a world in which every thread crosses, however straight its screw stands."""
-    monkeypatch.setattr(threads, "SQUARE", -1.0)
-    return first_screw()
+    with pytest.MonkeyPatch.context() as world:
+        world.setattr(threads, "SQUARE", -1.0)
+        return first_screw()
 
 
 @pytest.mark.row(23, nominal=1)

@@ -19,11 +19,13 @@ def reaching(script: str) -> Bench:
     ).go()
 
 
-@pytest.mark.parametrize(("way", "finger", "mask"), [(-1, 1, 1), (-1, 1, 3), (1, 2, 2), (1, 2, 3)])
-def test_the_motion_ends_when_an_enabled_finger_touches(way: int, finger: int, mask: int) -> None:
-    run = reaching(f"TOUCH {mask}\nCHANGE [0 {way} 0] 1.5")
-    (trip,) = run.all(GuardTripped)
-    assert (trip.guard, trip.value, trip.limit, run.errors) == ("touch", finger, mask, [])
+def test_the_motion_ends_when_an_enabled_finger_touches() -> None:
+    """To and fro between the fingers: one of them enabled, then both."""
+    ways = [(-1, 1, 1), (1, 2, 2), (-1, 1, 3), (1, 2, 3)]
+    run = reaching("\n".join(f"TOUCH {mask}\nCHANGE [0 {way} 0] 2.5" for way, _, mask in ways))
+    trips = [(trip.guard, trip.value, trip.limit) for trip in run.all(GuardTripped)]
+    assert trips == [("touch", finger, mask) for _, finger, mask in ways]
+    assert run.errors == []
     assert run.moved("top") < 0.03
 
 

@@ -40,7 +40,7 @@ def test_both_renderers_put_the_holes_at_the_same_place_to_a_point():
 
 
 def test_the_base_is_found_to_a_fiftieth_of_an_inch_in_a_world_without_errors():
-    still = StillPump(PumpWorld.nominal(), renderer="ray")
+    still = StillPump(PumpWorld.nominal())
     location, _ = locate(still.camera, still.true_camera, PART)
     base = still.world.base
     assert location.pose[:2] == pytest.approx((base.x, base.y), abs=0.02 * INCH)
@@ -67,7 +67,7 @@ def test_a_gasket_is_accepted_only_where_it_belongs():
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_a_forgotten_refocus_fails_with_a_clear_message(seed: int):
-    still = StillPump(PumpWorld.sample(seed), renderer="ray")
+    still = StillPump(PumpWorld.sample(seed))
     _, pictures = locate(still.camera, still.true_camera, PART)
     general = pictures[0][2]
     view = pictures[1][1]
@@ -79,7 +79,7 @@ def test_a_forgotten_refocus_fails_with_a_clear_message(seed: int):
 
 
 def test_the_overlay_marks_the_line_of_centres():
-    still = StillPump(PumpWorld.sample(3), renderer="ray")
+    still = StillPump(PumpWorld.sample(3))
     location, pictures = locate(still.camera, still.true_camera, PART)
     image = annotate(pictures[1][0], marks(specific=location))
     middle = np.mean([(hole.u, hole.v) for hole in location.holes], axis=0)
@@ -89,6 +89,6 @@ def test_the_overlay_marks_the_line_of_centres():
 
 
 def test_looking_twice_at_one_place_gives_the_same_view():
-    still = StillPump(PumpWorld.sample(3), renderer="ray")
+    still = StillPump(PumpWorld.sample(3))
     first = look(still.camera, still.true_camera, 0.025, PART.at[:3])
     assert look(still.camera, still.true_camera, 0.025, PART.at[:3]) == first
