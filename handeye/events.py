@@ -1,5 +1,6 @@
 """Events of a run, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
 
+from collections.abc import Iterable
 from typing import Literal
 
 import msgspec
@@ -17,7 +18,7 @@ Choice = Literal["proceed", "retry", "skip"]
 
 
 class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
-    """Base of the events; `time` is the cell's clock in seconds."""
+    """Base of the events; `time` is the cell's clock in seconds, which runs while the camera is calibrated too."""
 
     time: float
 
@@ -232,6 +233,12 @@ AnyEvent = (
     | PictureTaken | PartSeen | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered
     | ExperimentMade | PanicStopped | WentBack | RunFinished
 )  # fmt: skip
+
+
+def beginning(events: Iterable[AnyEvent]) -> float:
+    """The cell's clock (s) when the working phase began: times that people see and type count from there."""
+    return next((event.time for event in events if isinstance(event, RunStarted)), 0.0)
+
 
 _encoder = msgspec.json.Encoder()
 

@@ -15,6 +15,7 @@ from conftest import Command
 from handeye.events import PanicStopped, RunStarted, StepStarted
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
+from handeye.runs.programs import ProgramSystem
 from handeye.trace.eventlist import effective, read_events
 
 pytestmark = pytest.mark.slow
@@ -524,6 +525,28 @@ def test_of_a_sound_run_nothing_is_said_to_be_lost(command: Command, folder: Pat
     shutil.copytree(folder, "again")
     assert "lost" not in command("resume", "again")[2]
     assert "not compared" not in command("trace", "verify", "again")[2]
+
+
+def test_times_are_shown_and_typed_as_since_the_camera_was_calibrated(
+    command: Command, planned: Planned, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begin = ProgramSystem.begin
+
+    def later(system: ProgramSystem) -> RunStarted:
+        system.run.drive.brake(2.0)  # stands for the calibration
+        return begin(system)
+
+    monkeypatch.setattr(ProgramSystem, "begin", later)
+    assert "  0.0 s  program" in command("run", planned("OPEN 1\n"), "--out", "it")[2]
+    events = read_events(Path("it/events.jsonl"))
+    end = events[-1].time - events[0].time
+    assert (events[0].time, end > 0) == (2.0, True)
+    assert f"{0:9.2f}     1  OPEN 1" in command("trace", "show", "it")[1]
+    assert (
+        f"covers 0.00 to {end:.2f} s"
+        in command("trace", "photograph", "it", "--at", "2.5", "-o", "it.png")[2]
+    )
+    assert json.loads(Path("it/result.json").read_bytes())["timing"]["calibration_s"] == 2.0
 
 
 @pytest.mark.parametrize("at", ["300", "-3", "nan", "inf"])

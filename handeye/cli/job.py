@@ -18,6 +18,7 @@ from handeye.debugger.formatting import MOST
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
+from handeye.events import beginning
 from handeye.execution.servo_loop import Halted
 from handeye.host_time import HostTimer
 from handeye.report.cautions import cautions
@@ -126,7 +127,9 @@ class _Work:
         """The cell, ready for its first step; None if the panic button was hit meanwhile."""
         try:
             with self.progress:
-                runner = Runner(self.job.start, halt=self.panic, observers=self._observers)
+                runner = Runner(
+                    self.job.start, halt=self.panic, viewed=self.progress.viewed, observers=self._observers
+                )
         except Halted:
             return None
         except BaseException:
@@ -137,14 +140,15 @@ class _Work:
             note(sentence)
         if self.folder is not None and self.folder.lost:
             note(
-                f"the trace in {self.folder.path} was lost or damaged: it lacks the motions before {runner.time:.2f} s"
+                f"the trace in {self.folder.path} was lost or damaged: "
+                f"it lacks the motions before {runner.elapsed:.2f} s"
             )
         return runner
 
     def _observers(self, runner: Runner) -> list[Observer]:
         looking: list[Observer] = [] if self.job.step else [self.progress]
         if self.job.start.stage is not None:
-            self.progress.goes_on(self.job.start.stage)
+            self.progress.goes_on(self.job.start.stage, beginning(self.job.start.events))
         if self.folder is not None:
             again = self.job.folder is not None
             looking.append(self.folder.watch(runner, self.job.start, again=again, meter=self.meter))
@@ -217,7 +221,7 @@ class _Work:
     # -- ending ---------------------------------------------------------------------------------------
 
     def _interrupted(self, runner: Runner | None) -> int:
-        where = "during the set-up of the cell" if runner is None else f"at {runner.time:.1f} s"
+        where = "during the set-up of the cell" if runner is None else f"at {runner.elapsed:.1f} s"
         note(f"interrupted {where}; the brakes are set")
         if self.folder is None and runner is not None:
             try:

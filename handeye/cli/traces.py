@@ -71,7 +71,7 @@ def photograph(
     file: TraceFile,
     /,
     *,
-    at: Annotated[float, Parameter(help="Seconds on the cell's clock, as `show` prints them.")],
+    at: Annotated[float, Parameter(help="Seconds since the run began, as `show` prints them.")],
     output: PictureFile,
     camera: SceneCamera = "studio",
     width: Width = 1280,
@@ -91,15 +91,15 @@ def photograph(
         )
     trace.check_repeatable()
     replay = Replay(trace)
-    begin, end = trace.begins, max(replay.times[-1], trace.events[-1].time)
+    begin, end = map(trace.elapsed, (trace.begins, max(replay.times[-1], trace.events[-1].time)))
     if not begin - SHOWN <= at <= end + SHOWN:
         raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
-    state = replay.seek(at)
+    state = replay.seek(trace.head.time + at)
     model = task(trace.head.task).scene(trace.head.world)
     data = posed(model, state.poses)
     write_over(output, photograph_png(model, data, camera, width, height), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
-    say(f"{output}: {state.time:.2f} s{doing}")
+    say(f"{output}: {trace.elapsed(state.time):.2f} s{doing}")
     return 0
 
 
@@ -133,7 +133,9 @@ def verify(file: TraceFile, /) -> int:
     ended = "" if count == len(events) else " up to the step that was interrupted"
     say(f"{file}: the same {count} events{ended}, to the byte")
     if trace.begins > trace.head.time:
-        note(f"motions before {trace.begins:.2f} s are not in this trace, and were not compared")
+        note(
+            f"motions before {trace.elapsed(trace.begins):.2f} s are not in this trace, and were not compared"
+        )
     return 0
 
 

@@ -40,7 +40,7 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     position: int
     """Steps done since the run began."""
     time: float
-    """s on the cell's clock."""
+    """s since the working phase began."""
     stage: str | None
     """The stage under way, or the one about to begin; None after the last."""
     stage_number: int | None

@@ -88,7 +88,7 @@ class Stepper:
         return Reply(
             command=line,
             position=runner.position,
-            time=runner.time,
+            time=runner.elapsed,
             stage=None if stage is None else hands.program.stages[stage],
             stage_number=None if stage is None else stage + 1,
             step=runner.at,

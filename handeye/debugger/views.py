@@ -195,12 +195,12 @@ def _named(table: dict[str, Array]) -> dict[str, Vector3]:
 
 
 PLAIN: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
-    "time": ("time_s", lambda runner: runner.time),
+    "time": ("time_s", lambda runner: runner.elapsed),
     "state": ("state", lambda runner: msgspec.to_builtins(runner.system.state, enc_hook=np.ndarray.tolist)),
 }
 """Topics of any system."""
 TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
-    "time": ("time_s", lambda runner: runner.time),
+    "time": ("time_s", lambda runner: runner.elapsed),
     "joints": ("joints", _joints),
     "hand": ("hand", _hand),
     "force": ("force_oz", _force),

@@ -6,6 +6,7 @@ arm believes of its own place enters here, and the same arm grasps later, so wha
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from itertools import count
 from typing import Final
 
 import numpy as np
@@ -18,9 +19,11 @@ from handeye.errors import HandeyeError
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
+from handeye.ports.camera import TvCamera
 from handeye.ports.workcell import Workcell
 from handeye.pose import hand
 from handeye.program.cause_text import cause_sentence
+from handeye.record import Vector3
 from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
@@ -40,6 +43,7 @@ def calibrate_camera(
     drawing: CameraModel,
     looks: Sequence[CalibrationLook],
     halt: Callable[[], bool] = lambda: False,
+    viewed: Callable[[int, int], None] = lambda *_: None,
 ) -> Calibration:
     """Show the lamp to the camera, and fit the camera to where the arm says the lamp was.
 
@@ -47,6 +51,7 @@ def calibrate_camera(
         drawing: the camera as the program knows it so far.
         looks: where the lamp is shown, in order.
         halt: the panic button.
+        viewed: told of each view that the lamp is carried to: its number, of how many.
 
     Raises:
         CalibrationFailed: the lamp was seen too few times.
@@ -54,7 +59,13 @@ def calibrate_camera(
     """
     drive = ArmDrive(cell=cell, arm=arm, state=DriveState.holding(cell.sense(), arm), halt=halt)
     home = drive.state.q.copy()
-    sightings = [sighting for look in looks for sighting in _sightings(drive, drawing, look)]
+    numbers, views = count(1), sum(len(look.places) for look in looks)
+    sightings: list[Sighting] = []
+    for look in looks:
+        _set_up(drive, drawing, look)
+        for place in look.places:
+            viewed(next(numbers), views)
+            sightings += _sightings(drive, look, place)
     for lens in {look.lens for look in looks}:
         seen = sum(s.lens == lens for s in sightings)
         if seen < FEWEST:
@@ -73,35 +84,45 @@ def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
         raise CalibrationFailed(f"while the camera was being calibrated, {why}")
 
 
-def _sightings(drive: ArmDrive, drawing: CameraModel, look: CalibrationLook) -> Iterator[Sighting]:
+def _camera(drive: ArmDrive) -> TvCamera:
     camera = drive.cell.camera
     assert camera is not None
-    assert drive.arm.hand.lamp is not None
-    on_hand = np.array(drive.arm.hand.lamp)
+    return camera
+
+
+def _set_up(drive: ArmDrive, drawing: CameraModel, look: CalibrationLook) -> None:
+    """Turn the lens in, aim and focus."""
+    camera = _camera(drive)
     drive.brake(camera.lens(look.lens))
     drive.brake(camera.aim(*drawing.aim(look.at, look.lens)))
     drive.brake(camera.focus(math.dist(look.sharp, drawing.mount)))
+
+
+def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3) -> Iterator[Sighting]:
+    """Show the lamp at a place: one sighting, or none where the arm cannot go or the camera does not see it."""
+    camera = _camera(drive)
+    assert drive.arm.hand.lamp is not None
+    on_hand = np.array(drive.arm.hand.lamp)
     R = hand(0, 0, 0, look.hand_angle, 90 * DEGREE, 0)[:3, :3]
-    for place in look.places:
-        p_T = np.array(place) - R @ on_hand
-        X_WT = hand(float(p_T[0]), float(p_T[1]), float(p_T[2]), look.hand_angle, 90 * DEGREE, 0)
-        trajectory = move(drive.arm, drive.state.q, X_WT, departure=0.0, approach=0.0, speed=1.0)
-        if isinstance(trajectory, IKResult):
-            continue
-        _go(drive, trajectory)
-        dark, seconds = camera.digitise()
-        drive.state.lamp = True
-        drive.brake(seconds)
-        lit, seconds = camera.digitise(hold_target=True)
-        drive.state.lamp = False
-        drive.brake(seconds)
-        spot = find_spot(dark, lit)
-        if spot is None:
-            continue
-        X = drive.hand()
-        lamp = X[:3, 3] + X[:3, :3] @ on_hand
-        pan, tilt = camera.pots()
-        yield Sighting(
-            lens=look.lens, pan=pan, tilt=tilt, u=spot[0], v=spot[1],
-            point_W=(float(lamp[0]), float(lamp[1]), float(lamp[2])),
-        )  # fmt: skip
+    p_T = np.array(place) - R @ on_hand
+    X_WT = hand(float(p_T[0]), float(p_T[1]), float(p_T[2]), look.hand_angle, 90 * DEGREE, 0)
+    trajectory = move(drive.arm, drive.state.q, X_WT, departure=0.0, approach=0.0, speed=1.0)
+    if isinstance(trajectory, IKResult):
+        return
+    _go(drive, trajectory)
+    dark, seconds = camera.digitise()
+    drive.state.lamp = True
+    drive.brake(seconds)
+    lit, seconds = camera.digitise(hold_target=True)
+    drive.state.lamp = False
+    drive.brake(seconds)
+    spot = find_spot(dark, lit)
+    if spot is None:
+        return
+    X = drive.hand()
+    lamp = X[:3, 3] + X[:3, :3] @ on_hand
+    pan, tilt = camera.pots()
+    yield Sighting(
+        lens=look.lens, pan=pan, tilt=tilt, u=spot[0], v=spot[1],
+        point_W=(float(lamp[0]), float(lamp[1]), float(lamp[2])),
+    )  # fmt: skip

@@ -13,6 +13,7 @@ from handeye.events import (
     RunStarted,
     StageFinished,
     StageStarted,
+    beginning,
 )
 from handeye.execution.state import ExecutionState
 from handeye.files import read_whole
@@ -147,8 +148,8 @@ def _stage(events: Sequence[AnyEvent]) -> str | None:
 
 def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
     """How a run stands that has left no result, without a full stop."""
-    last, begun = events[-1], events[0]
-    when = f"at {last.time - begun.time:.1f} s"
+    last = events[-1]
+    when = f"at {last.time - beginning(events):.1f} s"
     if call is not None:
         return call_sentence(call.message, call.error, call.cause)
     if isinstance(last, RunFinished):

@@ -3,19 +3,27 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import TracebackType
-from typing import Self
+from typing import Final, Self
 
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, SpinnerColumn, TextColumn
+from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
+from rich.table import Column
 
 from handeye.events import AnyEvent, ErrorRaised, RunStarted, StageStarted, StepStarted
 from handeye.runs.observer import Observer
 
+_CLOCK: Final = 7
+"""Columns of the time."""
+_BAR: Final = 12
+_STATEMENT: Final = 8
+"""Columns that are too few to tell a statement by."""
+_CALIBRATING: Final = "calibrating: view {} of {}"
+
 
 class Progress(Observer):
-    """Shows the stage, the statement being executed and the cell's clock.
+    """Shows how far the camera is calibrated, then the stage, the statement being executed, and the time of the run.
 
     Without a terminal it prints one line a stage.
     """
@@ -23,12 +31,10 @@ class Progress(Observer):
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:
         self._stages = stages
         self._console = console
+        self._begun = 0.0
+        longest = max(map(len, (*stages, _CALIBRATING.format(100, 100))))
         self._bar = RichProgress(
-            SpinnerColumn(),
-            TextColumn("{task.fields[clock]:>7}"),
-            BarColumn(bar_width=24),
-            TextColumn("[bold]{task.description}"),
-            TextColumn("[dim]{task.fields[text]}", markup=True),
+            *_columns(console.width, longest),
             console=console,
             transient=True,
             disable=not console.is_terminal,
@@ -57,19 +63,56 @@ class Progress(Observer):
             if shown:
                 self._bar.start()
 
-    def goes_on(self, stage: str) -> None:
-        """Begin in the midst of a stage."""
+    def viewed(self, number: int, views: int) -> None:
+        """Begin the view of a number, of so many, in which the camera is calibrated."""
+        said = _CALIBRATING.format(number, views)
+        self._bar.update(self._task, description=said, completed=number - 1, total=views)
+        if number == 1:
+            self._line("", "calibrating the camera")
+
+    def goes_on(self, stage: str, begun: float | None = None) -> None:
+        """Begin in the midst of a stage of a run that began at a time by the cell's clock (s)."""
         number = self._stages.index(stage)
-        self._bar.update(self._task, description=escape(stage), completed=number)
+        self._begun = self._begun if begun is None else begun
+        self._bar.update(
+            self._task, description=escape(stage), text="", completed=number, total=len(self._stages)
+        )
 
     def event(self, event: AnyEvent) -> None:
-        clock = f"{event.time:.1f} s"
+        if isinstance(event, RunStarted):
+            self._begun = event.time
+        clock = f"{event.time - self._begun:.1f} s"
         if isinstance(event, StageStarted):
             self.goes_on(event.stage)
-            self._bar.update(self._task, clock=clock)
-            if not self._console.is_terminal:
-                self._console.print(f"{clock:>8}  {event.stage}", markup=False)
+            self._line(clock, event.stage)
         elif isinstance(event, StepStarted):
-            self._bar.update(self._task, text=escape(event.text), clock=clock)
-        elif isinstance(event, ErrorRaised | RunStarted):
+            self._bar.update(self._task, text=escape(event.text))
+        if isinstance(event, StageStarted | StepStarted | ErrorRaised | RunStarted):
             self._bar.update(self._task, clock=clock)
+
+    def _line(self, clock: str, text: str) -> None:
+        """Print a line where there is no terminal."""
+        if not self._console.is_terminal:
+            self._console.print(f"{clock:>8}  {text}", markup=False)
+
+
+def _columns(width: int, longest: int) -> Iterator[ProgressColumn]:
+    """What a line of so many columns has room for: time and stage always, then a bar, then the statement."""
+
+    def text(form: str, columns: int) -> TextColumn:
+        return TextColumn(
+            form, table_column=Column(no_wrap=True, overflow="ellipsis", min_width=columns, max_width=columns)
+        )
+
+    stage = max(1, min(longest, width - _CLOCK - 1))
+    room = width - _CLOCK - 1 - stage
+    bar = room >= _BAR + 3
+    if bar:
+        room -= _BAR + 3
+        yield SpinnerColumn()
+    yield text("{task.fields[clock]:>7}", _CLOCK)
+    if bar:
+        yield BarColumn(bar_width=_BAR)
+    yield text("[bold]{task.description}", stage)
+    if room > _STATEMENT:
+        yield text("[dim]{task.fields[text]}", room - 1)

@@ -10,6 +10,7 @@ from handeye.events import (
     RunStarted,
     StageFinished,
     StageStarted,
+    beginning,
 )
 from handeye.judge.finding import Finding, Findings, all_right
 from handeye.ports.camera import Renderer
@@ -68,13 +69,15 @@ def _check(found: Finding) -> Check:
     )
 
 
-def interventions(events: Iterable[AnyEvent]) -> Iterable[str]:
+def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
     """Tell what somebody did to the run, a sentence each."""
+    begun = beginning(events)
     for event in events:
+        when = f"at {event.time - begun:.1f} s"
         if isinstance(event, OperatorAnswered):
-            yield f"at {event.time:.1f} s the operator chose: {event.choice}"
+            yield f"{when} the operator chose: {event.choice}"
         elif isinstance(event, ExperimentMade):
-            yield f"at {event.time:.1f} s {event.what} {event.name} was set by hand"
+            yield f"{when} {event.what} {event.name} was set by hand"
 
 
 def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:

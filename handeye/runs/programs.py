@@ -37,7 +37,7 @@ class ProgramSystem(System):
         Raises:
             InvalidInput: the plan is for another arm, or the camera cannot work as asked.
         """
-        self._setup, self._halt = setup, around.halt
+        self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
         self.plan = plan_of(setup)
         self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
         check(setup)
@@ -109,7 +109,7 @@ class ProgramSystem(System):
         """Calibrate the camera; the arm is held where that leaves it."""
         try:
             self.state.calibration = calibrate_camera(
-                self._cell.devices, self.arm, eye.drawing, eye.looks, self._halt
+                self._cell.devices, self.arm, eye.drawing, eye.looks, self._halt, self._viewed
             )
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, SimulationError) as error:

@@ -20,6 +20,7 @@ from handeye.events import (
     StageStarted,
     StepFinished,
     StepStarted,
+    beginning,
 )
 from handeye.execution.servo_loop import Halted
 from handeye.execution.servo_period import ServoPeriod
@@ -51,6 +52,7 @@ class Runner:
         start: Checkpoint,
         *,
         halt: Callable[[], bool] = lambda: False,
+        viewed: Callable[[int, int], None] = lambda *_: None,
         observers: Callable[["Runner"], Sequence[Observer]] = lambda _: (),
         parts: Parts = OWN,
     ) -> None:
@@ -58,6 +60,7 @@ class Runner:
 
         Args:
             halt: the panic button, asked at every servo period.
+            viewed: told of each view in which the camera is calibrated: its number, of how many.
             observers: makes those who look on, once the cell is built and before anything happens in it.
             parts: parts of the run that are not handeye's own.
 
@@ -75,7 +78,9 @@ class Runner:
         """Processor time that vision has taken since this object took the run up, undone steps included."""
         self.system: System = kind_of(start.setup).build(
             start.setup,
-            Surroundings(emit=self._emit, watch=self._watch, halt=halt, vision=self.vision, parts=parts),
+            Surroundings(
+                emit=self._emit, watch=self._watch, halt=halt, viewed=viewed, vision=self.vision, parts=parts
+            ),
         )
         self.events: list[AnyEvent] = []
         """Everything that has happened and was not undone."""
@@ -106,6 +111,11 @@ class Runner:
     def time(self) -> float:
         """The clock of the system, s."""
         return self.system.time
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds of that clock since the working phase began: the time that people see."""
+        return round(self.time - beginning(self.events), 6)
 
     @property
     def trouble(self) -> str | None:

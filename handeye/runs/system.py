@@ -169,6 +169,8 @@ class Surroundings:
     """Told of every servo period."""
     halt: Callable[[], bool]
     """The panic button, asked at every servo period."""
+    viewed: Callable[[int, int], None] = lambda *_: None
+    """Told of each view in which the camera is calibrated: its number, of how many."""
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision."""
     parts: Parts = OWN

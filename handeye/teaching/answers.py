@@ -44,7 +44,7 @@ class Answer:
     """The answer to a line."""
 
     time: float
-    """s on the cell's clock."""
+    """s on the cell's clock since the camera was set up."""
     typed: str = ""
     said: LineResult = NOTHING
     source: Source = NO_TEXT

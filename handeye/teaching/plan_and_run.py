@@ -40,9 +40,9 @@ def about(
     workplace: Workplace, checked: PlannedScript, found: Sequence[Diagnostic], said: LineResult = NOTHING
 ) -> Answer:
     """An answer with what was found in a text."""
-    return Answer(time=workplace.run.time, said=said, source=checked.source, diagnostics=tuple(found))
+    return Answer(time=workplace.elapsed, said=said, source=checked.source, diagnostics=tuple(found))
 
 
 def answer(workplace: Workplace, said: LineResult = NOTHING) -> Answer:
     """An answer that says so much."""
-    return Answer(time=workplace.run.time, said=said)
+    return Answer(time=workplace.elapsed, said=said)

@@ -67,7 +67,7 @@ class Repl:
         """
         happened = len(self.workplace.runner.events)
         said = done(self.workplace, self.workplace.answer(choice), happened)
-        return self._advised(Answer(time=self.workplace.run.time, said=said))
+        return self._advised(Answer(time=self.workplace.elapsed, said=said))
 
     def _advised(self, given: Answer) -> Answer:
         advices = {"operator": self.called, "panic": "the interrupted step is undone"}

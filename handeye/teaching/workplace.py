@@ -7,7 +7,7 @@ from typing import Final
 import msgspec
 
 from handeye.errors import InvalidInput
-from handeye.events import Choice, RunStarted
+from handeye.events import Choice, RunStarted, beginning
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState
 from handeye.mutable_records import copied
@@ -68,6 +68,8 @@ class Workplace:
         self.runner = Runner(Checkpoint(setup=setup), halt=halt)
         if self.runner.trouble is not None:
             raise InvalidInput(self.runner.trouble)
+        self.begun = beginning(self.runner.events)
+        """The cell's clock when the first run began, s."""
         self.before: list[Checkpoint] = []
         """States to go back to, the newest last."""
 
@@ -85,6 +87,7 @@ class Workplace:
         )
         made.halt, made.before = halt, []
         made.runner = Runner(checkpoint, halt=halt)
+        made.begun = beginning(checkpoint.events)
         return made
 
     # -- knowing --------------------------------------------------------------------------------------
@@ -93,6 +96,11 @@ class Workplace:
     def run(self) -> ExecutionContext:
         """What the executor of programs works with, now."""
         return context_of(self.runner.system)
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds of the cell's clock since the first run began: the time that people see."""
+        return round(self.run.time - self.begun, 6)
 
     @property
     def known(self) -> Taught:

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye import events as happened
-from handeye.events import AnyEvent
+from handeye.events import AnyEvent, beginning
 from handeye.pose import Array
 from handeye.trace.sentences import inches, sentence
 from handeye.units import INCH
@@ -19,13 +19,13 @@ _BENEATH: Final = " " * 20
 
 
 def account(events: Sequence[AnyEvent]) -> list[str]:
-    """The account, line by line: a heading for each stage; the clock, the line and the text of each step in the
+    """The account, line by line: a heading for each stage; the time, the line and the text of each step in the
     source; beneath it what came of it; and at the end that it is the end, or none."""
-    teller = _Teller()
+    teller = _Teller(beginning(events))
     for event in events:
         teller.tell(event)
     if events and not isinstance(events[-1], happened.RunFinished):
-        teller.lines += ["", f"{events[-1].time:9.2f}  the run pauses here, before its end"]
+        teller.lines += ["", f"{teller.clock(events[-1])}  the run pauses here, before its end"]
     return teller.lines
 
 
@@ -33,6 +33,8 @@ def account(events: Sequence[AnyEvent]) -> list[str]:
 class _Teller:
     """Writes the account as the events come."""
 
+    _origin: float
+    """The cell's clock when the run began, s."""
     lines: list[str] = field(default_factory=list)
     _heading: int | None = None
     """The line with the heading of the stage under way, once there is one."""
@@ -46,6 +48,10 @@ class _Teller:
     """How far from its planned end the last motion ended; a straight one begins from there."""
     _tested: str | None = None
     """The answer to a test, until it is known where the program goes on."""
+
+    def clock(self, event: AnyEvent) -> str:
+        """The time of an event in a column: seconds since the run began."""
+        return f"{event.time - self._origin:z9.2f}"
 
     def tell(self, event: AnyEvent) -> None:
         """Tell one event."""
@@ -64,7 +70,7 @@ class _Teller:
             case happened.StepStarted():
                 self._lead_on(f"continue at line {event.place}")
                 self._shift = None
-                self.lines.append(f"{event.time:9.2f} {event.place:>5}  {event.text}")
+                self.lines.append(f"{self.clock(event)} {event.place:>5}  {event.text}")
             case happened.StepFinished():
                 self._ended(event)
             case happened.ErrorTested():
@@ -77,12 +83,12 @@ class _Teller:
                 self._beneath(sentence(event))
             case happened.RunFinished():
                 self._lead_on("and the program ends")
-                self.lines += ["", f"{event.time:9.2f}  {sentence(event)}"]
+                self.lines += ["", f"{self.clock(event)}  {sentence(event)}"]
             case happened.OperatorCalled() | happened.PanicStopped() | happened.OperatorAnswered():
                 self._lead_on("and there it stops")
-                self.lines.append(f"{event.time:9.2f}  *** {sentence(event)}")
+                self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
             case happened.ExperimentMade() | happened.WentBack():
-                self.lines.append(f"{event.time:9.2f}  *** {sentence(event)}")
+                self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
             case _:
                 self._beneath(sentence(event))
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from itertools import zip_longest
 
-from handeye.events import AnyEvent
 from handeye.trace.channels import EVENTS, LOG, MOMENTS, NEWER
 from handeye.trace.records import RawMessage
 from handeye.trace.resuming import until
@@ -49,20 +48,28 @@ def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage |
         short, long = (a, b) if here is None else (b, a)
         return f"{short.name} ends and {long.name} goes on {after}"
     if {here.topic, there.topic} <= {EVENTS, LOG}:  # a sentence stands before its event
-        return f"event {events + 1} differs: {_events(a.events[events], b.events[events])}"
+        return f"event {events + 1} differs: {_events(a, b, events)}"
     if here.topic == there.topic and here.time == there.time:
-        return f"{here.topic} differs at {here.time / 1e9:.3f} s, {after}"
-    first, second = (f"{found.topic} at {found.time / 1e9:.3f} s" for found in (here, there))
+        return f"{here.topic} differs at {_when(a, here.time / 1e9)}, {after}"
+    first, second = (
+        f"{found.topic} at {_when(of, found.time / 1e9)}" for of, found in ((a, here), (b, there))
+    )
     return f"one goes on with {first}, the other with {second}, {after}"
 
 
-def _events(one: AnyEvent, other: AnyEvent) -> str:
-    """In what two events differ."""
+def _when(trace: Trace, clock: float) -> str:
+    return f"{trace.elapsed(clock):.3f} s"
+
+
+def _events(a: Trace, b: Trace, number: int) -> str:
+    """In what the events of a number differ."""
+    one, other = a.events[number], b.events[number]
+    when = _when(a, one.time)
     kinds = type(one).__name__, type(other).__name__
     if kinds[0] != kinds[1]:
-        return f"{kinds[0]} at {one.time:.3f} s in one, {kinds[1]} at {other.time:.3f} s in the other"
+        return f"{kinds[0]} at {when} in one, {kinds[1]} at {_when(b, other.time)} in the other"
     values = ((name, getattr(one, name), getattr(other, name)) for name in one.__struct_fields__)
     name, first, second = next((found for found in values if found[1] != found[2]), ("", None, None))
     if not name:
-        return f"{kinds[0]} at {one.time:.3f} s has another wording"
-    return f"{name} of {kinds[0]} at {one.time:.3f} s is {first} in one, {second} in the other"
+        return f"{kinds[0]} at {when} has another wording"
+    return f"{name} of {kinds[0]} at {when} is {first} in one, {second} in the other"

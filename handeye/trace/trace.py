@@ -88,6 +88,10 @@ class Trace:
         """The clock from which on its motions are recorded, s."""
         return self.events[max(self.unseen - 1, 0)].time
 
+    def elapsed(self, clock: float) -> float:
+        """Seconds from the beginning of the run to a time by the cell's clock: what people see."""
+        return round(clock - self.head.time, 6)
+
     def check_repeatable(self) -> None:
         """Make sure that the cell of the run can be built again.
 
@@ -143,7 +147,7 @@ class Trace:
         try:
             return make(message)
         except (DecodeError, KeyError, ValueError):
-            when = f"at {message.time / 1e9:.3f} s"
+            when = f"at {self.elapsed(message.time / 1e9):.3f} s"
             raise InvalidInput(
                 f"{self.name}: the message on {message.topic} {when} cannot be understood"
             ) from None

@@ -1,7 +1,16 @@
 """The result of a run counts the stages that there are, whatever a recording says of them."""
 
-from handeye.events import CameraBusy, StageFinished, StageStarted
-from handeye.report.summary import stage_times
+from handeye.events import (
+    CameraBusy,
+    ExperimentMade,
+    OperatorAnswered,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+)
+from handeye.ports.camera import Renderer
+from handeye.report.summary import interventions, stage_times
+from handeye.variation import WorldSpec
 
 
 def test_the_time_of_a_stage_leaves_out_the_camera() -> None:
@@ -21,3 +30,15 @@ def test_the_time_of_a_stage_leaves_out_the_camera() -> None:
 def test_a_stage_whose_beginning_is_missing_has_ended_all_the_same() -> None:
     (stage,) = stage_times(("look",), [StageFinished(time=4.5, stage="look", status="done")])
     assert stage.status == "done"
+
+
+def test_interventions_are_told_by_the_time_since_the_run_began() -> None:
+    begun = RunStarted(
+        time=215.5, program="p", steps=1, plan="", arm="", arm_digest="", world=WorldSpec(seed=0),
+        camera=Renderer(method="none"), versions={},
+    )  # fmt: skip
+    asked = OperatorAnswered(time=220.0, choice="proceed", step=None)
+    tried = ExperimentMade(time=221.25, what="saved", name="E2", value=(0.0, 0.0, 0.0))
+    assert list(interventions([begun, asked, tried])) == [
+        "at 4.5 s the operator chose: proceed", "at 5.8 s saved E2 was set by hand"
+    ]  # fmt: skip

@@ -164,6 +164,16 @@ def test_checkpoints_are_found_by_stage(tmp_path: Path) -> None:
     assert (found.stage, found.position, read_checkpoint(next(folder.kept.heads())[0])) == ("ask", 7, newest)
 
 
+def test_the_time_that_people_see_counts_from_the_beginning_of_the_run() -> None:
+    runner = Runner(begin_toy())
+    runner.events[0] = msgspec.structs.replace(runner.events[0], time=-3.0)
+    advance(runner, steps=2)
+    stepper = Stepper(runner)
+    assert (runner.time, runner.elapsed) == (2.0, 5.0)
+    assert as_text(stepper.standing()).splitlines()[0].endswith("2 steps done, 5.00 s")
+    assert as_text(stepper.do("show time")).splitlines()[-1].split() == ["time", "5.00", "s"]
+
+
 def test_its_result_has_stages_and_no_camera() -> None:
     runner = answered(Runner(begin_toy()))
     result = summary(runner, advance(runner), findings=None, host=HostSeconds(run_wall_s=1.0))

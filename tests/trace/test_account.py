@@ -26,7 +26,7 @@ def test_the_account_of_a_run_that_is_not_over_says_so() -> None:
     told = account(
         [BEGUN, happened.StageStarted(time=10.0, stage="find the hole"), _step(10.0, 12, "OPEN 1")]
     )
-    assert told[-1] == "    10.00  the run pauses here, before its end"
+    assert told[-1] == "     0.00  the run pauses here, before its end"
 
 
 def test_an_account_of_a_stage() -> None:
@@ -54,18 +54,18 @@ def test_an_account_of_a_stage() -> None:
         "plan 0123456789abcdef; handeye 0.1.0",
         "",
         "FIND THE HOLE: done in 2.0 s, 0.5 s of it for the camera",
-        "    10.00    12  LOOK    WIDE",
+        "     0.00    12  LOOK    WIDE",
         "                    the camera digitised the picture: 0.5 s",
         "                    picture WIDE, 25 mm lens",
-        "    10.50    14  CHANGE  [0 0 -1] 0.6",
+        "     0.50    14  CHANGE  [0 0 -1] 0.6",
         "                    error 23: the motion ended without meeting the force it was to stop on",
-        "    11.50    15  SKIPE   23",
+        "     1.50    15  SKIPE   23",
         "                    error 23 occurred: continue at line 18",
-        "    11.50    18  CHANGE  [0 0 -1] 0.6",
+        "     1.50    18  CHANGE  [0 0 -1] 0.6",
         "                    stopped: the hand presses with 64.0 ounces, over 60.0",
         "                    the hand is at (20.00, 10.00, 3.00) in, 0.26 in from its planned end",
         "",
-        "    12.00  the program came to its end",
+        "     2.00  the program came to its end",
     ]
 
 

@@ -62,14 +62,14 @@ def test_what_an_older_version_of_the_format_did_not_have_makes_no_difference(
 
 def test_an_event_that_differs_is_named_with_what_is_different(tmp_path: Path, whole: Trace) -> None:
     other = _changed(tmp_path / "b.mcap", event=3, value=9.5)
-    said = "event 4 differs: value of GuardTripped at 10.100 s is 9.0 in one, 9.5 in the other"
+    said = "event 4 differs: value of GuardTripped at 0.100 s is 9.0 in one, 9.5 in the other"
     assert first_difference(whole, other) == said
 
 
 def test_a_servo_period_that_differs_is_named_with_what_happened_before(tmp_path: Path, whole: Trace) -> None:
     other = _changed(tmp_path / "b.mcap", tick=7)
     said = (
-        "/joint_states differs at 10.133 s, after event 4 "
+        "/joint_states differs at 0.133 s, after event 4 "
         "(stopped: the hand presses with 32.4 ounces, over 28.8)"
     )
     assert first_difference(whole, other) == said

@@ -143,7 +143,7 @@ def test_a_message_that_is_not_what_its_channel_says_is_refused(path: Path) -> N
     recording.recorder._writing.file.write("/joint_states", 11, b"\xff")
     recording.close()
     with pytest.raises(
-        InvalidInput, match=r"forged\.mcap: the message on /joint_states at 0\.000 s cannot be"
+        InvalidInput, match=r"forged\.mcap: the message on /joint_states at -10\.000 s cannot be"
     ):
         list(read_trace(other).ticks())
 
