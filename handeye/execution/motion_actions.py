@@ -29,7 +29,7 @@ from handeye.program.operation import Operation
 from handeye.record import Vector3
 from handeye.touch.centring import Centring
 from handeye.touch.guards import monitor
-from handeye.touch.hold import at_least, within
+from handeye.touch.hold import at_least, at_most
 
 _SHUT: Final = -0.02
 """Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""
@@ -173,7 +173,7 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
 def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
     if not at_least(gap, minimum):
         return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=minimum))
-    if maximum is not None and not within(gap, minimum, maximum):
+    if maximum is not None and not at_most(gap, maximum):
         return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))
     return None
 

@@ -11,6 +11,6 @@ def at_least(gap: float, thickness: float) -> bool:
     return gap >= thickness
 
 
-def within(gap: float, least: float, most: float) -> bool:
-    """Something with a thickness in this range is held (m)."""
-    return least <= gap <= most
+def at_most(gap: float, thickness: float) -> bool:
+    """Nothing thicker than this is held (m)."""
+    return gap <= thickness

@@ -16,6 +16,8 @@ from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.units import JIFFY
 
+pytestmark = pytest.mark.slow
+
 PERIODS = 4
 
 

@@ -3,6 +3,8 @@
 import pytest
 from fake_runs import FakeRun, fake_run
 
+pytestmark = pytest.mark.slow
+
 SERVO = 0.01
 """How far (in) the servo may end from its set-point."""
 OFF = "MOVE T\nCHANGE [1 0 0] .3\nSAVE D\n"

@@ -13,7 +13,7 @@ from handeye.judge.finding import all_right
 from handeye.pose import planar, pose, rotation_x, translated
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.referee import judge
-from handeye.tasks.water_pump.threads import ThreadsState, holes_of
+from handeye.tasks.water_pump.threads import Thread, ThreadsState, holes_of
 
 
 def X(truth: Truth, part: str) -> np.ndarray:
@@ -88,6 +88,13 @@ def test_a_finished_pump_is_assembled() -> None:
 def test_the_referee_finds(name: str) -> None:
     change, expected = CHANGES[name]
     assert wrong(change(finished())) == expected
+
+
+def test_a_pump_without_screws_is_wrong_in_all_that_screws_do() -> None:
+    truth = finished()
+    empty = ThreadsState(holes=(Thread(),) * 6, driven=0)
+    found = wrong(replace(truth, states={**truth.states, "threads": empty}))
+    assert {"screws", "screws_depth", "screws_clamp"} <= found
 
 
 def test_a_base_two_millimetres_off_its_blocks_is_found() -> None:
