@@ -190,7 +190,6 @@ def test_json_is_one_object_alone_on_standard_output(command: Command, planned: 
     assert (exit_code, result["completed"], result["message"], result["seed"]) == (1, False, "HELP ME", 3)
 
 
-@pytest.mark.slow
 def test_an_output_folder_that_cannot_be_made_ends_with_two(
     command: Command, planned: Callable[[str], str]
 ) -> None:

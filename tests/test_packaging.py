@@ -22,7 +22,7 @@ TESTING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["dev"]]
 PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
 """Packages whose modules have other names."""
 NOT_IMPORTED = {"trimesh"}
-"""A dependency for geometry that is to come; tests reckon masses with it."""
+"""Only the tests measure with it so far."""
 
 
 def locked(name: str) -> set[tuple[str, str]]:

@@ -4,6 +4,7 @@ import re
 import string
 from pathlib import Path
 
+import pytest
 from al_support import LISTING, TAUGHT, diagnose, said
 from any_texts import PUMP, ROOT, spoiled, texts
 from hypothesis import HealthCheck, example, given, settings
@@ -31,6 +32,7 @@ def test_no_text_makes_the_compiler_fail(text: str) -> None:
     assert all(render(d, source) for d in diagnostics)
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(spoiled([PUMP]))
 def test_no_spoiling_of_the_pump_script_makes_checker_or_planner_fail(text: str) -> None:
@@ -43,6 +45,7 @@ def test_no_spoiling_of_the_pump_script_makes_checker_or_planner_fail(text: str)
     assert all(render(d, source) for d in [*diagnostics, *al.extensions(source)])
 
 
+@pytest.mark.slow
 @given(spoiled([PUMP]))
 def test_tidying_a_spoiled_pump_script_keeps_what_it_says(text: str) -> None:
     assert said(parse(al.format_text(text))[0]) == said(parse(text)[0])

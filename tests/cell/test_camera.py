@@ -189,6 +189,7 @@ def dark_middle(light: np.ndarray, near: np.ndarray) -> np.ndarray:
     return np.array([(dark * u).sum(), (dark * v).sum()]) / dark.sum()
 
 
+@pytest.mark.slow
 @pytest.mark.render
 @pytest.mark.parametrize("kind", ["auto", "ray"])
 def test_what_is_projected_is_where_it_is_rendered(kind: str):

@@ -57,7 +57,6 @@ def test_fmt_without_files_says_what_it_needs(command: Command) -> None:
     assert command("fmt") == (2, "", "handeye: fmt needs the name of a script, or - for standard input\n")
 
 
-@pytest.mark.slow
 def test_fmt_knows_the_macros_of_required_files_and_leaves_those_files_alone(
     command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -75,6 +74,7 @@ def test_fmt_of_standard_input_needs_no_required_file() -> None:
     assert (code, out) == (0, b"        REQUIRE b.al\n        DROP\n")
 
 
+@pytest.mark.slow
 def test_fmt_of_standard_input_goes_to_standard_output() -> None:
     assert handeye("fmt", "-", typed=UNTIDY.encode()) == (0, TIDY.encode(), b"")
     assert handeye("fmt", "-", typed=b"\xff")[0] == 2

@@ -1,5 +1,6 @@
 """Whatever motions a script asks for, the planner has a plan or says why not."""
 
+import pytest
 from checking import CELL, said
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -34,6 +35,7 @@ lines = st.one_of(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(st.lists(lines, min_size=1, max_size=8).filter(lambda ls: sum("TRANS" in line for line in ls) < 2))
 def test_any_motions_have_a_plan_or_errors(script: list[str]) -> None:

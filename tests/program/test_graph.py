@@ -1,5 +1,6 @@
 """The graph of steps against the plainest way of asking it."""
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -33,6 +34,7 @@ def test_a_step_is_in_one_circle_with_all_that_come_before_and_after_it(
     assert graph.circles() == plainly
 
 
+@pytest.mark.slow
 @given(GRAPHS, st.sets(st.integers(0, 8)))
 def test_a_way_avoids_steps_as_if_they_led_nowhere(
     ways: list[tuple[int | None, int | None]], without: set[int]

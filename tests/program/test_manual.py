@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import pytest
 from conftest import Command
 
 from handeye.inspection.drawing import flow_svg
@@ -29,6 +30,7 @@ def test_the_listing_in_the_manual_is_what_inspect_prints(command: Command) -> N
     assert command("inspect", str(PUMP), "--stage", "feel for the grasp") == (0, shown("inspect"), "")
 
 
+@pytest.mark.slow
 def test_the_difference_in_the_manual_is_what_diff_prints(command: Command) -> None:
     script = (plans() / "water_pump.al").read_text(encoding="utf-8").replace("[0 0 -60]", "[0 0 -70]")
     lines = script.splitlines()

@@ -65,6 +65,7 @@ def test_a_module_is_seen_to_ask_for_a_class_however_it_asks(line: str) -> None:
     assert asked_for(begun + line) == {"Move"}
 
 
+@pytest.mark.slow
 def test_an_operation_is_asked_for_its_class_only_where_its_meaning_is_given() -> None:
     package = Path(operation.__file__).parents[1]
     found = {str(path.relative_to(package)) for path in package.rglob("*.py") if asked_for(path.read_text())}

@@ -82,6 +82,7 @@ COMMENTS = st.text(st.characters(codec="utf-8", exclude_categories=("C",)), max_
 FIGURES = st.floats(-50, 50).map(lambda x: round(x, 3))
 
 
+@pytest.mark.slow
 @given(
     st.lists(st.tuples(NAMES, FIGURES, st.sampled_from([None, "P"]), COMMENTS), unique_by=lambda e: e[0]),
     NAMES, st.tuples(FIGURES, FIGURES, FIGURES), st.sampled_from([None, "P"]),

@@ -81,6 +81,7 @@ def test_the_meshes_of_the_scene_are_those_of_the_simulator(cell: SimulatedCell,
     assert max(found.indices) == len(found.points) - 1
 
 
+@pytest.mark.slow
 def test_the_scene_is_told_as_it_was_drawn_whatever_has_happened_since() -> None:
     cell = build_cell(PumpWorld.nominal(), camera="ray")
     before = Frames(cell.truth, STANFORD).scene(0)

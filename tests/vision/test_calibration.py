@@ -54,6 +54,7 @@ def test_a_camera_as_drawn_is_too_far_off():
     assert errors(DRAWING).max() > INCH / 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 def test_twenty_spots_bring_it_within_a_quarter_of_an_inch(seed: int):
     assert errors(calibrate(sightings(20, seed), DRAWING).model).max() < INCH / 4

@@ -38,6 +38,7 @@ def test_only_with_rest_the_clamped_parts_are_bonded() -> None:
     assert (bonded(screwed(True)), bonded(screwed(False))) == (True, False)
 
 
+@pytest.mark.slow
 def test_an_unclamped_stack_is_not_bonded() -> None:
     cell = stacked()
     tighten(cell, 0)

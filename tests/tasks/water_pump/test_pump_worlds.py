@@ -82,6 +82,7 @@ def test_from_the_seventh_screw_on_the_world_has_one_more_hole_and_thread() -> N
     assert more == {"holes.7.x", "holes.7.y", "thread_phase.7"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, SEVENTH])
 def test_every_quantity_reaches_the_world(seed: int) -> None:
     before = repr(PumpWorld.sample(seed))

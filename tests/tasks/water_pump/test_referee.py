@@ -78,12 +78,14 @@ CHANGES: dict[str, tuple[Callable[[Truth], Truth], set[str]]] = {
 }
 
 
+@pytest.mark.slow
 def test_a_finished_pump_is_assembled() -> None:
     findings = judge(finished())
     assert {name: finding for name, finding in findings.items() if not finding.ok} == {}
     assert all_right(findings)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CHANGES)
 def test_the_referee_finds(name: str) -> None:
     change, expected = CHANGES[name]

@@ -68,6 +68,7 @@ def test_a_screw_cannot_enter_a_tapped_hole_by_itself():
     assert point - 1e-3 < depth < point + 1e-3  # its dog point is in, its thread is not
 
 
+@pytest.mark.slow
 def test_the_scene_of_a_seed_is_always_the_same():
     first, second = (Bench(PumpWorld.sample(5)) for _ in range(2))
     for bench in (first, second):

@@ -49,6 +49,7 @@ def middle(model: mujoco.MjModel, body: str) -> Point:
     return float(places[:, 0].mean()), float(places[:, 1].mean())
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("tray")
 def test_a_new_station_stands_in_the_scene_with_an_error_of_its_own() -> None:
     moved = Overrides(set={"fixtures.tool_tray.x": 0.1 * INCH}, without=("fixtures",))

@@ -23,6 +23,7 @@ def test_a_seated_screw_clamps_what_lies_under_its_head() -> None:
     assert 100 < outcome().thread.clamp < 250  # N; the study measured 113-175 N at .3 N m
 
 
+@pytest.mark.slow
 def test_a_screw_two_millimetres_off_never_engages_and_meets_no_torque() -> None:
     end = outcome(offset=0.002)
     assert end.thread.screw is None
@@ -41,5 +42,6 @@ def test_a_tilted_screw_crosses_and_jams_high() -> None:
     assert end.height > 0.004
 
 
+@pytest.mark.slow
 def test_a_screw_seats_the_same_to_the_last_bit_every_time() -> None:
     assert drive_screw(tilt=0.02) == drive_screw(tilt=0.02)
