@@ -43,6 +43,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
             meter=Meter(timer=HostTimer.of_process(), planning_cpu_s=planning),
             referee=False,
             observers=lambda _: [progress],
+            viewed=progress.viewed,
         )
     screen.print(table(finished.result))
     return 0 if finished.result.completed else 1

@@ -41,7 +41,7 @@ class State:
     position: int
     """Steps done since the run began."""
     time: float
-    """s on the clock of the cell."""
+    """Simulated seconds since the run began; the camera was calibrated before."""
     stage: str | None
     """The stage under way, or the one about to begin; None after the last."""
     step: int | None
@@ -83,7 +83,7 @@ def state_of(runner: Runner, stage: str | None, why: str) -> State:
     drive = run.drive
     return State(
         position=runner.position,
-        time=runner.time,
+        time=runner.elapsed,
         stage=stage,
         step=runner.at,
         file="" if step is None else step.file,

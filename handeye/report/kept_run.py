@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from msgspec import UNSET
+
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
@@ -25,6 +27,7 @@ from handeye.report.summary import camera_report, interventions, stage_times, ti
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT
 from handeye.runs.host_seconds import HostSeconds, read_host_seconds
+from handeye.runs.parts import deciding
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.system import Listing
 from handeye.runs.systems import system_kind
@@ -108,6 +111,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent]) -> KeptRun:
         world=begun.world,
         camera=camera_report(begun.camera, calibration),
         versions=begun.versions,
+        replaced=deciding(begun.own_parts) or UNSET,
     )
     return KeptRun(result=result, faults=(*faults, *damaged), left=False)
 

@@ -74,8 +74,11 @@ class Trace:
     def unseen(self) -> int:
         """Events before the first of which more was recorded than that they happened.
 
-        More than the start of the run and of its first stage, if it was taken up from a checkpoint.
+        More than the start of the run and of its first stage, if it was taken up from a checkpoint. None of a system
+        that moves no arm.
         """
+        if not self.head.arm:
+            return 0
         events = 0
         for message in self.messages():
             if message.topic in MOMENTS:

@@ -31,15 +31,18 @@ def run_plan(
     meter: Meter | None = None,
     referee: bool = True,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
+    viewed: Callable[[int, int], None] = lambda *_: None,
 ) -> Finished:
     """Carry out a plan in a world, with no operator there, and have it judged.
 
     Args:
         meter: measures what the run costs the host; by default from now on.
+        viewed: told of each view in which the camera is calibrated: its number, of how many.
 
     Raises:
         InvalidInput: the plan is for another arm, or the camera cannot work as asked.
     """
     metered = meter or Meter()
-    runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera)), observers=observers)
+    start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
+    runner = Runner(start, viewed=viewed, observers=observers)
     return Finished(result=finished(runner, advance(runner), metered, judged=referee), runner=runner)

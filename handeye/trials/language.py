@@ -77,10 +77,10 @@ class Waiting:
         """The times and what they are held to, in seconds."""
         return {
             "what": self.what,
-            "median_s": self.median,
-            "target_s": self.target,
+            "median_wall_s": self.median,
+            "target_wall_s": self.target,
             "met": self.is_short,
-            "seconds": self.seconds,
+            "each_wall_s": self.seconds,
         }
 
 

@@ -174,6 +174,11 @@ def test_the_time_that_people_see_counts_from_the_beginning_of_the_run() -> None
     assert as_text(stepper.do("show time")).splitlines()[-1].split() == ["time", "5.00", "s"]
 
 
+def test_a_system_that_moves_nothing_lacks_no_motions_in_its_trace(tmp_path: Path) -> None:
+    trace = read_trace(traced(begin_toy(), tmp_path / "run"))
+    assert (trace.events[-1].time, trace.begins) == (18.0, 0.0)
+
+
 def test_its_result_has_stages_and_no_camera() -> None:
     runner = answered(Runner(begin_toy()))
     result = summary(runner, advance(runner), findings=None, host=HostSeconds(run_wall_s=1.0))
