@@ -1,7 +1,7 @@
 """The Stanford hand-eye pump assembly of 1973: a script becomes a plan, a plan and a work cell become a pump.
 
 >>> import handeye
->>> plan = handeye.plan("OPEN 1\\nCLOSE .5\\n")
+>>> plan = handeye.plan("OPEN 1\\nOPEN 2\\n")
 >>> run = handeye.assemble(script=plan, seed=3, camera="ray")
 >>> run.completed
 True

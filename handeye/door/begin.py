@@ -188,13 +188,13 @@ def _built(start: Start, parts: Parts, keeping: Keeping) -> Run:
     folder, state = keeping.folder, start.state
 
     def looking(runner: Runner) -> Sequence[Observer]:
+        if isinstance(keeping.referee, LimitedReferee):
+            keeping.referee(runner.cell.truth)  # a wrong name is told now, and not at the end
         again = start.folder is not None
         return [] if folder is None else [folder.watch(runner, state, again=again, meter=keeping.meter)]
 
     try:
         runner = Runner(state, observers=looking, parts=parts)
-        if isinstance(keeping.referee, LimitedReferee):
-            keeping.referee(runner.cell.truth)  # a wrong name is told now, and not at the end
     except BaseException:
         if folder is not None:
             folder.close()

@@ -16,6 +16,7 @@ from handeye.events import RunStarted
 from handeye.host_time import HostTimer
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import Renderer
+from handeye.report.kept_run import has_ended
 from handeye.runs.checkpoint_file import ENDING, read_checkpoint
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, RunFolder, open_again
@@ -141,6 +142,8 @@ def _again(given: FileName, wanted: Wanted) -> Start:
     """
     path = given_file(given, "a run is taken up from a folder")
     folder, start, _ = open_again(path)
+    if has_ended(path, start, judged=start.setup.judged):
+        raise InvalidInput(f"the run in {path} has ended; without out=..., it can be taken up and go back")
     _check_same(path, start.setup, wanted)
     if wanted.replaced:
         raise InvalidInput(

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handeye.plain_text import counted
+from handeye.plain_text import counted, one_line
 from handeye.pose import Array, Pose
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
@@ -88,7 +88,7 @@ def state_of(runner: Runner, stage: str | None, why: str) -> State:
         step=runner.at,
         file="" if step is None else step.file,
         line=None if step is None else step.line,
-        text=None if step is None else step.text,
+        text=None if step is None else one_line(step.text),
         why=why,
         joints=_kept(drive.sensed.q),
         gap=float(drive.sensed.gap),

@@ -47,6 +47,8 @@ class World:
         number = checked_seed(seed)
         if level not in SPREADS:
             raise InvalidInput(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
+        if not isinstance(set, Mapping | None):
+            raise InvalidInput(f"`set` is a table of values by the names of quantities, not {set!r}")
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._table, self._task = tasks.task(task).variation(number), task
         settings = [f"{name}={value}" for name, value in self._set.items()]

@@ -9,7 +9,12 @@ Relation = Literal["at most", "at least"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """A measured value against its limit."""
+    """A measured value against its limit.
+
+    >>> finding = handeye.at_most(0.3, 0.2, "mm", "gap under the head")
+    >>> finding.ok, finding.limited(0.5).ok
+    (False, True)
+    """
 
     ok: bool
     subject: str
@@ -32,12 +37,20 @@ Findings = Mapping[str, Finding]
 
 
 def at_most(value: float, limit: float, unit: str, subject: str) -> Finding:
-    """A finding that is right up to `limit`."""
+    """A finding that is right up to `limit`.
+
+    >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
+    True
+    """
     return _finding(value <= limit, value, "at most", limit, unit, subject)
 
 
 def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
-    """A finding that is right from `limit` on."""
+    """A finding that is right from `limit` on.
+
+    >>> handeye.at_least(70, 40, "N", "weakest clamp").ok
+    True
+    """
     return _finding(value >= limit, value, "at least", limit, unit, subject)
 
 

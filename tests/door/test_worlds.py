@@ -1,0 +1,61 @@
+"""Worlds are chosen in the units of `handeye world`, and a mistake is told with the nearest name."""
+
+import pytest
+
+import handeye
+from handeye.errors import InvalidInput
+from handeye.variation import Overrides, WorldSpec
+
+
+def test_a_world_is_recorded_in_si_units() -> None:
+    world = handeye.World(seed=3, level="high", without=["arm.offset"], set={"camera.place.x": 0.3})
+    wanted = Overrides(without=("arm.offset",), set={"camera.place.x": pytest.approx(0.3 * 0.0254)})
+    assert world.spec == WorldSpec(seed=3, level="high", overrides=wanted)
+
+
+def test_values_are_in_their_own_units() -> None:
+    world = handeye.World(set={"camera.place.x": ".3in", "camera.place.y": "1 mm"})
+    assert (world["camera.place.x"], world["camera.place.y"]) == (pytest.approx(0.3), pytest.approx(1 / 25.4))
+    assert (world.unit("camera.place.x"), world.values["camera.place.x"]) == ("in", pytest.approx(0.3))
+
+
+def test_equal_worlds_are_equal() -> None:
+    assert handeye.World(3, without="camera") == handeye.World(3, without=["camera"])
+    assert handeye.World(3) != handeye.World(4)
+    assert len({handeye.World(3), handeye.World(3), handeye.World(4)}) == 2
+
+
+def test_a_world_shows_how_it_was_chosen() -> None:
+    said = "World(seed=3, level='low', without=['camera'], set={'arm.friction': 0})"
+    assert repr(handeye.World(3, level="low", without="camera", set={"arm.friction": 0})) == said
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ({"level": "hihg"}, r"^there is no level 'hihg'; there are low, nominal, high$"),
+        (
+            {"without": ["arm.ofset"]},
+            r"^the world has no quantity `arm\.ofset`; did you mean `arm\.offset`\?$",
+        ),
+        ({"without": [3]}, r"^`without` takes names, not 3$"),
+        (
+            {"set": {"arm.fricton": 0}},
+            r"^the world has no quantity `arm\.fricton`; did you mean `arm\.friction`\?$",
+        ),
+        ({"set": {"camera.place.x": "3 oz"}}, r"^camera\.place\.x is not measured in `oz`; known: "),
+        ({"set": {"arm.friction": -1}}, r"^arm\.friction\.1 cannot be `-1`"),
+        ({"set": {"arm.friction": None}}, r"^arm\.friction\.1 cannot be `None`, which is not a number$"),
+        ({"set": ["arm.friction"]}, r"^`set` is a table of values by the names of quantities, not "),
+    ],
+)
+def test_what_is_no_world_is_told_in_one_sentence(words: dict[str, object], sentence: str) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        handeye.World(3, **words)
+
+
+def test_a_quantity_is_found_by_its_whole_name() -> None:
+    with pytest.raises(InvalidInput, match=r"did you mean `arm\.offset"):
+        handeye.World()["arm.offest.3"]
+    with pytest.raises(InvalidInput, match=r"^`arm\.offset` is a group of quantities: arm\.offset\.1, "):
+        handeye.World()["arm.offset"]
