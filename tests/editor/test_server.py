@@ -131,7 +131,7 @@ def test_a_taught_file_that_cannot_be_used_is_one_diagnostic(folder: Path) -> No
 
 
 @pytest.mark.slow
-def test_every_question_an_editor_asks_is_answered(folder: Path) -> None:
+def test_every_question_an_editor_asks_is_answered_and_a_word_of_the_language_is_not_renamed(folder: Path) -> None:
     async def conversation(client: Client) -> None:
         await client.open(SCRIPT)
         document, at = client.document, lsp.Position(3, 17)
@@ -159,6 +159,9 @@ def test_every_question_an_editor_asks_is_answered(folder: Path) -> None:
             document.uri: [lsp.TextEdit(span(3, 16, 20), "BORE")],
             client.taught.as_uri(): [lsp.TextEdit(span(2, 0, 4), "BORE")],
         }
+        rename = lsp.RenameParams(document, lsp.Position(1, 9), "HOME")
+        with pytest.raises(JsonRpcException, match="`PARK` is a word of the language"):
+            await client.text_document_rename_async(rename)
         symbols = await client.text_document_document_symbol_async(lsp.DocumentSymbolParams(document))
         assert symbols is not None
         (stage,) = symbols
@@ -213,17 +216,6 @@ def test_quick_fixes_and_formatting_come_as_edits(folder: Path) -> None:
         edits = await client.text_document_formatting_async(lsp.DocumentFormattingParams(document, options))
         assert edits is not None
         assert [edit.new_text for edit in edits] == ['        STAGE   "🔭" MOVE\n        PARK\n']
-
-    talk(folder, conversation)
-
-
-@pytest.mark.slow
-def test_a_word_of_the_language_cannot_be_renamed(folder: Path) -> None:
-    async def conversation(client: Client) -> None:
-        await client.open(SCRIPT)
-        rename = lsp.RenameParams(client.document, lsp.Position(1, 9), "HOME")
-        with pytest.raises(JsonRpcException, match="`PARK` is a word of the language"):
-            await client.text_document_rename_async(rename)
 
     talk(folder, conversation)
 

@@ -1,34 +1,29 @@
-"""Step 11: the rotor is turned, and is to resist with less than forty ounces."""
+"""Step 11: the rotor is turned, and is to resist with less than forty ounces.
+
+That a free one turns and meets nothing is in `test_whole_run`.
+"""
 
 import math
 
 import pytest
 from pump_bench import COUNT, IN_WORLDS, Bench, bench, stacked, stage, world_of
 
-from handeye.errors import NO_FORCE
 from handeye.events import GuardTripped
 
 pytestmark = pytest.mark.slow
 
 
-def turning(friction: float | None = None, seed: int | None = None) -> Bench:
-    """The program's last stage; the experimenter may have jammed the rotor (N m)."""
+def turning(friction: float, seed: int | None) -> Bench:
+    """The program's last stage, the experimenter having jammed the rotor (N m)."""
     run = bench(stage("turn the rotor"), world=world_of(seed), lay=stacked())
-    if friction is not None:
-        model = run.cell.truth.model
-        model.dof_frictionloss[model.joint("rotor").dofadr[0]] = friction
+    model = run.cell.truth.model
+    model.dof_frictionloss[model.joint("rotor").dofadr[0]] = friction
     return run.go()
 
 
 def turned(run: Bench) -> float:
     """Angle of the rotor, degrees."""
     return math.degrees(run.cell.truth.data.joint("rotor").qpos[0])
-
-
-def test_a_free_rotor_turns_and_meets_no_such_resistance() -> None:
-    run = turning()
-    assert (run.finished, run.errors) == (True, [NO_FORCE])
-    assert turned(run) > 50
 
 
 @pytest.mark.row(56, **COUNT)

@@ -1,15 +1,24 @@
-"""One whole run in one drawn world: eleven stages, their senses, their times, and the referee's word."""
+"""One whole run in one drawn world: eleven stages, their senses, their times, the referee's word, and a walk in it.
 
+The run is that of docs/stepping.md, the only one of the suite that assembles a pump: what needs one is claimed here.
+"""
+
+import math
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pytest
-from pump_bench import SCRIPT, TAUGHT
+from figures import as_recorded
+from stepping_walk import SAID, SEED, commands, of_command, pieces, stands
 
-from handeye.al import compile_text
-from handeye.arm.robots.stanford import STANFORD
+from handeye.debugger.breakpoints import stage_number
+from handeye.debugger.formatting import MOST, as_text
+from handeye.debugger.stepper import Stepper
+from handeye.errors import NO_FORCE
 from handeye.events import (
     CameraBusy,
+    ErrorRaised,
     Event,
     GuardTripped,
     OperatorCalled,
@@ -20,9 +29,11 @@ from handeye.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.planning.planner import make_plan
-from handeye.source import Source
+from handeye.planfile.store import read_plan
+from handeye.resources import plans
+from handeye.runs.runner import Runner
 from handeye.tasks.water_pump.referee import judge
+from handeye.trace.account import account
 from handeye.trials.assembly import Finished, run_plan
 from handeye.variation import WorldSpec
 
@@ -53,11 +64,7 @@ class Whole:
 
 @pytest.fixture(scope="module")
 def whole() -> Whole:
-    program, _ = compile_text(Source(name="water_pump.al", text=SCRIPT), TAUGHT)
-    assert program is not None
-    plan, _ = make_plan(program, STANFORD)
-    assert plan is not None
-    finished = run_plan(plan, world=WorldSpec(seed=1))
+    finished = run_plan(read_plan(plans() / "water_pump.plan.json"), world=WorldSpec(seed=SEED))
     return Whole(finished=finished, events=tuple(finished.runner.events))
 
 
@@ -94,7 +101,10 @@ def test_row_55_two_pins_go_in_and_two_come_out(whole: Whole, stage: str) -> Non
 
 
 def test_row_55_the_rotor_is_turned_without_resistance(whole: Whole) -> None:
-    assert count(whole.during("turn the rotor"), GuardTripped) == 0
+    turning = whole.during("turn the rotor")
+    assert count(turning, GuardTripped) == 0
+    assert [event.number for event in turning if isinstance(event, ErrorRaised)] == [NO_FORCE]
+    assert math.degrees(whole.finished.runner.cell.truth.data.joint("rotor").qpos[0]) > 50
     assert whole.finished.result.referee["rotor"].ok
 
 
@@ -154,3 +164,42 @@ def test_time_never_goes_back(whole: Whole) -> None:
 def test_every_step_that_began_has_ended(whole: Whole) -> None:
     events = list(whole.events)
     assert count(events, StepStarted) == count(events, StepFinished) > 200
+
+
+# -- the walk in docs/stepping.md ---------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def stepper(whole: Whole) -> Stepper:
+    """The run of the walk taken up where its commands begin."""
+    runner = whole.finished.runner
+    if runner.cell.renderer.method != "opengl":
+        pytest.skip("the walk was made with pictures by OpenGL")
+    steps = runner.listing.steps
+    first = stage_number("insert", runner.setup.plan.program)
+    (before,) = (
+        state for state in runner.history
+        if state.state.stage is None and state.state.at is not None and steps[state.state.at].stage == first
+    )  # fmt: skip
+    return Stepper(Runner(runner.checkpoint(before)))
+
+
+def transcript(stepper: Stepper, said: list[str]) -> Iterator[str]:
+    """What stands on the terminal of somebody who says these commands."""
+    yield as_text(stepper.standing())
+    for command in said:
+        yield f"{SAID}{command}"
+        yield as_text(stepper.do(command), MOST)
+
+
+@pytest.mark.render
+def test_the_commands_of_the_walk_are_answered_as_it_shows_and_their_trace_tells_what_it_shows(
+    stepper: Stepper,
+) -> None:
+    shown = commands()
+    said = [line.removeprefix(SAID) for line in shown if line.startswith(SAID)]
+    assert len(said) >= 10
+    heard = "\n".join(transcript(stepper, said))
+    assert as_recorded(heard, "\n".join(shown)).splitlines() == shown
+    told = list(account(stepper.hands.runner.events))
+    assert all(stands(piece, told) for piece in pieces(of_command("trace show pump")))

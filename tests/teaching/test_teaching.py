@@ -11,6 +11,8 @@ from repl_sessions import TAUGHT, workplace
 from handeye.pose import rotation, rotation_z
 from handeye.program.taught import load_taught
 from handeye.resources import plans
+from handeye.runs.snapshot import Checkpoint
+from handeye.source import Source
 from handeye.teaching.answers import text
 from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
 from handeye.teaching.teacher import Teacher
@@ -23,19 +25,22 @@ FILE = (plans() / "water_pump.toml").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
-def place() -> Workplace:
-    return workplace()
+def parked() -> Checkpoint:
+    """The cell of world 0, its arm parked and its hand open."""
+    place = workplace()
+    opening = place.plan(Source(name="open", text="OPEN 1\n")).plan
+    assert opening is not None
+    place.carry_out(opening)
+    return place.checkpoint()
 
 
 @pytest.fixture
-def pupil(place: Workplace, tmp_path: Path) -> TeachSession:
+def pupil(parked: Checkpoint, tmp_path: Path) -> TeachSession:
     """A parked arm, and a file as the water pump's."""
-    place.taught = TAUGHT
     file = tmp_path / "job.toml"
     file.write_text(FILE, encoding="utf-8")
-    given = TeachSession(Teacher(workplace=place, file=file, saved=FILE))
-    say(given, "open 1", "move PARK")
-    return given
+    place = Workplace.at(parked, TAUGHT, halt=lambda: False)
+    return TeachSession(Teacher(workplace=place, file=file, saved=FILE))
 
 
 def say(pupil: TeachSession, *lines: str) -> str:
