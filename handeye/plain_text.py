@@ -1,5 +1,7 @@
 """Small pieces of text for people: what may be shown on a terminal, and counts with their nouns."""
 
+import textwrap
+
 
 def printable(text: str) -> str:
     """A text with a sign in the place of each character that would steer a terminal, and not be shown."""
@@ -14,3 +16,24 @@ def one_line(text: str) -> str:
 def counted(number: int, noun: str) -> str:
     """`1 step`, `2 steps`"""
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def folded(text: str, width: int) -> str:
+    """Lines of text, those beyond a width broken between words, with what comes later set in beneath."""
+    return "\n".join(_folded(line, width) for line in text.split("\n"))
+
+
+def _folded(line: str, width: int) -> str:
+    if len(line) <= width:
+        return line
+    beneath = min(len(line) - len(line.lstrip()) + 4, width // 2) * " "
+    lines = textwrap.wrap(
+        line,
+        width,
+        subsequent_indent=beneath,
+        expand_tabs=False,
+        replace_whitespace=False,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return "\n".join(lines)

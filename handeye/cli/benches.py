@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, put_json, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, put_json, say, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.runs.scripts import default_script
@@ -62,18 +62,14 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
     setup = Setup(plan=plan, world=world.spec, camera=camera)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan.program.stages, notes):
         cost = measure(setup, Path(folder) / "run")
-    screen.print(f"working phase without them   {cost.run:6.2f} s of this computer's clock")
+    say(f"working phase without them   {cost.run:6.2f} s of this computer's clock")
     rows = (
         ("checkpoints", cost.checkpoints, f"{cost.kept} of them", 0.02),
         ("trace", cost.tracing, f"{cost.ticks} servo periods, {cost.trace_bytes / 1e6:.1f} MB", 0.10),
     )
     for name, seconds, what, limit in rows:
         share = seconds / cost.run
-        screen.print(
-            f"{name:28} {seconds:6.2f} s  {share:6.2%} (at most {limit:.0%})  {what}",
-            markup=False,
-            soft_wrap=True,
-        )
+        say(f"{name:28} {seconds:6.2f} s  {share:6.2%} (at most {limit:.0%})  {what}")
     return 0 if all(seconds / cost.run < limit for _, seconds, _, limit in rows) else 1
 
 
@@ -93,11 +89,10 @@ def language(
     measured = []
     for waiting in measure(times):
         measured.append(waiting)
-        (notes if json else screen).print(
+        say(
             f"{waiting.what:26} {waiting.median * 1e3:7.1f} ms  (under {waiting.target * 1e3:.0f} ms)  "
             f"{times} times, {min(waiting.seconds) * 1e3:.1f} to {max(waiting.seconds) * 1e3:.1f} ms",
-            markup=False,
-            soft_wrap=True,
+            notes if json else screen,
         )
     if json:
         put_json({"measured": [waiting.as_json() for waiting in measured]})

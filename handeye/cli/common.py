@@ -13,6 +13,7 @@ from rich.console import Console
 from handeye.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.diagnostics import render as render_diagnostic
 from handeye.errors import InvalidInput
+from handeye.plain_text import folded
 from handeye.planfile.plan import Plan
 from handeye.runs.scripts import plan_script
 from handeye.source import Source
@@ -64,9 +65,15 @@ screen = _Screen(highlight=False, emoji=False)
 notes = _Screen(stderr=True, highlight=False, emoji=False)
 
 
-def say(text: str, to: Console = screen) -> None:
-    """Print plain text, which may come from a file that nobody trusts."""
-    to.print(visible(text), markup=False, soft_wrap=True)
+def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
+    """Print plain text, which may come from a file that nobody trusts.
+
+    On a terminal, lines are broken between words; `whole` ones, which people copy, where the terminal breaks them.
+    """
+    shown = visible(text)
+    if to.is_terminal and not whole:
+        shown = folded(shown, to.width)
+    to.print(shown, style=style, markup=False, soft_wrap=True)
 
 
 def put(answer: bytes) -> None:
@@ -92,7 +99,7 @@ def note(text: str) -> None:
 
 def complain(error: object) -> None:
     """Say why nothing comes of a command."""
-    notes.print(visible(f"handeye: {error}"), style="red", markup=False, soft_wrap=True)
+    say(f"handeye: {error}", notes, style="red")
 
 
 def compiled(file: Path) -> Plan:

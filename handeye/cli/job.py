@@ -234,7 +234,7 @@ class _Work:
     def _tell_how_to_go_on(self, runner: Runner | None) -> None:
         kept = self.left if self.folder is None else self.folder.path
         if kept is not None:
-            note(f"resume with: handeye resume {shlex.quote(str(kept))}")
+            say(f"resume with: handeye resume {shlex.quote(str(kept))}", notes, whole=True)
         elif runner is not None and runner.position > max(0, self.job.start.position):
             note(NOT_KEPT)
 

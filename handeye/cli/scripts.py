@@ -16,7 +16,6 @@ from handeye.cli.common import (
     note,
     put_json,
     say,
-    screen,
     show,
     show_unreadable,
 )
@@ -130,7 +129,7 @@ def _check(file: Path, *, json: bool, strict: bool) -> int:
     if has_errors(diagnostics):
         return 2
     if not json:
-        screen.print(f"{file}: no errors", markup=False)
+        say(f"{file}: no errors")
     return 0
 
 
@@ -149,7 +148,7 @@ def plan(
     write_plan(target, made)
     counts = {"step": made.program.steps, "motion": made.motions, "stage": made.program.stages}
     said = ", ".join(counted(len(items), name) for name, items in counts.items())
-    screen.print(f"{target}: {said}", markup=False)
+    say(f"{target}: {said}")
     return 0
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, WholeNumber, compiled, say, screen
+from handeye.cli.common import Camera, WholeNumber, compiled, say
 from handeye.cli.world_options import ANY_ERRORS, ANY_WORLD, ErrorOptions, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.files import Kind, check_place, write_over
@@ -60,7 +60,7 @@ def assembly_trials(
         say(f"seed {result.seed:4}  {word:10}  {speed}  {detail}")
     done = sum(result.exit_code == 0 for result in results)
     silent = sum(result.exit_code == 3 for result in results)
-    screen.print(f"{done} of {len(results)} assembled, {silent} silent failures")
+    say(f"{done} of {len(results)} assembled, {silent} silent failures")
     if out is not None:
         lines = (msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
         write_over(out, b"".join(lines), RESULTS)
@@ -114,7 +114,7 @@ def gasket_vision_trials(
 def _vision_trial(name: str, count: int, first: WorldSpec, camera: str, eye: str) -> int:
     tried = task().trials[name](_some(count), first, camera, eye)
     for line in tried.lines:
-        screen.print(line, markup=False)
+        say(line)
     return 3 if tried.wrong else 0
 
 
@@ -171,5 +171,5 @@ def breaking_trials(
             said = "; ".join(verdict.faults) or "the same"
             say(f"{kind} {verdict.name}: {said}")
     good = sum(not verdict.faults for verdict in verdicts)
-    screen.print(f"{good} of {len(verdicts)}")
+    say(f"{good} of {len(verdicts)}")
     return 0 if good == len(verdicts) else 1

@@ -2,7 +2,7 @@
 
 from cyclopts import App
 
-from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, put, screen
+from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, put, say, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.files import check_place, write_over
 from handeye.tasks import task
@@ -42,5 +42,5 @@ def render(
     check_place(output, PNG)
     cell = task().cell(world.spec, "ray")
     write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
-    screen.print(f"{output}: {width} x {height}, camera {camera}", markup=False)
+    say(f"{output}: {width} x {height}, camera {camera}")
     return 0
