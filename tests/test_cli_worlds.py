@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.cli.world_options import LARGEST, ErrorOptions, WorldOptions
+from handeye.cli.world_options import ErrorOptions, WorldOptions
 from handeye.tasks.water_pump.variation import SEVENTH, variation
 from handeye.trials import breaking
-from handeye.variation import DRAWING, Overrides, WorldSpec
+from handeye.variation import DRAWING, LARGEST_SEED, Overrides, WorldSpec
 
 CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
 SPEC = {
@@ -106,7 +106,10 @@ def test_without_a_group_nothing_else_changes(command: Command) -> None:
         (("--set", "arm.pot_noise.1=-1"), "arm.pot_noise.1 cannot be `-1`; it can be 0 to 360 deg"),
         (("--set", "light.zenith=120"), "light.zenith cannot be `120`; it can be 0 to 89 deg"),
         (("--set", "base.x=far"), "base.x cannot be `far`, which is not a number"),
-        (("--seed", str(LARGEST + 1)), f"the largest seed is {LARGEST}; {LARGEST + 1} is larger"),
+        (
+            ("--seed", str(LARGEST_SEED + 1)),
+            f"the largest seed is {LARGEST_SEED}; {LARGEST_SEED + 1} is larger",
+        ),
     ],
 )
 def test_what_cannot_be_chosen_is_refused_with_what_is_near(

@@ -32,13 +32,14 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
     from handeye.runs.host_seconds import Meter
     from handeye.trials.assembly import run_plan
 
+    spec = world.spec
     started = time.process_time()
     plan = compiled(default_script())
     planning = time.process_time() - started
     with Progress(plan.program.stages, notes) as progress:
         finished = run_plan(
             plan,
-            world=world.spec,
+            world=spec,
             camera=camera,
             meter=Meter(timer=HostTimer.of_process(), planning_cpu_s=planning),
             referee=False,
@@ -58,8 +59,9 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
     from handeye.runs.setup import Setup
     from handeye.trials.overhead import measure
 
+    spec = world.spec
     plan = compiled(default_script())
-    setup = Setup(plan=plan, world=world.spec, camera=camera)
+    setup = Setup(plan=plan, world=spec, camera=camera)
     with tempfile.TemporaryDirectory(prefix="handeye-") as folder, Progress(plan.program.stages, notes):
         cost = measure(setup, Path(folder) / "run")
     say(f"working phase without them   {cost.run:6.2f} s of this computer's clock")

@@ -63,7 +63,7 @@ def stats(file: File, /, *, json: Json = False) -> int:
     if json:
         put_json(figures)
     else:
-        screen.print(statistics_table(figures))
+        screen.print(statistics_table(figures, screen.width))
     return 0
 
 

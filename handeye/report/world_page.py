@@ -49,12 +49,12 @@ def world_page(table: Variation, world: World, columns: int) -> RenderableType:
     """The quantities of a world, for a terminal of so many columns; those of one source stand below it."""
     found = report(table, world).quantities
     parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
-    width = max(len(quantity.name) for quantity in found)
+    width = min(max(len(quantity.name) for quantity in found), columns - 20)
     for source, quantities in groupby(found, lambda quantity: quantity.source):
         parts += [
             Text(),
             Text(fill(source, columns), "dim"),
-            *(_row(quantity, width) for quantity in quantities),
+            *(_row(quantity, width, columns) for quantity in quantities),
         ]
     return Group(*parts)
 
@@ -85,13 +85,14 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, float] | 
     return None
 
 
-def _row(quantity: QuantityReport, width: int) -> Text:
-    """A line of the page; names have `width` columns."""
-    how = _how(quantity)
-    row = Text(f"  {quantity.name:{width}} {quantity.value:10.4g} {quantity.unit:5} ", no_wrap=True)
-    return (
-        row.append(quantity.override, "yellow").append(f" ({how})") if quantity.override else row.append(how)
+def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
+    """A line of the page, or two if it has not the columns; names have `width` of them."""
+    how = f"({_how(quantity)})" if quantity.override else _how(quantity)
+    row = Text(f"  {quantity.name:{width}} {quantity.value:10.4g} {quantity.unit:5}")
+    told = (
+        Text(" ").append(quantity.override or "", "yellow").append(" " * bool(quantity.override)).append(how)
     )
+    return row.append("" if len(row) + len(told) <= columns else "\n     ").append(told)
 
 
 def _how(quantity: QuantityReport) -> str:

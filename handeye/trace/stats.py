@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import Final
 
 import msgspec
 from rich.console import Group, RenderableType
@@ -92,6 +93,11 @@ def statistics(events: Sequence[AnyEvent], messages: dict[str, int]) -> Statisti
     )
 
 
+NARROW: Final = 60
+"""Columns of a terminal that has no room for a table."""
+_HEADS: Final = ("time", "camera", "steps", "stops", "tries", "errors")
+
+
 def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
     """The stages in the order they were begun."""
     stages: dict[str, StageFigures] = {}
@@ -111,23 +117,41 @@ def _stages(events: Sequence[AnyEvent]) -> list[StageFigures]:
     return list(stages.values())
 
 
-def statistics_table(figures: Statistics) -> RenderableType:
-    """The figures for a terminal; times in simulated seconds."""
-    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
-    table.add_column("stage", overflow="fold")
-    for name in ("time", "camera", "steps", "stops", "tries"):
-        table.add_column(name, justify="right", no_wrap=True)
-    table.add_column("errors", no_wrap=True)
-    for stage in figures.stages:
-        ended = "" if stage.status == "done" else f" ({stage.status})"
-        table.add_row(stage.stage + ended, *_cells(stage))
-    table.add_row("all", *_cells(figures.total), style="bold")
+def statistics_table(figures: Statistics, columns: int) -> RenderableType:
+    """The figures for a terminal of so many columns; times in simulated seconds."""
+    table = _table(figures) if columns >= NARROW else _lines(figures)
     told = f"operator called: {figures.operator}; experiments: {figures.experiments}"
     parts: list[RenderableType] = [table, Text(), Text(told)]
     if figures.messages:
         channels = ", ".join(f"{topic} {count}" for topic, count in sorted(figures.messages.items()))
         parts.append(Text(f"messages: {channels}"))
     return Group(*parts)
+
+
+def _table(figures: Statistics) -> Table:
+    """A row for each stage, and one for all."""
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="bold")
+    table.add_column("stage", overflow="fold")
+    for name in _HEADS:
+        table.add_column(name, justify="left" if name == "errors" else "right", no_wrap=True)
+    for stage in figures.stages:
+        table.add_row(_name(stage), *_cells(stage))
+    table.add_row("all", *_cells(figures.total), style="bold")
+    return table
+
+
+def _lines(figures: Statistics) -> Group:
+    """A paragraph for each stage, and one for all: a table would break the names in the middle of words."""
+    rows = [*((_name(stage), _cells(stage)) for stage in figures.stages), ("all", _cells(figures.total))]
+    told = (
+        (name, ", ".join(f"{cell} {head}" for head, cell in zip(_HEADS, cells, strict=True) if cell))
+        for name, cells in rows
+    )
+    return Group(*(Text(f"{name}: {cells}") for name, cells in told))
+
+
+def _name(stage: StageFigures) -> str:
+    return stage.stage if stage.status == "done" else f"{stage.stage} ({stage.status})"
 
 
 def _cells(figures: Figures) -> list[str]:

@@ -52,14 +52,14 @@ def test_seconds_are_rounded_as_in_the_result_of_a_run() -> None:
     added_up = 0.1 + 0.2 + 48.65
     stages = [StageFigures(stage="insert", status="done", seconds=added_up)]
     figures = Statistics(stages=stages, total=stages[0], operator=0, experiments=0, messages={})
-    console.print(statistics_table(figures))
+    console.print(statistics_table(figures, console.width))
     assert f"{added_up:.1f}" == "48.9"
     assert console.file.getvalue().count("49.0") == 2
 
 
 def test_the_table_has_a_row_for_each_stage_and_one_for_all() -> None:
     console = Console(width=120, file=io.StringIO())
-    console.print(statistics_table(statistics(EVENTS, {"/events": 40})))
+    console.print(statistics_table(statistics(EVENTS, {"/events": 40}), 120))
     lines = console.file.getvalue().splitlines()
     assert [line.split()[0] for line in lines[:5]] == ["stage", "open", "close", "again", "all"]
     assert lines[4].split() == ["all", "1.2", "0.0", "9", "9", "0"]
@@ -73,5 +73,5 @@ def test_a_narrow_terminal_shows_every_figure() -> None:
     figures = Statistics(stages=[stage], total=Figures(seconds=234.5), operator=0, experiments=0, messages={})
     console = Console(file=io.StringIO(), width=40)
     with console.capture() as shown:
-        console.print(statistics_table(figures))
+        console.print(statistics_table(figures, console.width))
     assert [figure for figure in ("123.4", "56.7", "987", "234.5") if figure not in shown.get()] == []
