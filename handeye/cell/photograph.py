@@ -19,11 +19,14 @@ FINE_SHADOW: Final = 4096
 FINE_SAMPLES: Final = 4
 SHOWN: Final = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
 
+Photograph = NDArray[np.uint8]
+"""Red, green and blue of every point, shape (height, width, 3)."""
+
 
 def photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
-) -> NDArray[np.uint8]:
-    """Photograph by a camera of the scene, shape (height, width, 3), RGB.
+) -> Photograph:
+    """Photograph by a camera of the scene.
 
     Raises:
         InvalidInput: no such camera, or no OpenGL on this machine.
@@ -51,7 +54,18 @@ def photograph(
 
 
 def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:
-    """A photograph as PNG, drawn at twice the size and averaged.
+    """A smooth photograph as a PNG file.
+
+    Raises:
+        InvalidInput: as `smooth_photograph`.
+    """
+    return png(smooth_photograph(model, data, camera=camera, width=width, height=height))
+
+
+def smooth_photograph(
+    model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
+) -> Photograph:
+    """A photograph that is drawn at twice the size and averaged.
 
     Raises:
         InvalidInput: as `photograph`, or the size cannot be.
@@ -61,10 +75,14 @@ def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, widt
             f"a picture of {width} x {height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
         )
     fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
-    smooth = cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA)
-    done, png = cv2.imencode(".png", smooth[:, :, ::-1])
+    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+
+
+def png(picture: Photograph) -> bytes:
+    """A picture as a PNG file."""
+    done, data = cv2.imencode(".png", picture[:, :, ::-1])
     assert done
-    return png.tobytes()
+    return data.tobytes()
 
 
 def _drawing(model: mujoco.MjModel) -> mujoco.MjrContext:

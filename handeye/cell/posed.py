@@ -1,5 +1,6 @@
 """A scene with its bodies where they once were: for pictures of a recorded run, without simulating it."""
 
+import copy
 from collections.abc import Mapping, Sequence
 
 import mujoco
@@ -8,8 +9,10 @@ import numpy as np
 from handeye.cell.looks import LATENT, SEEN
 
 
-def posed(model: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> mujoco.MjData:
-    """Put the bodies of a scene where they were; the scene is changed for good.
+def posed(
+    scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]]
+) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """A copy of a scene with its bodies where they were.
 
     It can only be looked at: shapes are put where they were, and joints are not.
 
@@ -17,6 +20,7 @@ def posed(model: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> mujoco
         poses: by the names of bodies, place in W (m) and unit quaternion w, x, y, z. Bodies without one stay as drawn,
             and those that only an event shows stay hidden. Names that the scene does not have are left out.
     """
+    model = copy.copy(scene)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     known = {model.body(number).name: number for number in range(1, model.nbody)}
@@ -30,7 +34,7 @@ def posed(model: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> mujoco
         mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
         data.geom_xpos[geom] = data.xpos[body] + R @ model.geom_pos[geom]
         data.geom_xmat[geom] = (R @ turn.reshape(3, 3)).ravel()
-    return data
+    return model, data
 
 
 def _show(model: mujoco.MjModel, body: int) -> None:

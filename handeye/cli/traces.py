@@ -2,7 +2,7 @@
 
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from handeye.events import AnyEvent
     from handeye.trace.reading import Trace
 
-SHOWN: Final = 0.01
-"""s to which times are shown; what is typed is as exact as that."""
 File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
 TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]
 
@@ -78,10 +76,8 @@ def photograph(
     height: Height = 960,
 ) -> int:
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
-    from handeye.cell.photograph import PNG, photograph_png
-    from handeye.cell.posed import posed
-    from handeye.tasks import task
-    from handeye.trace.replay import Replay
+    from handeye.cell.photograph import PNG, png
+    from handeye.trace.trace import SHOWN
 
     check_place(output, PNG)
     trace, _ = _read(file)
@@ -90,14 +86,12 @@ def photograph(
             f"{file} is an event list, which does not hold where things were; use the trace.mcap"
         )
     trace.check_repeatable()
-    replay = Replay(trace)
-    begin, end = map(trace.elapsed, (trace.begins, max(replay.times[-1], trace.events[-1].time)))
+    begin, end = map(trace.elapsed, trace.covers)
     if not begin - SHOWN <= at <= end + SHOWN:
         raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
-    state = replay.seek(trace.head.time + at)
-    model = task(trace.head.task).scene(trace.head.world)
-    data = posed(model, state.poses)
-    write_over(output, photograph_png(model, data, camera, width, height), PNG)
+    moment = trace.head.time + at
+    write_over(output, png(trace.frame(moment, camera, width=width, height=height)), PNG)
+    state = trace.at(moment)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {trace.elapsed(state.time):.2f} s{doing}")
     return 0

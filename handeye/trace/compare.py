@@ -34,7 +34,7 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
 def _compared(trace: Trace, version: int, events: int | None, unseen: int) -> Iterator[RawMessage]:
     """Messages that a trace of that version of the format has too, but what was recorded beside `unseen` events."""
     count = 0
-    for message in until(trace.messages(), events):
+    for message in until(trace.messages, events):
         if NEWER.get(message.topic, 1) <= version and (count >= unseen or message.topic not in MOMENTS):
             yield message
         count += message.topic == EVENTS

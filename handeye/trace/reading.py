@@ -32,10 +32,9 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         plan, version = _identify(path, data)
         if not lenient:
             check(data)
-        counts: Counter[str] = Counter()
+        messages = tuple(read_messages(data, lenient=lenient))
         events = []
-        for message in read_messages(data, lenient=lenient):
-            counts[message.topic] += 1
+        for message in messages:
             if message.topic == EVENTS:
                 events.append(read_event(message.data))
     except Unsound as error:
@@ -52,9 +51,8 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         head=events[0],
         plan=plan,
         events=tuple(events),
-        counts=dict(counts),
-        data=data,
-        lenient=lenient,
+        counts=dict(Counter(message.topic for message in messages)),
+        messages=messages,
     )
 
 

@@ -1,76 +1,188 @@
-"""A trace as it was read: the events, and what was recorded between them."""
+"""A trace that was read: what happened in a run, and what was recorded between the events.
+
+>>> trace = handeye.open("out")
+>>> trace.joints[trace.times > 100.0]    # positions by the sensors, shape (n, 6)
+>>> trace.forces(line=91).force[:, 2]    # N, upwards, while line 91 of the script was carried out
+>>> trace.at(trace.head.time + 137).step.text    # what the arm was doing 137 s after the run began
+"""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Final, TypeVar
 
+import msgspec
 import numpy as np
-from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
-from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
-from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 from google.protobuf.message import DecodeError
+from numpy.typing import NDArray
 
 from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, PictureTaken, RunStarted
-from handeye.ports.camera import Picture
+from handeye.events import AnyEvent, RunStarted
 from handeye.pose import Array
-from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS, PICTURE, REPEATABLE
-from handeye.trace.events_read import read_event
-from handeye.trace.messages import GAP, LEVEL
-from handeye.trace.records import RawMessage, read_messages
+from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS, REPEATABLE
+from handeye.trace.forces import Forces, recorded_forces
+from handeye.trace.motion import Motion, read_motion
+from handeye.trace.pictures import TakenPicture, read_pictures
+from handeye.trace.reckoning import reckoned_forces
+from handeye.trace.records import RawMessage
+from handeye.trace.replay import Moment, Replay
+from handeye.trace.stages import Stage, stages
+from handeye.trace.steps import done_steps
 
-Pose7 = tuple[float, float, float, float, float, float, float]
-"""Place of a frame in W (m) and its unit quaternion w, x, y, z."""
-
+SHOWN: Final = 0.01
+"""s to which times are shown; what is typed is as exact as that."""
 Read = TypeVar("Read")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Tick:
-    """A servo period as it was recorded."""
-
-    time: float
-    """s"""
-    q: Array
-    """Joint positions by the sensors, shape (n,), rad and m."""
-    qd: Array
-    """Joint rates by the sensors, shape (n,)."""
-    effort: Array
-    """Torques put out, shape (n,), N m and (prismatic joints) N."""
-    gap: float
-    """m"""
-    moved: dict[str, Pose7]
-    """Frames that were written at its end."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TakenPicture:
-    """A picture of the run."""
-
-    time: float
-    """s"""
-    name: str
-    picture: Picture
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Trace:
-    """A trace that was read, and found sound."""
+    """A trace that was read, and found sound. What is worked out from its messages is worked out once.
+
+    Times are those of the cell's clock, as in the events, s; `elapsed` gives the time that people see. There are n
+    servo periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
+    says.
+    """
 
     name: str
+    """Its file."""
     version: int
     """Of the format."""
     head: RunStarted
-    plan: bytes
+    """The beginning of the run: program, world, versions."""
+    plan: bytes = field(repr=False)
     """`plan.json` of the run."""
-    events: tuple[AnyEvent, ...]
+    events: tuple[AnyEvent, ...] = field(repr=False)
+    """Everything that happened and was not undone."""
     counts: dict[str, int]
     """Messages on each channel that has any."""
-    data: bytes = field(repr=False)
-    """The file."""
-    lenient: bool
+    messages: tuple[RawMessage, ...] = field(repr=False)
+    """All of them, in the order they were written."""
+
+    # -- what happened ---------------------------------------------------------------------------------
+
+    @cached_property
+    def stages(self) -> tuple[Stage, ...]:
+        """The stages as they were carried out, in order."""
+        return stages(self.events)
+
+    @cached_property
+    def pictures(self) -> tuple[TakenPicture, ...]:
+        """The pictures that the program took, in order."""
+        return self._read(lambda messages: tuple(read_pictures(messages)))
+
+    # -- in every servo period -------------------------------------------------------------------------
 
     @property
+    def times(self) -> Array:
+        """Ends of the servo periods, shape (n,), s."""
+        return self.motion.times
+
+    @property
+    def joints(self) -> Array:
+        """Positions of the joints by the sensors, shape (n, m), rad and (prismatic joints) m."""
+        return self.motion.joints
+
+    @property
+    def rates(self) -> Array:
+        """Rates of the joints by the sensors, shape (n, m), rad/s and m/s."""
+        return self.motion.rates
+
+    @property
+    def efforts(self) -> Array:
+        """Torques that the program put out, shape (n, m), N m and (prismatic joints) N; zero under the brakes."""
+        return self.motion.efforts
+
+    @property
+    def gaps(self) -> Array:
+        """Opening of the fingers by the sensor, shape (n,), m."""
+        return self.motion.gaps
+
+    @cached_property
+    def motion(self) -> Motion:
+        """All of these."""
+        return self._read(lambda messages: read_motion(m for m in messages if m.topic == JOINTS))
+
+    def forces(self, line: int | str | None = None) -> Forces:
+        """Force of the hand on the world, in the whole run or while a line of the script was carried out.
+
+        A trace of before the force was recorded (format 2) tells it nearly: it is reckoned from joints, rates and
+        torques as the program does, with the sensed places of the joints in the place of their set-points.
+
+        Args:
+            line: its number in the script, or `"pins.al:12"` in a file that the script requires; each time it was
+                carried out counts.
+
+        Raises:
+            InvalidInput: no such line was carried out; or there is no record of the force, and the arm that the plan
+                is for is not known here.
+        """
+        if line is None:
+            return self._forces
+        spans = [step.span for step in done_steps(self.events) if step.started.place == str(line)]
+        if not spans:
+            raise InvalidInput(f"line {line} of {self.head.program} was not carried out in {self.name}")
+        return self._forces.within(spans)
+
+    @cached_property
+    def _forces(self) -> Forces:
+        times = self.times
+        if self.counts.get(HAND, 0) == len(times):
+            return self._read(
+                lambda messages: recorded_forces(times, (m for m in messages if m.topic == HAND))
+            )
+        return reckoned_forces(self.head, self.plan, self.events, self.motion)
+
+    # -- at a moment -------------------------------------------------------------------------------------
+
+    def at(self, time: float) -> Moment:
+        """The run as it was at a time (s).
+
+        Raises:
+            InvalidInput: the time is outside what was recorded, or nothing was recorded between the events.
+        """
+        begin, end = self.covers
+        if not begin - SHOWN <= time <= end + SHOWN:
+            raise InvalidInput(
+                f"{self.name} covers {begin:.2f} to {end:.2f} s of the cell's clock; {time:g} s is outside"
+            )
+        return self._replay.seek(time)
+
+    def frame(
+        self, time: float, camera: str = "studio", *, width: int = 1280, height: int = 960
+    ) -> NDArray[np.uint8]:
+        """Photograph of the cell as it was at a time (s), shape (height, width, 3), red, green, blue.
+
+        Nothing is simulated. It takes OpenGL.
+
+        Args:
+            camera: one of the scene's cameras.
+
+        Raises:
+            InvalidInput: as `at`; the size cannot be; there is no such camera; there is no OpenGL here; or an older
+                handeye recorded the run, whose cell this one cannot build again.
+        """
+        from handeye.cell.photograph import smooth_photograph
+        from handeye.cell.posed import posed
+
+        self.check_repeatable()
+        model, data = posed(self._scene, self.at(time).poses)
+        return smooth_photograph(model, data, camera=camera, width=width, height=height)
+
+    @cached_property
+    def _replay(self) -> Replay:
+        motion, pictures = self.motion, self.pictures
+        return self._read(lambda messages: Replay(motion, messages, self.events, pictures))
+
+    @cached_property
+    def _scene(self) -> Any:
+        """Model of the cell, which only what draws it knows."""
+        from handeye.tasks import task
+
+        return task(self.head.task).scene(self.head.world)
+
+    # -- what it can be used for -------------------------------------------------------------------------
+
+    @cached_property
     def unseen(self) -> int:
         """Events before the first of which more was recorded than that they happened.
 
@@ -80,7 +192,7 @@ class Trace:
         if not self.head.arm:
             return 0
         events = 0
-        for message in self.messages():
+        for message in self.messages:
             if message.topic in MOMENTS:
                 break
             events += message.topic == EVENTS
@@ -90,6 +202,17 @@ class Trace:
     def begins(self) -> float:
         """The clock from which on its motions are recorded, s."""
         return self.events[max(self.unseen - 1, 0)].time
+
+    @property
+    def covers(self) -> tuple[float, float]:
+        """From when to when its motions are recorded, s.
+
+        Raises:
+            InvalidInput: nothing was recorded between the events.
+        """
+        if not len(self.times):
+            raise InvalidInput(f"{self.name} holds no motion to be shown")
+        return self.begins, max(float(self.times[-1]), self.events[-1].time)
 
     def elapsed(self, clock: float) -> float:
         """Seconds from the beginning of the run to a time by the cell's clock: what people see."""
@@ -107,77 +230,18 @@ class Trace:
                 "and `trace stats` read it; for the rest, run the plan again"
             )
 
-    def messages(self) -> Iterator[RawMessage]:
-        """All messages, in the order they were written."""
-        return read_messages(self.data, lenient=self.lenient)
+    def _read(self, make: Callable[[Iterator[RawMessage]], Read]) -> Read:
+        """Make something of the messages."""
+        handed = self.messages[:1]
 
-    def ticks(self) -> Iterator[Tick]:
-        """The servo periods, each with the frames written until the next; those before the first come with it.
+        def hand_out() -> Iterator[RawMessage]:
+            nonlocal handed
+            for message in self.messages:
+                handed = (message,)
+                yield message
 
-        Raises:
-            InvalidInput: a message is not what its channel says.
-        """
-        tick: Tick | None = None
-        moved: dict[str, Pose7] = {}
-        for message in self.messages():
-            if message.topic == FRAMES:
-                moved.update(self._read(_poses, message))
-            elif message.topic == JOINTS:
-                if tick is not None:
-                    yield tick
-                    moved = {}
-                tick = replace(self._read(_tick, message), moved=moved)
-        if tick is not None:
-            yield tick
-
-    def pictures(self) -> Iterator[TakenPicture]:
-        """The pictures the program took, in order; the event that names one follows it.
-
-        Raises:
-            InvalidInput: a message is not what its channel says.
-        """
-        picture: Picture | None = None
-        for message in self.messages():
-            if message.topic == PICTURE:
-                picture = self._read(_picture, message)
-            elif message.topic == EVENTS and picture is not None:
-                event = read_event(message.data)
-                if isinstance(event, PictureTaken):
-                    yield TakenPicture(time=event.time, name=event.picture, picture=picture)
-                    picture = None
-
-    def _read(self, make: Callable[[RawMessage], Read], message: RawMessage) -> Read:
         try:
-            return make(message)
-        except (DecodeError, KeyError, ValueError):
-            when = f"at {self.elapsed(message.time / 1e9):.3f} s"
-            raise InvalidInput(
-                f"{self.name}: the message on {message.topic} {when} cannot be understood"
-            ) from None
-
-
-def _tick(message: RawMessage) -> Tick:
-    joints = {joint.name: joint for joint in JointStates.FromString(message.data).joints}
-    gap = joints.pop(GAP).position
-    return Tick(
-        time=message.time / 1e9,
-        q=np.array([joint.position for joint in joints.values()]),
-        qd=np.array([joint.velocity for joint in joints.values()]),
-        effort=np.array([joint.effort for joint in joints.values()]),
-        gap=gap,
-        moved={},
-    )
-
-
-def _poses(message: RawMessage) -> dict[str, Pose7]:
-    found: dict[str, Pose7] = {}
-    for frame in FrameTransforms.FromString(message.data).transforms:
-        p, r = frame.translation, frame.rotation
-        found[frame.child_frame_id] = (p.x, p.y, p.z, r.w, r.x, r.y, r.z)
-    return found
-
-
-def _picture(message: RawMessage) -> Picture:
-    image = RawImage.FromString(message.data)
-    grey = np.frombuffer(image.data, np.uint8).reshape(image.height, image.width)
-    return grey // np.uint8(LEVEL)
+            return make(hand_out())
+        except (DecodeError, msgspec.DecodeError, KeyError, ValueError):
+            what = " and ".join(f"{m.topic} at {self.elapsed(m.time / 1e9):.3f} s" for m in handed)
+            raise InvalidInput(f"{self.name}: the message on {what} cannot be understood") from None

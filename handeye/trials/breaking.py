@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
-import numpy as np
 
 from handeye.errors import HandeyeError
 from handeye.events import AnyEvent, PanicStopped, StageFinished, StageStarted
@@ -217,10 +216,10 @@ def _brakes(place: Path) -> list[str]:
     last = trace.events[-1]
     if not isinstance(last, PanicStopped):
         return [f"its last event is {type(last).__name__}"]
-    before, end = list(trace.ticks())[-2:]
+    before, end = trace.times[-2:]
     period = task(trace.head.task).arm.servo.period
-    stopped = round((end.time - before.time) / period) == 1 and abs(last.time - end.time) < period / 2
-    return [] if stopped and not np.any(end.effort) else ["the brakes were not set at the next tick"]
+    stopped = round((end - before) / period) == 1 and abs(last.time - end) < period / 2
+    return [] if stopped and not trace.efforts[-1].any() else ["the brakes were not set at the next tick"]
 
 
 def _end(folder: Path, stages: tuple[str, ...], number: int) -> Snapshot | None:

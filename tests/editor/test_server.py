@@ -131,7 +131,9 @@ def test_a_taught_file_that_cannot_be_used_is_one_diagnostic(folder: Path) -> No
 
 
 @pytest.mark.slow
-def test_every_question_an_editor_asks_is_answered_and_a_word_of_the_language_is_not_renamed(folder: Path) -> None:
+def test_every_question_an_editor_asks_is_answered_and_a_word_of_the_language_is_not_renamed(
+    folder: Path,
+) -> None:
     async def conversation(client: Client) -> None:
         await client.open(SCRIPT)
         document, at = client.document, lsp.Position(3, 17)

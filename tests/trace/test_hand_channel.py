@@ -18,7 +18,7 @@ PERIODS = [moment for moment in HISTORY if isinstance(moment.what, Sensed)]
 def told(tmp_path: Path) -> list[dict[str, Any]]:
     """The messages of a recording, as any reader of JSON sees them."""
     record(tmp_path / "short.mcap")
-    messages = read_trace(tmp_path / "short.mcap").messages()
+    messages = read_trace(tmp_path / "short.mcap").messages
     return [msgspec.json.decode(message.data) for message in messages if message.topic == HAND]
 
 

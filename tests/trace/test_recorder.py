@@ -16,6 +16,7 @@ from handeye.ports.workcell import Sensed
 from handeye.trace import mcap_writer
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
+from handeye.trace.replay import moves
 
 PERIOD = next(moment.period for moment in HISTORY if isinstance(moment.what, Sensed))
 FULL = r"^.*short\.mcap.* cannot be written: No space left on device$"
@@ -46,15 +47,17 @@ def test_a_trace_holds_every_event_and_the_plan(path: Path) -> None:
 def test_a_trace_holds_what_was_sensed_at_each_servo_period(path: Path) -> None:
     record(path)
     sensed = [(moment.what, moment.effort) for moment in HISTORY if isinstance(moment.what, Sensed)]
-    for tick, (there, effort) in zip(read_trace(path).ticks(), sensed, strict=True):
-        assert tick.time == pytest.approx(there.time, abs=1e-6)
-        assert np.array_equal([tick.q, tick.qd, tick.effort], [there.q, there.qd, effort])
-        assert tick.gap == there.gap
+    trace = read_trace(path)
+    assert trace.times == pytest.approx([there.time for there, _ in sensed], abs=1e-6)
+    assert np.array_equal(trace.joints, [there.q for there, _ in sensed])
+    assert np.array_equal(trace.rates, [there.qd for there, _ in sensed])
+    assert np.array_equal(trace.efforts, [effort for _, effort in sensed])
+    assert np.array_equal(trace.gaps, [there.gap for there, _ in sensed])
 
 
 def test_a_trace_holds_the_pictures_with_all_their_levels(path: Path) -> None:
     record(path)
-    (taken,) = read_trace(path).pictures()
+    (taken,) = read_trace(path).pictures
     (there,) = [moment for moment in HISTORY if moment.picture is not None]
     assert (taken.name, taken.time) == ("WIDE", there.what.time)
     assert np.array_equal(taken.picture, there.picture)
@@ -62,9 +65,9 @@ def test_a_trace_holds_the_pictures_with_all_their_levels(path: Path) -> None:
 
 def test_between_the_starts_of_steps_only_frames_that_moved_are_written(path: Path) -> None:
     record(path)
-    first, second, *_ = read_trace(path).ticks()
-    assert set(first.moved) == {"base", "finger", "screw"}
-    assert set(second.moved) == {"finger"}
+    (_, first), (_, second), *_ = moves(read_trace(path).messages)
+    assert set(first) == {"base", "finger", "screw"}
+    assert set(second) == {"finger"}
 
 
 def test_a_part_that_is_put_away_is_written_when_it_goes_and_then_only_where_a_step_begins(
@@ -73,11 +76,11 @@ def test_a_part_that_is_put_away_is_written_when_it_goes_and_then_only_where_a_s
     record(path)
     trace = read_trace(path)
     begun = [event.time for event in trace.events if isinstance(event, StepStarted)]
-    away = [tick.time for tick in trace.ticks() if tick.moved.get("screw", (0, 0, 0))[2] < -1]
-    goes, *later = away
-    assert len(later) == len([time for time in begun if time > goes])
-    carrier = ["carrier" in tick.moved for tick in trace.ticks()]
-    assert carrier.index(True) == 46  # what takes its place, in the middle of a step
+    moved = list(moves(trace.messages))
+    goes, *later = [row for row, poses in moved if poses.get("screw", (0, 0, 0))[2] < -1]
+    assert len(later) == len([time for time in begun if time > trace.times[goes]])
+    carrier = [row for row, poses in moved if "carrier" in poses]
+    assert carrier[0] == 46  # what takes its place, in the middle of a step
 
 
 def test_equal_runs_give_equal_bytes(path: Path, uninterrupted: bytes) -> None:
@@ -157,7 +160,7 @@ def test_a_run_that_is_closed_between_two_events_keeps_what_was_sensed_since(pat
     recording.recorder.flush()
     recording.recorder.tick(PERIOD)
     recording.close()
-    assert len(list(read_trace(path).ticks())) == 9
+    assert len(read_trace(path).times) == 9
 
 
 def test_going_back_to_before_the_start_of_the_run_begins_the_trace_anew(

@@ -9,52 +9,61 @@ from recordings import HISTORY, Recording, record
 from handeye.errors import InvalidInput
 from handeye.ports.workcell import Sensed
 from handeye.trace.reading import read_trace
-from handeye.trace.replay import Replay
+from handeye.trace.trace import Trace
 
 TICKS = [moment for moment in HISTORY if isinstance(moment.what, Sensed)]
 
 
 @pytest.fixture
-def replay(tmp_path: Path) -> Replay:
+def trace(tmp_path: Path) -> Trace:
     record(tmp_path / "short.mcap")
-    return Replay(read_trace(tmp_path / "short.mcap"))
+    return read_trace(tmp_path / "short.mcap")
 
 
-def test_joints_and_frames_are_where_they_were_in_every_servo_period(replay: Replay) -> None:
+def test_joints_and_frames_are_where_they_were_in_every_servo_period(trace: Trace) -> None:
     for moment in reversed(TICKS):
         assert isinstance(moment.what, Sensed)
-        state = replay.seek(moment.what.time + 1e-3)
+        state = trace.at(moment.what.time + 1e-3)
         assert np.array_equal(state.joints, moment.what.q)
         assert state.poses["finger"] == tuple(moment.poses[1].tolist())
 
 
-def test_the_stage_and_the_step_under_way_are_told(replay: Replay) -> None:
-    state = replay.seek(10.6)
+def test_the_stage_and_the_step_under_way_are_told(trace: Trace) -> None:
+    state = trace.at(10.6)
     assert state.stage == "close"
     assert state.step is not None
     assert (state.step.line, state.step.text) == (4, "OPEN 1")
 
 
-def test_a_picture_is_there_from_when_it_was_taken(replay: Replay) -> None:
+def test_a_picture_is_there_from_when_it_was_taken(trace: Trace) -> None:
     taken = next(moment.what.time for moment in HISTORY if moment.picture is not None)
-    assert replay.seek(taken - 0.01).picture is None
-    picture = replay.seek(taken).picture
+    assert trace.at(taken - 0.01).picture is None
+    picture = trace.at(taken).picture
     assert picture is not None
     assert picture.name == "WIDE"
 
 
-def test_what_was_not_to_be_seen_yet_has_no_pose(replay: Replay) -> None:
-    assert "carrier" not in replay.seek(10.1).poses
-    assert "carrier" in replay.seek(11.1).poses
+def test_what_was_not_to_be_seen_yet_has_no_pose(trace: Trace) -> None:
+    assert "carrier" not in trace.at(10.1).poses
+    assert "carrier" in trace.at(11.1).poses
 
 
-def test_before_the_beginning_and_after_the_end_it_stands_still(replay: Replay) -> None:
-    assert replay.seek(0.0).time == pytest.approx(TICKS[0].what.time, abs=1e-6)
-    assert replay.seek(99.0).time == pytest.approx(TICKS[-1].what.time, abs=1e-6)
-    assert replay.seek(0.0).stage is None
+def test_before_the_first_servo_period_and_after_the_last_it_stands_still(trace: Trace) -> None:
+    assert trace.at(10.0).time == pytest.approx(TICKS[0].what.time, abs=1e-6)
+    assert trace.at(trace.events[-1].time + 0.005).time == pytest.approx(TICKS[-1].what.time, abs=1e-6)
+    assert trace.at(9.995).stage is None
+
+
+@pytest.mark.parametrize("time", [9.9, 12.0, float("nan")])
+def test_a_time_outside_the_run_is_refused(trace: Trace, time: float) -> None:
+    with pytest.raises(
+        InvalidInput,
+        match=rf"short\.mcap covers 10\.00 to 11\.20 s of the cell's clock; {time:g} s is outside$",
+    ):
+        trace.at(time)
 
 
 def test_a_trace_without_motion_is_refused(tmp_path: Path) -> None:
     Recording(tmp_path / "short.mcap").begin().play(last=2).close()
     with pytest.raises(InvalidInput, match=r"short\.mcap holds no motion to be shown$"):
-        Replay(read_trace(tmp_path / "short.mcap"))
+        read_trace(tmp_path / "short.mcap").at(10.0)

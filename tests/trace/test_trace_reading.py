@@ -145,7 +145,7 @@ def test_a_message_that_is_not_what_its_channel_says_is_refused(path: Path) -> N
     with pytest.raises(
         InvalidInput, match=r"forged\.mcap: the message on /joint_states at -10\.000 s cannot be"
     ):
-        list(read_trace(other).ticks())
+        read_trace(other).motion  # noqa: B018
 
 
 def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:

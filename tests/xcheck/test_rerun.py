@@ -80,7 +80,7 @@ def test_the_joint_states_are_at_the_right_times(folder: Path) -> None:
 
 def test_the_picture_is_an_image_at_the_right_time(folder: Path) -> None:
     (row,) = [row for row in _rows(folder, "/camera/picture") if row.get("Image:buffer")]
-    (taken,) = read_trace(folder / "short.mcap").pictures()
+    (taken,) = read_trace(folder / "short.mcap").pictures
     assert row[TIME] == round(taken.time * 1e9)
     assert np.array_equal(row["Image:buffer"][0], 17 * taken.picture.ravel())
 

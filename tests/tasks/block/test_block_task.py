@@ -87,6 +87,6 @@ def test_its_trace_is_written_read_and_comes_out_the_same_again(tmp_path: Path) 
     runner = kept(tmp_path / "one", begin())
     trace = read_trace(tmp_path / "one" / TRACE)
     assert list(trace.events) == runner.events
-    assert {len(tick.q) for tick in trace.ticks()} == {3}
+    assert trace.joints.shape[1] == 3
     assert difference(trace, tmp_path / "two") is None
     assert json.loads((tmp_path / "one" / EVENTS).read_text().splitlines()[0])["task"] == "block"

@@ -1,0 +1,114 @@
+"""Force of the hand on the world in a run, as arrays."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, Final
+
+import numpy as np
+from msgspec import UNSET
+from numpy.typing import NDArray
+
+from handeye.pose import Array
+from handeye.program.guards import GuardKind
+from handeye.trace.hand_message import Axes, GuardMessage, HandMessage, read_hand
+from handeye.trace.records import RawMessage
+from handeye.trace.steps import Span
+
+NO_VECTOR: Final = (np.nan, np.nan, np.nan)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Forces:
+    """Force of the hand on the world, and the guard that watches it, in n servo periods.
+
+    Vectors are in world axes. The program estimates force in guarded and compliant motions only, and takes what it
+    feels as they begin for zero. Elsewhere there is nothing to tell, and figures are NaN.
+    """
+
+    times: Array
+    """Ends of the periods, shape (n,), s."""
+    force: Array
+    """Force of the hand on the world, shape (n, 3), N."""
+    moment: Array
+    """Moment of the hand on the world about its tool centre point, shape (n, 3), N m."""
+    estimated: NDArray[np.bool_]
+    """Where there is an estimate, shape (n,)."""
+    guard: NDArray[np.str_]
+    """Kind of the guard that watches (the first, if there are several), shape (n,): `force`, `against`, `moment`,
+    `torque`, `touch`; empty: none does."""
+    axis: Array
+    """Unit vector along which, or about which, that guard looks, shape (n, 3); NaN: it looks at no force."""
+    value: Array
+    """What it looks at, shape (n,): force along the axis (N), moment about it (N m), torque of the screwdriver (N m),
+    or finger switches as a mask; NaN: no guard watches, or there is no record of it."""
+    limit: Array
+    """What it allows of that, shape (n,); NaN: no guard watches."""
+    recorded: bool
+    """True: as the program estimated it at the time; False: reckoned afterwards."""
+
+    def within(self, spans: Sequence[Span]) -> "Forces":
+        """The same, in some spans of time."""
+        inside = np.zeros(len(self.times), dtype=np.bool_)
+        for span in spans:
+            inside[span.rows(self.times)] = True
+        return self._rows(inside)
+
+    def motions(self) -> "tuple[Forces, ...]":
+        """The motions in which force was estimated, each by itself, in order."""
+        known = np.concatenate([[False], self.estimated, [False]])
+        borders = np.flatnonzero(known[1:] != known[:-1])
+        return tuple(
+            self._rows(slice(first, last)) for first, last in zip(borders[::2], borders[1::2], strict=True)
+        )
+
+    def _rows(self, rows: "slice | NDArray[np.bool_]") -> "Forces":
+        names = [field.name for field in fields(self) if field.name != "recorded"]
+        columns: dict[str, Any] = {name: getattr(self, name)[rows] for name in names}
+        return replace(self, **columns)
+
+
+def recorded_forces(times: Array, messages: Iterable[RawMessage]) -> Forces:
+    """Forces as messages about the hand tell them, one for each servo period.
+
+    Raises:
+        DecodeError: one of them is no such message.
+    """
+    told = [read_hand(message.data) for message in messages]
+    first = [message.guards[0] if message.guards else None for message in told]
+    guard = np.array(["" if one is None else one.guard.value for one in first], dtype="<U7")
+    force, moment = _vectors(message.force for message in told), _vectors(message.moment for message in told)
+    axis = _vectors(UNSET if one is None else one.axis for one in first)
+    sensed = [_sensed(message, one) for message, one in zip(told, first, strict=True)]
+    return Forces(
+        times=times,
+        force=force,
+        moment=moment,
+        estimated=np.array([message.estimated for message in told], dtype=np.bool_),
+        guard=guard,
+        axis=axis,
+        value=looked_at(guard, axis, force, moment, np.array(sensed, dtype=np.float64)),
+        limit=np.array([np.nan if one is None else one.limit for one in first], dtype=np.float64),
+        recorded=True,
+    )
+
+
+def looked_at(guard: NDArray[np.str_], axis: Array, force: Array, moment: Array, sensed: Array) -> Array:
+    """What guards look at, shape (n,): a component of force or moment, or what is sensed."""
+    pressing = (guard == GuardKind.FORCE) | (guard == GuardKind.AGAINST)
+    components = [(force * axis).sum(axis=1), (moment * axis).sum(axis=1)]
+    return np.select([pressing, guard == GuardKind.MOMENT], components, default=sensed)
+
+
+def _sensed(message: HandMessage, guard: GuardMessage | None) -> float:
+    """Sensed value that a guard looks at, if it looks at none of force and moment."""
+    if guard is not None and guard.guard == GuardKind.TORQUE:
+        return abs(message.driver_torque)
+    if guard is not None and guard.guard == GuardKind.TOUCH:
+        return float(message.finger_1 + 2 * message.finger_2)
+    return float("nan")
+
+
+def _vectors(vectors: Iterable[Any]) -> Array:
+    """Vectors, shape (n, 3); NaN where there is none."""
+    rows = [(v.x, v.y, v.z) if isinstance(v, Axes) else NO_VECTOR for v in vectors]
+    return np.array(rows, dtype=np.float64).reshape(len(rows), 3)

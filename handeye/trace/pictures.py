@@ -1,0 +1,48 @@
+"""The pictures of a run."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
+
+from handeye.events import PictureTaken
+from handeye.ports.camera import Picture
+from handeye.trace.channels import EVENTS, PICTURE
+from handeye.trace.events_read import read_event
+from handeye.trace.messages import LEVEL
+from handeye.trace.records import RawMessage
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TakenPicture:
+    """A picture that the program took."""
+
+    time: float
+    """s"""
+    name: str
+    picture: Picture
+    """Levels 0 to 15, shape (rows, columns), uint8."""
+
+
+def read_pictures(messages: Iterable[RawMessage]) -> Iterator[TakenPicture]:
+    """The pictures among messages, in order; the event that names one follows it.
+
+    Raises:
+        DecodeError, ValueError: a message is not what its channel says.
+    """
+    picture: Picture | None = None
+    for message in messages:
+        if message.topic == PICTURE:
+            picture = _levels(message.data)
+        elif message.topic == EVENTS and picture is not None:
+            event = read_event(message.data)
+            if isinstance(event, PictureTaken):
+                yield TakenPicture(time=event.time, name=event.picture, picture=picture)
+                picture = None
+
+
+def _levels(data: bytes) -> Picture:
+    image = RawImage.FromString(data)
+    grey = np.frombuffer(image.data, np.uint8).reshape(image.height, image.width)
+    return grey // np.uint8(LEVEL)

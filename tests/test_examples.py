@@ -1,0 +1,40 @@
+"""Every example does what it says, with nothing but what it comes with."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parent.parent
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+LONGEST = 50
+"""Lines of an example."""
+LEAVES = {"force_against_time.py": "force.svg"}
+"""A file that an example leaves."""
+SAYS = {"replay_a_moment.py": "line 7: CHANGE  [0 0 -1] 1 .2"}
+"""What an example prints."""
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_it_runs_and_leaves_what_it_says(tmp_path: Path, example: Path) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        [sys.executable, str(example)],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert SAYS.get(example.name, "") in done.stdout
+    assert (tmp_path / LEAVES.get(example.name, "")).exists()
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_it_is_short(example: Path) -> None:
+    assert len(example.read_text(encoding="utf-8").splitlines()) < LONGEST

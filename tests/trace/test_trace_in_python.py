@@ -1,0 +1,103 @@
+"""A trace as people use it from Python: stages, pictures, and what was sensed, as values and arrays."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from recordings import HISTORY, Recording, in_format_2, record
+
+from handeye.errors import InvalidInput
+from handeye.ports.workcell import Sensed
+from handeye.trace.forces import Forces
+from handeye.trace.reading import read_trace
+from handeye.trace.trace import Trace
+
+PERIODS = [moment for moment in HISTORY if isinstance(moment.what, Sensed)]
+
+
+@pytest.fixture
+def trace(tmp_path: Path) -> Trace:
+    record(tmp_path / "short.mcap")
+    return read_trace(tmp_path / "short.mcap")
+
+
+def test_the_stages_are_told_with_their_times(trace: Trace) -> None:
+    told = [(stage.name, round(stage.begin, 2), round(stage.end, 2), stage.status) for stage in trace.stages]
+    assert told == [
+        ("open", 10.0, 10.4, "done"),
+        ("close", 10.4, 10.8, "done"),
+        ("again", 10.8, 11.2, "done"),
+    ]
+
+
+def test_a_stage_that_was_broken_off_says_so(tmp_path: Path) -> None:
+    Recording(tmp_path / "short.mcap").begin().play(last=5).close()
+    (stage,) = read_trace(tmp_path / "short.mcap").stages
+    assert (stage.status, round(stage.end, 6)) == ("broken off", 10.133333)
+
+
+def test_the_pictures_are_a_sequence(trace: Trace) -> None:
+    assert [(picture.name, round(picture.time, 2)) for picture in trace.pictures] == [("WIDE", 10.8)]
+
+
+def test_a_trace_without_motion_has_empty_columns(tmp_path: Path) -> None:
+    Recording(tmp_path / "short.mcap").begin().play(last=2).close()
+    trace = read_trace(tmp_path / "short.mcap")
+    assert [trace.times.shape, trace.gaps.shape, trace.forces().force.shape] == [(0,), (0,), (0, 3)]
+
+
+def test_force_stands_beside_its_time_and_its_guard(trace: Trace) -> None:
+    forces = trace.forces()
+    assert forces.recorded
+    guarded = [period.guarded for period in PERIODS]
+    assert np.array_equal(forces.estimated, guarded)
+    efforts = np.array([period.effort for period in PERIODS])
+    assert np.allclose(forces.force[guarded], -efforts[guarded, :3], atol=1e-6)
+    assert np.allclose(forces.moment[guarded], -efforts[guarded, 3:], atol=1e-6)
+    assert set(forces.guard[guarded]) == {"force"}
+    assert np.allclose(forces.value[guarded], efforts[guarded, 2], atol=1e-6)  # downwards
+    assert set(forces.limit[guarded]) == {8.0}
+
+
+def test_where_nothing_is_estimated_there_are_no_figures(trace: Trace) -> None:
+    forces = trace.forces()
+    for column in (forces.force, forces.moment, forces.axis, forces.value, forces.limit):
+        assert np.isnan(column[~forces.estimated]).all()
+        assert not np.isnan(column[forces.estimated]).any()
+
+
+def test_the_force_of_a_line_is_that_of_each_time_it_was_carried_out(trace: Trace) -> None:
+    of_line = trace.forces(line=4)
+    assert len(of_line.times) == 24
+    assert of_line.times.min() > 10.4
+    assert of_line.times.max() < 10.8 + 1e-6
+    assert [len(motion.times) for motion in of_line.motions()] == [4, 4, 4]
+    assert np.array_equal(trace.forces(line="4").times, of_line.times)
+
+
+def test_a_line_that_was_not_carried_out_is_refused(trace: Trace) -> None:
+    with pytest.raises(InvalidInput, match=r"^line 5 of short was not carried out in .*short\.mcap$"):
+        trace.forces(line=5)
+
+
+def test_the_manual_names_nothing_that_a_trace_does_not_have() -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "stepping.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"```python\n(.*?)```", manual, re.DOTALL)
+    named = set(re.findall(r"\b(?:trace|felt)\.(\w+)", manual.partition("### From Python")[2]))
+    assert {"forces", "at", "frame"} <= set(re.findall(r"trace\.(\w+)", block)) <= named
+    assert named <= {name for kind in (Trace, Forces) for name in (*dir(kind), *kind.__dataclass_fields__)}
+
+
+def test_each_guarded_motion_can_be_had_by_itself(trace: Trace) -> None:
+    motions = trace.forces().motions()
+    assert len(motions) == 9
+    assert all(motion.estimated.all() for motion in motions)
+
+
+def test_a_trace_of_an_older_version_is_not_taken_for_one_with_a_record_of_force(tmp_path: Path) -> None:
+    with in_format_2():
+        record(tmp_path / "old.mcap")
+    forces = read_trace(tmp_path / "old.mcap").forces()
+    assert not forces.recorded
+    assert not forces.estimated.any()  # its plan opens and closes the hand, and feels nothing
