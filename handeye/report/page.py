@@ -22,11 +22,13 @@ _MARK = {
 
 
 def page(result: Result) -> RenderableType:
-    """Stages, timing table of a run that is over, findings of the referee, and the verdict."""
+    """Stages, times of a run that is over, calibration of the camera, findings of the referee, and the verdict."""
     result = printable(result)
     parts: list[RenderableType] = [stages(result)]
     if not result.paused:
         parts += [Text(), timing(result), camera(result)]
+    elif result.camera.residual_in is not None:
+        parts += [Text(), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
     parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]

@@ -93,6 +93,15 @@ def test_the_referee_is_shown_by_what_was_measured_and_how_it_must_stand_to_its_
     ]  # fmt: skip
 
 
+def test_a_run_that_pauses_says_how_well_its_camera_is_calibrated() -> None:
+    seen = CameraReport(renderer="ray casting", sightings_rms_px={"25 mm": 0.2}, residual_in=0.03)
+    paused = msgspec.structs.replace(result(completed=False, assembled=None), paused=True, camera=seen)
+    console = Console(file=io.StringIO(), width=80)
+    with console.capture() as shown:
+        console.print(page(paused))
+    assert "calibrated to 0.03 in rms" in shown.get()
+
+
 def test_no_word_of_a_result_steers_a_terminal_or_is_taken_for_a_style() -> None:
     odd = msgspec.structs.replace(GAP, subject="[/x]gap\x1b[31m", unit="[red]mm")
     console = Console(file=io.StringIO(), width=80)
