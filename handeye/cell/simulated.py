@@ -27,6 +27,11 @@ INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 class SimulationError(HandeyeError):
     """The physics of the simulated cell broke down; not an event of the assembly."""
 
+    def __init__(self, warning: str) -> None:
+        """Say which warning the simulator gave, by its name; when, a run knows by its own time."""
+        super().__init__(f"the simulated cell broke down ({warning})")
+        self.warning = warning
+
 
 class SimulatedCell(Clock):
     """A cell in one drawn world. Equal worlds and equal drives give equal bytes."""
@@ -111,7 +116,7 @@ class SimulatedCell(Clock):
         warnings = np.flatnonzero(self._data.warning.number)
         if warnings.size:
             kind = mujoco.mjtWarning(int(warnings[0])).name
-            raise SimulationError(f"the simulated cell broke down at {self._data.time:.2f} s ({kind})")
+            raise SimulationError(kind)
         self._read()
 
     def _read(self) -> None:

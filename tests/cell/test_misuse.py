@@ -149,7 +149,7 @@ def test_physics_that_broke_down_stay_so_until_the_cell_is_put_back(cell: Simula
     sound = cell.capture()
     cell.truth.data.qvel[:3] = 1e12
     for _ in range(2):
-        with pytest.raises(SimulationError, match=r"^the simulated cell broke down at "):
+        with pytest.raises(SimulationError, match=r"^the simulated cell broke down \(mjWARN_\w+\)$"):
             cell.advance(PERIOD)
     cell.restore(sound)
     cell.advance(PERIOD)

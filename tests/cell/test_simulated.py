@@ -178,9 +178,7 @@ def test_a_drive_that_is_not_a_number_is_refused(cell: SimulatedCell) -> None:
 
 def test_a_breakdown_of_the_physics_is_said_and_not_hidden(cell: SimulatedCell) -> None:
     cell.truth.data.qvel[:6] = 1e12
-    with pytest.raises(
-        SimulationError, match=re.compile(r"^the simulated cell broke down at .* s \(mjWARN_\w+\)$")
-    ):
+    with pytest.raises(SimulationError, match=re.compile(r"^the simulated cell broke down \(mjWARN_\w+\)$")):
         run(cell, LOOSE, 2)
 
 
