@@ -3,6 +3,8 @@
 import io
 import os
 import re
+import signal
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import chdir
@@ -200,3 +202,22 @@ def test_a_run_shows_its_stages_whole_in_forty_columns_and_in_ascii(
 def test_a_plan_is_not_written_over_a_device(started: Start, tmp_path: Path) -> None:
     code, _, err = told(started, "plan job.al -o /dev/full", tmp_path)
     assert (code, err) == (2, "handeye: /dev/full cannot be written: it is not a file\n")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_trials_that_are_interrupted_end_at_once_with_one_line_and_leave_no_process(
+    tmp_path: Path, number: signal.Signals
+) -> None:
+    """As at a terminal, every process of the group hears Ctrl-C; being told to end, only the first.
+
+    Standard error ends when the last process that has it ends.
+    """
+    line = [sys.executable, "-m", "handeye", "trials", "assembly", "--seeds", "0-3"]
+    with subprocess.Popen(line, stderr=subprocess.PIPE, cwd=tmp_path, start_new_session=True) as trials:
+        while not Path(f"/proc/{trials.pid}/task/{trials.pid}/children").read_text().split():
+            assert trials.poll() is None
+        (os.killpg if number == signal.SIGINT else os.kill)(trials.pid, number)
+        assert trials.stderr is not None
+        assert trials.stderr.read() == b"\nhandeye: interrupted\n"
+    assert trials.returncode == 130

@@ -136,8 +136,12 @@ def _each(
     one: Callable[..., Verdict], what: "range | list[tuple[int, int, float]]", jobs: int
 ) -> Iterator[Verdict]:
     with ThreadPoolExecutor(jobs) as pool:
-        for verdict in as_completed([pool.submit(one, item) for item in what]):
-            yield verdict.result()
+        verdicts = [pool.submit(one, item) for item in what]
+        try:
+            for verdict in as_completed(verdicts):
+                yield verdict.result()
+        finally:  # who was interrupted waits for what is under way, and for no more
+            pool.shutdown(wait=False, cancel_futures=True)
 
 
 # -- interrupting -------------------------------------------------------------------------------------
