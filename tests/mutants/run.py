@@ -81,8 +81,9 @@ def _carried_out(mutants: Sequence[Mutant], workers: int) -> list[Outcome]:
         with ThreadPoolExecutor(workers) as pool:
             try:
                 named = sorted({mutant.caught_by for mutant in mutants if mutant.caught_by})
-                print(f"without a fault: {len(named)} tests ...", flush=True)
-                pool.submit(_with, copies, lambda copy: sound.check(copy, named)).result()
+                if named:
+                    print(f"without a fault: {len(named)} tests ...", flush=True)
+                    pool.submit(_with, copies, lambda copy: sound.check(copy, named)).result()
                 futures = [
                     pool.submit(_with, copies, lambda copy, mutant=mutant: tried(mutant, copy, sound))
                     for mutant in mutants

@@ -1,10 +1,11 @@
 """What comes of a fault follows from which tests fail with it; the tests themselves are played here."""
 
+import threading
 from pathlib import Path
 
 import pytest
 from mutant_table import Mutant
-from trying import Copy, Outcome, Session, TryingError, Unmutated, rewrite, tried
+from trying import ROOT, Copy, Outcome, Session, TryingError, Unmutated, rewrite, tried
 
 HERE, BESIDE = "tests/touch/test_guards.py::test_here", "tests/touch/test_hold.py::test_beside[1]"
 FAULT = {
@@ -64,6 +65,14 @@ def test_a_fault_with_which_tests_do_not_end_is_told_apart() -> None:
 def test_nothing_is_said_of_a_fault_whose_test_fails_without_it() -> None:
     with pytest.raises(TryingError, match=r"^tests/touch/test_guards.py::test_here fails without any fault$"):
         outcome(CAUGHT, Played(sound=HERE))
+
+
+def test_a_copy_has_code_tests_and_all_that_they_read_and_nothing_hidden(tmp_path: Path) -> None:
+    root = Copy(tmp_path, threading.Event()).root
+    assert (root / CAUGHT.file).read_bytes() == (ROOT / CAUGHT.file).read_bytes()
+    needed = ("pyproject.toml", "tests/support", "scenes", "plans", "docs", "run.py")
+    assert [name for name in needed if not (root / name).exists()] == []
+    assert [*root.rglob(".*"), *root.rglob("__pycache__")] == []
 
 
 def test_a_changed_file_is_compiled_anew_though_its_size_and_time_are_those_of_before(tmp_path: Path) -> None:

@@ -188,11 +188,13 @@ def _copy_project(root: Path) -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     included = [name.lstrip("/") for name in project["tool"]["hatch"]["build"]["targets"]["sdist"]["include"]]
     root.mkdir()
-    for name in ("pyproject.toml", *included):
-        if (ROOT / name).is_dir():
-            shutil.copytree(ROOT / name, root / name, ignore=shutil.ignore_patterns("__pycache__", ".*"))
-        else:
-            shutil.copy(ROOT / name, root / name)
+    for pattern in ("pyproject.toml", *included):
+        for found in ROOT.glob(pattern):
+            if found.is_dir():
+                ignored = shutil.ignore_patterns("__pycache__", ".*")
+                shutil.copytree(found, root / found.name, ignore=ignored)
+            else:
+                shutil.copy(found, root / found.name)
 
 
 def rewrite(file: Path, code: str) -> None:
