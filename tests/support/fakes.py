@@ -90,16 +90,29 @@ class FakeArm(ArmPort):
 
     def _move(self, torque: Array, seconds: float, steps: int = 16) -> None:
         """Semi-implicit steps under a held torque; the arm's matrices are taken once for all of them."""
-        M = mass_matrix(STANFORD, self.q)
-        J, X = jacobian(STANFORD, self.q), self.tcp
-        q0, damping = self.q.copy(), np.array([joint.damping for joint in STANFORD.joints])
+        inverse = np.linalg.inv(mass_matrix(STANFORD, self.q))
+        pushed = self._pushes() if self.walls else (lambda q, qd: 0.0)
+        damping, step = np.array([joint.damping for joint in STANFORD.joints]), seconds / steps
         frictionless = bias(STANFORD, self.q, self.qd) - damping * self.qd
         for _ in range(steps):
-            p, v = X + (J @ (self.q - q0))[:3], (J @ self.qd)[:3]
-            push = sum((wall.force(p, v) for wall in self.walls), np.zeros(3))
-            tau = torque - frictionless - damping * self.qd + J[:3].T @ push
-            self.qd = self.qd + np.linalg.solve(M, tau) * seconds / steps
-            self.q = self.q + self.qd * seconds / steps
+            tau = torque - frictionless - damping * self.qd + pushed(self.q, self.qd)
+            self.qd = self.qd + inverse @ tau * step
+            self.q = self.q + self.qd * step
+
+    def _pushes(self) -> Callable[[Array, Array], Array]:
+        """Torques by which the walls push, from q and its rates, near the present q."""
+        J, X, q0 = jacobian(STANFORD, self.q)[:3], self.tcp, self.q
+
+        def pushed(q: Array, qd: Array) -> Array:
+            p, v = X + J @ (q - q0), J @ qd
+            return np.asarray(J.T @ sum((wall.force(p, v) for wall in self.walls), np.zeros(3)))
+
+        return pushed
+
+
+def nothing(p: Array) -> float:
+    """Thickness (m) of what stands nowhere."""
+    return 0.0
 
 
 class FakeHand(HandPort):
@@ -107,10 +120,10 @@ class FakeHand(HandPort):
 
     def __init__(self, arm: FakeArm, gap: float = 0.05) -> None:
         self.arm, self.gap, self.goal, self.grip = arm, gap, gap, 0.0
-        self.thickness: Callable[[Array], float] = lambda p: 0.0
+        self.thickness: Callable[[Array], float] = nothing
 
     def read(self) -> HandReading:
-        touching = 0.0 < self.thickness(self.arm.tcp) >= self.gap - 1e-9
+        touching = 0.0 < self._between() >= self.gap - 1e-9
         return HandReading(gap=self.gap, touch=(touching, touching))
 
     def drive(self, gap: float, grip: float) -> None:
@@ -119,7 +132,11 @@ class FakeHand(HandPort):
     def elapse(self, seconds: float) -> None:
         step = STANFORD.hand.gap_speed * seconds
         moved = self.gap + min(max(self.goal - self.gap, -step), step)
-        self.gap = max(moved, self.thickness(self.arm.tcp))
+        self.gap = max(moved, self._between())
+
+    def _between(self) -> float:
+        """Thickness (m) where the hand is."""
+        return 0.0 if self.thickness is nothing else self.thickness(self.arm.tcp)
 
 
 @dataclass
