@@ -7,7 +7,7 @@ arms move under one clock.
 """
 
 from collections.abc import Callable, Generator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -77,8 +77,6 @@ class ServoLoop:
     """Called after every servo period."""
     halt: Callable[[], bool] = lambda: False
     """The panic button, asked at every servo period."""
-    _tared: bool = field(default=False, init=False)
-    """What is felt is force, and no longer what the tare is made of."""
 
     @property
     def period(self) -> float:
@@ -189,21 +187,27 @@ class ServoLoop:
         """Hold still and take what is felt now as zero force."""
         here = self.dynamics()
         felt = []
-        self.state.tare, self._tared = np.zeros(6), False
+        self.state.tare = np.zeros(6)
         for _ in range(self.arm.servo.settle):
-            yield from self._approach(here, self.state.q, estimate=True)
+            yield from self._approach(here, self.state.q, estimate=True, taring=True)
             felt.append(self.state.wrench)
-        self.state.tare, self._tared = np.mean(felt, axis=0), True
+        self.state.tare = np.mean(felt, axis=0)
         self.state.wrench = np.zeros(6)
 
     # -- one servo period ------------------------------------------------------------------------------
 
     def _approach(
-        self, here: Dynamics, q: Array, *, estimate: bool, guards: tuple[ActiveGuard, ...] = ()
+        self,
+        here: Dynamics,
+        q: Array,
+        *,
+        estimate: bool,
+        taring: bool = False,
+        guards: tuple[ActiveGuard, ...] = (),
     ) -> Motion[None]:
         """One servo period towards a set-point close by; see `_servo`."""
         qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
-        yield from self._servo(here, self.state.q, qd, rest, estimate=estimate, guards=guards)
+        yield from self._servo(here, self.state.q, qd, rest, estimate=estimate, taring=taring, guards=guards)
         self.state.q = q
 
     def _servo(
@@ -215,12 +219,14 @@ class ServoLoop:
         *,
         estimate: bool,
         guards: tuple[ActiveGuard, ...],
+        taring: bool = False,
     ) -> Motion[None]:
         """One servo period in which the arm should begin at `q` with rates `qd`.
 
         Args:
             estimate: the force on the hand is estimated at its end.
             guards: those that will look at what is then felt.
+            taring: what is felt is no force yet, but what the tare is made of.
         """
         before = self.sensed
         load = here.J[2] * self.state.load
@@ -232,13 +238,15 @@ class ServoLoop:
             felt = felt_wrench(here.M, here.bias, here.J, tau, before.qd, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
-        yield from self._wait(tau, feel if estimate else None, guards)
+        yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
 
     def _wait(
         self,
         tau: Array | None,
         feel: Callable[[Sensed], None] | None = None,
         guards: tuple[ActiveGuard, ...] = (),
+        *,
+        taring: bool = False,
     ) -> Motion[None]:
         """One servo period under a torque, or (None) the brakes.
 
@@ -257,13 +265,15 @@ class ServoLoop:
         self.state.cut = sensed.braked and tau is not None
         if feel is not None and not halted:
             feel(sensed)
-        effort = np.zeros(len(self.state.q)) if tau is None else tau
-        if (
-            feel is not None and self._tared and not (halted or sensed.braked)
-        ):  # no drive tells what brakes bear
-            self.watch(ServoPeriod(sensed=sensed, effort=effort, wrench=-self.state.wrench, guards=guards))
-        else:
-            self.watch(ServoPeriod(sensed=sensed, effort=effort))
+        unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear
+        self.watch(
+            ServoPeriod(
+                sensed=sensed,
+                effort=np.zeros(len(self.state.q)) if tau is None else tau,
+                wrench=None if unfelt else -self.state.wrench,
+                guards=() if unfelt else guards,
+            )
+        )
         if halted:
             raise Halted
 

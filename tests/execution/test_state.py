@@ -9,7 +9,7 @@ from handeye.program.world_model import WorldModel
 
 GIVEN = {
     Executor: {"run"},
-    ExecutionContext: {"plan", "arm", "cell", "camera", "emit", "vision", "drive", "world"},
+    ExecutionContext: {"plan", "arm", "cell", "camera", "emit", "search", "vision", "drive", "world"},
     ArmDrive: {"cell", "arm", "watch", "halt"},
     WorldModel: {"parts", "positions"},
 }

@@ -168,7 +168,11 @@ def test_the_end_of_the_answers_is_taken_for_abort(runner: Runner) -> None:
         ("", "`` is not an answer; answer p, r, s, b, a or show"),
         ("p 3", "`p 3` is not an answer; answer p, r, s, b, a or show"),
         ("b shut", "stage 4, shut the hand, has not begun yet"),
-        ("b nowhere", "there is no stage `nowhere`"),
+        (
+            "b nowhere",
+            "there is no stage `nowhere`; the program has 1 `open the hand`, 2 `search in the air`, "
+            "3 `grasp nothing`, 4 `shut the hand`",
+        ),
         ("show tee", "there is no `tee` to show; did you mean `time`?"),
     ],
 )
