@@ -1,6 +1,7 @@
 """A trace as people use it from Python: stages, pictures, and what was sensed, as values and arrays."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,9 +9,15 @@ import pytest
 from recordings import HISTORY, Recording, in_format_2, record
 
 from handeye.errors import InvalidInput
+from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.workcell import Sensed
-from handeye.trace.forces import Forces
+from handeye.program.guards import GuardKind
+from handeye.touch.guards import ActiveGuard
+from handeye.trace.channels import HAND
+from handeye.trace.forces import Forces, recorded_forces
+from handeye.trace.hand_message import hand_message
 from handeye.trace.reading import read_trace
+from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 
 PERIODS = [moment for moment in HISTORY if isinstance(moment.what, Sensed)]
@@ -58,6 +65,24 @@ def test_force_stands_beside_its_time_and_its_guard(trace: Trace) -> None:
     assert set(forces.guard[guarded]) == {"force"}
     assert np.allclose(forces.value[guarded], efforts[guarded, 2], atol=1e-6)  # downwards
     assert set(forces.limit[guarded]) == {8.0}
+
+
+@pytest.mark.parametrize(
+    ("guard", "value"),
+    [
+        (ActiveGuard(guard=GuardKind.FORCE, limit=9.0, axis=np.array([0.0, -1.0, 0.0])), -2.0),
+        (ActiveGuard(guard=GuardKind.AGAINST, limit=9.0, axis=np.array([1.0, 0.0, 0.0])), 1.0),
+        (ActiveGuard(guard=GuardKind.MOMENT, limit=9.0, axis=np.array([0.0, 0.0, 1.0])), 6.0),
+        (ActiveGuard(guard=GuardKind.TORQUE, limit=9.0), 0.75),
+        (ActiveGuard(guard=GuardKind.TOUCH, limit=3.0), 2.0),
+    ],
+    ids=lambda given: given.guard.value if isinstance(given, ActiveGuard) else "",
+)
+def test_the_value_is_what_the_guard_looks_at(guard: ActiveGuard, value: float) -> None:
+    sensed = replace(PERIODS[0].period.sensed, touch=(False, True), tool_torque=-0.75)
+    period = ServoPeriod(sensed=sensed, effort=np.zeros(6), wrench=np.arange(1.0, 7.0), guards=(guard,))
+    forces = recorded_forces(np.zeros(1), [RawMessage(HAND, 0, hand_message(period))])
+    assert (forces.guard[0], forces.value[0], forces.limit[0]) == (guard.guard, value, guard.limit)
 
 
 def test_where_nothing_is_estimated_there_are_no_figures(trace: Trace) -> None:

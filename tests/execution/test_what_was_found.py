@@ -1,0 +1,87 @@
+"""What vision has found in the step under way is told as marks on the picture that it was found in."""
+
+import pytest
+from fakes import FakeCell
+from short_runs import plan_of
+
+from handeye.arm.robots.stanford import STANFORD
+from handeye.execution.context import ExecutionContext
+from handeye.execution.state import Found
+from handeye.execution.vision_actions import just_found
+from handeye.program.causes import NoGasket
+from handeye.tasks.water_pump.park import PARK
+from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
+from handeye.vision.blob import BoundingBox
+from handeye.vision.gasket import GasketInspection
+from handeye.vision.marks import GREEN, RED, WHITE, YELLOW, Disc, Line, Loop, marks
+
+SCRIPT = """
+        LENS    25
+        AIM     BASE
+        LOOK    BEFORE
+        GENERAL BASE BEFORE
+        SPECIFIC BASE BEFORE
+        LOOK    AFTER HOLD
+        INSPECT BASE BEFORE AFTER
+"""
+BOX = GeneralLocation(box=BoundingBox(10, 20, 30, 50), x=0.5, y=0.6, corners=(), beams=1, points=1)
+HOLES = SpecificLocation(
+    pose=(0.5, 0.6, 0.0),
+    bounce_pose=(0.5, 0.6, 0.0),
+    holes=(
+        SeenHole(u=20.0, v=30.0, width=8.0, height=6.0, x=0.5, y=0.6),
+        SeenHole(u=60.0, v=30.0, width=4.0, height=4.0, x=0.6, y=0.6),
+    ),
+    screw_holes=6,
+    beams=1,
+    points=1,
+)
+EXPECTED = ((20.0, 30.0), (60.0, 30.0))
+
+
+def gasket(*, right: bool) -> GasketInspection:
+    """An inspection that has found one of two holes."""
+    found = ((21.0, 30.0), None)
+    return GasketInspection(cause=None if right else NoGasket(), expected=EXPECTED, found=found, shift=None)
+
+
+@pytest.mark.parametrize(
+    ("step", "picture", "found"),
+    [
+        (3, "BEFORE", Found(general=BOX)),
+        (4, "BEFORE", Found(specific=HOLES)),
+        (6, "AFTER", Found(inspection=gasket(right=True))),
+    ],
+)
+def test_the_marks_are_those_of_the_picture_that_the_step_looks_at(
+    step: int, picture: str, found: Found
+) -> None:
+    run = ExecutionContext(
+        plan=plan_of(SCRIPT), arm=STANFORD, cell=FakeCell(PARK).devices, camera=None, emit=lambda _: None
+    )
+    run.state.at, run.state.found = step, {"OTHER": Found(), picture: found}
+    assert just_found(run) == (picture, found.marks())
+
+
+def test_a_general_location_is_a_white_box() -> None:
+    (box,) = marks(general=BOX)
+    assert isinstance(box, Loop)
+    assert (box.points, box.colour) == (((10, 20), (30, 20), (30, 50), (10, 50)), WHITE)
+
+
+def test_holes_have_boxes_of_their_size_and_a_line_between_their_centres() -> None:
+    drawn = marks(specific=HOLES)
+    assert isinstance(drawn[0], Line)
+    assert drawn[0].ends == EXPECTED
+    boxes = [mark.points for mark in drawn if isinstance(mark, Loop) and mark.colour == YELLOW]
+    assert boxes[0] == ((16.0, 27.0), (24.0, 27.0), (24.0, 33.0), (16.0, 33.0))
+    assert len(boxes) == 2
+
+
+@pytest.mark.parametrize(("right", "colour"), [(True, GREEN), (False, RED)])
+def test_a_gasket_has_crosses_where_holes_should_be_and_discs_where_they_are(
+    right: bool, colour: tuple[int, int, int]
+) -> None:
+    drawn = marks(inspection=gasket(right=right))
+    assert [mark for mark in drawn if isinstance(mark, Disc)] == [Disc(centre=(21.0, 30.0), colour=colour)]
+    assert len([mark for mark in drawn if isinstance(mark, Line)]) == 4
