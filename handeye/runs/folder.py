@@ -81,7 +81,6 @@ class RunFolder(Observer):
         self._journal = Journal(self.path / EVENTS, start.events, again=again)
         if not again:
             self.begin(start)
-        (self.path / RESULT).unlink(missing_ok=True)  # it is not over yet
         self._recorder = self._recording(start.events)
         if again:
             self._journal.undone(len(start.events), runner.time, "resumed")
@@ -129,6 +128,7 @@ class RunFolder(Observer):
         assert self._journal is not None
         assert self._recorder is not None
         self.check_traced()
+        self._goes_on()
         self._journal.append(event)
         self._recorder.event(event)
 
@@ -140,11 +140,16 @@ class RunFolder(Observer):
         assert self._journal is not None
         assert self._recorder is not None
         assert self._runner is not None
+        self._goes_on()
         self.kept.drop_after(self._runner.position)
         try:
             self._recorder.cut(events)
         finally:  # none of the three must go on as if nothing was undone
             self._journal.undone(events, self._runner.time, "back")
+
+    def _goes_on(self) -> None:
+        """What the run came to before is no longer its result."""
+        (self.path / RESULT).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         assert self._recorder is not None

@@ -1,6 +1,7 @@
 """What the folder of a run tells of it, whatever has become of the run, and of the folder."""
 
 import json
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -84,6 +85,19 @@ def test_a_run_is_over_when_all_that_was_asked_of_it_is_recorded(
     ended: Path, judged: bool, over: bool
 ) -> None:
     assert has_ended(ended, open_again(ended)[1], judged=judged) is over
+
+
+@pytest.mark.parametrize(("goes_on", "stands"), [(False, True), (True, False)])
+def test_a_result_stands_until_its_run_goes_on(
+    tmp_path: Path, ended: Path, goes_on: bool, stands: bool
+) -> None:
+    copy = Path(shutil.copytree(ended, tmp_path / "copy"))
+    folder, newest, _ = open_again(copy)
+    runner = Runner(newest, observers=lambda r: [folder.watch(r, newest, again=True)])
+    if goes_on:
+        runner.undo()
+    folder.close()
+    assert (copy / RESULT).exists() is stands
 
 
 @pytest.mark.parametrize("written", [None, b"hello"])
