@@ -61,7 +61,8 @@ def main() -> NoReturn:
     prepare_streams()
     try:
         code = _carried_out()
-        sys.stdout.flush()  # here, where a full disk can still be told
+        if not sys.stdout.closed:  # as the language server does when its client says goodbye
+            sys.stdout.flush()  # here, where a full disk can still be told
     except BrokenPipeError:  # the reader of our output has gone, which is not our trouble
         code = GONE
     except OSError as error:

@@ -32,9 +32,11 @@ def prepare_streams() -> None:
 def let_go_of_streams() -> None:
     """Drop what cannot be written any more, so that the interpreter does not try again when it ends."""
     for stream in (sys.stdout, sys.stderr):
+        if stream.closed:
+            continue
         try:
             stream.flush()
-        except (OSError, ValueError):
+        except OSError:
             os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
