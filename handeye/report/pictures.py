@@ -23,7 +23,7 @@ def annotated_png(run: ExecutionContext, name: str) -> bytes:
     found = run.state.found.get(name, Found())
     try:
         image = annotate(run.state.shots[name].picture, found.marks())
-    except cv2.error:
+    except ValueError:
         raise InvalidInput(f"the findings in picture {name} cannot be drawn") from None
     done, data = cv2.imencode(".png", image)
     assert done

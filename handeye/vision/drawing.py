@@ -14,10 +14,16 @@ Image = NDArray[np.uint8]
 """Blue, green, red of every pixel, shape (height, width, 3)."""
 
 SCALE: Final = 3
+FARTHEST: Final = 10_000.0
+"""Picture points from the middle of the first one within which a mark is drawn, or cut off by the picture's edge."""
 
 
 def annotate(picture: Picture, marks: Sequence[Mark], scale: int = SCALE) -> Image:
-    """The picture, enlarged, with marks on it."""
+    """The picture, enlarged, with marks on it.
+
+    Raises:
+        ValueError: a mark is farther from the picture than anything that was found in it.
+    """
     grey = np.clip(picture * 17, 0, 255).astype(np.uint8)
     large = np.repeat(np.repeat(grey, scale, axis=0), scale, axis=1)
     image: Image = np.repeat(large[:, :, None], 3, axis=2)
@@ -42,4 +48,6 @@ def _draw(image: Image, mark: Mark, scale: int) -> None:
 def _pixel(point: Point, scale: int) -> tuple[int, int]:
     """The pixel of a picture point; the middle of a point is not its corner."""
     u, v = point
+    if not max(abs(u), abs(v)) <= FARTHEST:
+        raise ValueError(f"a mark at ({u:g}, {v:g}) belongs to no picture")
     return round((u + 0.5) * scale), round((v + 0.5) * scale)
