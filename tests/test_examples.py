@@ -15,7 +15,13 @@ LONGEST = 50
 """Lines of an example."""
 LEAVES = {"force_against_time.py": "force.svg"}
 """A file that an example leaves."""
-SAYS = {"replay_a_moment.py": "line 7: CHANGE  [0 0 -1] 1 .2"}
+SAYS = {
+    "missing_pin.py": "by a person: at 0.0 s position PIN was set by hand",
+    "referee_limit.py": "wrong: lean of a pin in its holder (at most 0.2 deg)",
+    "replay_a_moment.py": "line 7: CHANGE  [0 0 -1] 1 .2",
+    "search_pattern.py": "row      5 places",
+    "seventh_screw.py": "new: K7, M7",
+}
 """What an example prints."""
 
 

@@ -147,18 +147,23 @@ _WORKING: Final = (ComplianceModel, GraspModel)
 
 def digest(arm: ArmModel) -> str:
     """Twelve hexadecimal digits that change with any figure a plan may rest on, whatever its field is called."""
-    return hashlib.sha256(repr(_figures(arm)).encode()).hexdigest()[:12]
+    return hashlib.sha256(repr(_figures(arm, _WORKING)).encode()).hexdigest()[:12]
 
 
-def _figures(value: object) -> object:
-    """The figures of a model as nested lists, but for those of the working phase."""
+def same_arm(one: ArmModel, other: ArmModel) -> bool:
+    """All figures of two models are the same, those of the working phase as well."""
+    return _figures(one, ()) == _figures(other, ())
+
+
+def _figures(value: object, left_out: tuple[type, ...]) -> object:
+    """The figures of a model as nested lists, but for those of some types."""
     if is_dataclass(value):
         parts = [getattr(value, each.name) for each in fields(value)]
-        return [_figures(part) for part in parts if not isinstance(part, _WORKING)]
+        return [_figures(part, left_out) for part in parts if not isinstance(part, left_out)]
     if isinstance(value, Mapping):
         return sorted(value.items())
     if isinstance(value, tuple):
-        return [_figures(each) for each in value]
+        return [_figures(each, left_out) for each in value]
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 

@@ -52,10 +52,14 @@ class World:
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._table, self._task = tasks.task(task).variation(number), task
         settings = [f"{name}={value}" for name, value in self._set.items()]
-        self.spec = WorldSpec(
+        self._spec = WorldSpec(
             seed=number, level=level, overrides=overrides(self._table, self._without, settings)
         )
+
+    @property
+    def spec(self) -> WorldSpec:
         """What a run records of it, in SI units."""
+        return self._spec
 
     @property
     def seed(self) -> int:

@@ -3,6 +3,8 @@
 from importlib import import_module
 from typing import Final
 
+import numpy as np
+
 from handeye.arm import robots
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
@@ -20,8 +22,20 @@ def register(task: Task) -> None:
     """Make a task known by its name, and its arm by its own.
 
     Raises:
-        InvalidInput: another task, or another arm, has that name.
+        InvalidInput: it is no task, has no name, its arm cannot stand where it is parked, or another task, or another
+            arm, has the name.
     """
+    if not isinstance(task, Task):
+        raise InvalidInput(f"a task is an object of a class that is derived from handeye.Task, not {task!r}")
+    name = getattr(task, "name", None)
+    if not isinstance(name, str) or not name.strip():
+        raise InvalidInput(f"a task needs a name, which is a text; {name!r} is none")
+    joints = len(task.arm.joints)
+    if np.shape(task.park) != (joints,):
+        raise InvalidInput(
+            f"the task {quoted(name)} parks its arm at a position of shape {np.shape(task.park)}; "
+            f"the {task.arm.name} arm has {joints} joints"
+        )
     if task.name in _BUILT_IN or _REGISTERED.get(task.name, task) is not task:
         raise InvalidInput(f"there is a task called {quoted(task.name)} already")
     robots.register(task.arm)

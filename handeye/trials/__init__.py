@@ -1,1 +1,44 @@
 """Whole runs and statistics over them: where concrete cells, plans and referees are put together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # a trial is seldom wanted where something in this folder is
+    from handeye.door.plans import FileName, Planned
+    from handeye.door.results import Results
+    from handeye.door.worlds import World
+
+__all__ = ["assemble_each"]
+
+
+def assemble_each(
+    worlds: Iterable[int | World],
+    *,
+    script: FileName | Planned | None = None,
+    camera: str = "auto",
+    jobs: int = 1,
+) -> Results:
+    """Carry out a script in each of some worlds, and have each result judged.
+
+    Args:
+        worlds: seeds, or worlds.
+        script: what `handeye.plan` takes; by default that of the water pump.
+        camera: how pictures are made: `auto`, `gl` or `ray`.
+        jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`.
+
+    Returns:
+        a table of results in the order of the worlds.
+
+    Raises:
+        ScriptError: the script has errors.
+        InvalidInput: an argument cannot be used.
+
+    >>> results = handeye.trials.assemble_each([0, 1], script="OPEN 1\\n", camera="ray")
+    >>> [(result.seed, result.completed) for result in results]
+    [(0, True), (1, True)]
+    """
+    from handeye.door.results import assemble_in
+
+    return assemble_in(worlds, script=script, camera=camera, jobs=jobs)

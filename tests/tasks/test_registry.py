@@ -3,12 +3,14 @@
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
 import msgspec
 import pytest
 from short_runs import begin
 
 from handeye import tasks
+from handeye.arm import robots
 from handeye.arm.robots.stanford import STANFORD
 from handeye.errors import InvalidInput
 from handeye.runs.runner import Runner
@@ -61,3 +63,42 @@ def test_a_plan_for_another_arm_is_refused_by_the_task() -> None:
 def test_a_task_can_be_asked_of_its_arm_without_a_simulator() -> None:
     code = "import sys; from handeye.tasks import task; task().arm; sys.exit('mujoco' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ({"name": ""}, r"^a task needs a name, which is a text; '' is none$"),
+        ({"name": None}, r"^a task needs a name, which is a text; None is none$"),
+        (
+            {"name": "odd", "park": [0.0] * 5},
+            r"^the task `odd` parks .* \(5,\); the Stanford arm has 6 joints$",
+        ),
+    ],
+)
+def test_a_task_that_cannot_be_one_is_refused(words: dict[str, object], sentence: str) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        register(type("Odd", (WaterPump,), words)())
+
+
+@pytest.mark.parametrize("wrong", [None, "water_pump", WaterPump])
+def test_what_is_no_task_is_refused(wrong: object) -> None:
+    with pytest.raises(
+        InvalidInput, match=r"^a task is an object of a class that is derived from handeye\.Task, not "
+    ):
+        register(wrong)
+
+
+def test_an_equal_arm_may_be_made_known_again() -> None:
+    robots.register(replace(STANFORD))
+    with pytest.raises(InvalidInput, match=r"^there is an arm called `Stanford` already$"):
+        robots.register(replace(STANFORD, servo=replace(STANFORD.servo, period=STANFORD.servo.period / 2)))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [(3, r"^an arm is an ArmModel, not 3$"), (replace(STANFORD, name=""), r"^an arm needs a name$")],
+)
+def test_an_arm_that_cannot_be_one_is_refused(wrong: object, sentence: str) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        robots.register(wrong)

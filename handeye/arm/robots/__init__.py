@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from handeye.arm.model import ArmModel
+from handeye.arm.model import ArmModel, same_arm
 from handeye.arm.robots.stanford import STANFORD
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
@@ -16,10 +16,14 @@ def robot(name: str) -> ArmModel | None:
 
 
 def register(arm: ArmModel) -> None:
-    """Make an arm known by its name.
+    """Make an arm known by its name; one with the same figures may be known already.
 
     Raises:
-        InvalidInput: another arm has that name.
+        InvalidInput: it is no arm, has no name, or another arm has it.
     """
-    if _ROBOTS.setdefault(arm.name, arm) is not arm:
+    if not isinstance(arm, ArmModel):
+        raise InvalidInput(f"an arm is an ArmModel, not {arm!r}")
+    if not arm.name:
+        raise InvalidInput("an arm needs a name")
+    if not same_arm(_ROBOTS.setdefault(arm.name, arm), arm):
         raise InvalidInput(f"there is an arm called {quoted(arm.name)} already")

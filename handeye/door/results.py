@@ -1,0 +1,89 @@
+"""Results of many runs as a table."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import overload
+
+from handeye.door.arguments import given_count
+from handeye.door.html import heading, inked, page, table
+from handeye.door.plans import FileName, Planned, plan
+from handeye.door.worlds import World
+from handeye.errors import InvalidInput
+from handeye.report.result import Result
+from handeye.runs.scripts import default_script
+from handeye.trials.assembly import run_plan
+from handeye.trials.seeds import assemble_many
+from handeye.variation import WorldSpec, checked_seed
+
+_VERDICTS = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
+"""Of a result by its exit code, and their colours."""
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Results(Sequence[Result]):
+    """Results in the order of their worlds; `print` and notebooks show them as a table."""
+
+    each: tuple[Result, ...]
+
+    @property
+    def assembled(self) -> int:
+        """In how many worlds the referee found everything right."""
+        return sum(result.assembled is True for result in self.each)
+
+    @overload
+    def __getitem__(self, index: int) -> Result: ...
+    @overload
+    def __getitem__(self, index: slice) -> "Results": ...
+    def __getitem__(self, index: int | slice) -> "Result | Results":
+        return Results(self.each[index]) if isinstance(index, slice) else self.each[index]
+
+    def __len__(self) -> int:
+        return len(self.each)
+
+    def __repr__(self) -> str:
+        rows = [("world", "verdict", "working phase", "")]
+        for each in self.each:
+            rows.append((str(each.world), _verdict(each)[0], f"{each.timing.working_s:.1f} s", why(each)))
+        widths = [max(len(row[n]) for row in rows) for n in range(3)]
+        lines = ["  ".join([*map(str.ljust, row, widths), row[3]]).rstrip() for row in rows]
+        return "\n".join([*lines, self._count()])
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (str(each.world), inked(*_verdict(each)), each.timing.working_s, why(each)) for each in self.each
+        ]
+        return page(table(("world", "verdict", "working phase, s", ""), rows), heading(self._count()))
+
+    def _count(self) -> str:
+        return f"{self.assembled} of {len(self)} assembled"
+
+
+def assemble_in(
+    worlds: Iterable[int | World], *, script: FileName | Planned | None, camera: str, jobs: int
+) -> Results:
+    """Results of a script in some worlds; see `handeye.trials.assemble_each`."""
+    specs = [_spec(world) for world in worlds]
+    record = plan(default_script() if script is None else script).record
+    if given_count(jobs, "jobs") == 1:
+        return Results(tuple(run_plan(record, world=spec, camera=camera).result for spec in specs))
+    found = list(assemble_many(record, specs, camera=camera, jobs=jobs))
+    return Results(tuple(sorted(found, key=lambda result: specs.index(result.world))))
+
+
+def why(result: Result) -> str:
+    """Why a result is not as it should be; empty if it is."""
+    if not result.completed:
+        return f"{result.stopped_at or ''}: {result.message}"
+    return "; ".join(f"{each.sentence}: {each.value:.3g}" for each in result.referee.values() if not each.ok)
+
+
+def _verdict(result: Result) -> tuple[str, str]:
+    return _VERDICTS[result.exit_code]
+
+
+def _spec(world: int | World) -> WorldSpec:
+    if isinstance(world, World):
+        return world.spec
+    if isinstance(world, (str, bytes)):
+        raise InvalidInput(f"a world is a seed or a handeye.World, not {world!r}")
+    return WorldSpec(seed=checked_seed(world))

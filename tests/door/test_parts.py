@@ -1,0 +1,198 @@
+"""Search pattern, camera and referee are replaced by code; what they decide is recorded, and never passed over."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import SimpleNamespace
+
+import mujoco
+import numpy as np
+import pytest
+
+import handeye
+from handeye.cell.truth import Truth
+from handeye.door.parts import parts_of
+from handeye.errors import InvalidInput
+from handeye.events import RunStarted, SearchAdvanced
+from handeye.ports.camera import Renderer
+from handeye.runs.checkpoint_file import read_head
+from handeye.runs.verify import difference
+from handeye.tasks import task
+from handeye.variation import WorldSpec
+from handeye.vision.camera_model import View
+
+pytestmark = pytest.mark.slow
+
+SEARCH = "OPEN 1\nSEARCH .1\nL: OPEN 1.1\nAOJ L\nJUMP L\n"
+
+
+def row(place: int) -> tuple[float, float]:
+    """Places in a row along x."""
+    return place, 0
+
+
+def column(place: int) -> tuple[float, float]:
+    """Places in a row along y."""
+    return 0, place
+
+
+class HalfDark:
+    """A camera that sees nothing on its left."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        """Of a scene."""
+
+    def render(self, data: mujoco.MjData, view: View) -> np.ndarray:
+        """Light on the target."""
+        return np.tile(np.arange(333) > 166, (256, 1))
+
+
+def easy(truth: Truth) -> Mapping[str, handeye.Finding]:
+    """Finds that nothing is too high."""
+    return {"height": handeye.at_most(0.1, 1.0, "mm", "height of nothing")}
+
+
+@pytest.fixture(scope="module")
+def searched(tmp_path_factory: pytest.TempPathFactory) -> handeye.Run:
+    """A run with a search pattern of its own, left in the midst of its search."""
+    folder = tmp_path_factory.mktemp("parts") / "run"
+    with handeye.begin(SEARCH, camera="ray", search=row, out=folder) as run:
+        run.step(6)
+    return run
+
+
+def offsets(run: handeye.Run) -> list[tuple[float, float]]:
+    """The places that a run searched, in steps of a tenth of an inch."""
+    found = [event.offset for event in run.events if isinstance(event, SearchAdvanced)]
+    return [(round(x / 0.00254, 6), round(y / 0.00254, 6)) for x, y in found]
+
+
+def test_a_search_tries_the_places_it_is_given(searched: handeye.Run) -> None:
+    assert offsets(searched) == [(1, 0), (2, 0)]
+
+
+def test_a_run_names_the_code_that_took_the_place_of_a_part(searched: handeye.Run) -> None:
+    begun, (head, *_) = searched.events[0], [*map(read_head, sorted(searched.out.rglob("*.checkpoint")))]
+    assert isinstance(begun, RunStarted)
+    assert searched.trace.head.replaced == begun.replaced == head.replaced == {"search": f"{__name__}.row"}
+    assert searched.result.replaced == {"search": f"{__name__}.row"}
+    assert f"search: the caller&#x27;s own, {__name__}.row" in searched._repr_html_()
+
+
+def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
+    with handeye.begin("OPEN 1\n", camera="ray", out=tmp_path / "run") as run:
+        run.until()
+    kept = [*tmp_path.rglob("events.jsonl"), *tmp_path.rglob("result.json"), *tmp_path.rglob("*.checkpoint")]
+    assert len(kept) > 3
+    assert [file for file in kept if b"replaced" in file.read_bytes()] == []
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        (None, r"^the run has a search of its own, `.*\.row`, which is code and is kept in no file; "),
+        (column, r"^the run was begun with `.*\.row` as its search; `.*\.column` is another$"),
+    ],
+)
+def test_a_run_is_taken_up_with_the_code_it_was_begun_with(
+    searched: handeye.Run, given: object, sentence: str
+) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        handeye.begin(searched.out, search=given)
+    run = handeye.begin(searched.out, search=row)
+    run.step(4)
+    assert offsets(run) == [(1, 0), (2, 0), (3, 0), (4, 0)]
+
+
+def test_a_run_with_code_of_its_own_is_not_verified(searched: handeye.Run, tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match=r"^the run has a search of its own, "):
+        difference(searched.trace, tmp_path / "again")
+
+
+def test_a_part_may_be_replaced_from_a_checkpoint_on_and_the_run_says_so(tmp_path: Path) -> None:
+    file = handeye.begin(SEARCH, camera="ray").checkpoint(tmp_path / "a.checkpoint")
+    run = handeye.begin(file, search=column)
+    run.step(4)
+    assert offsets(run) == [(0, 1)]
+    assert run.result.replaced == run.events[0].replaced == {"search": f"{__name__}.column"}
+
+
+@pytest.mark.parametrize("wrong", [None, 3, (1, 2, 3), ("a", "b"), (float("nan"), 0)])
+def test_a_search_that_gives_no_place_is_told_and_its_step_is_not_done(wrong: object) -> None:
+    run = handeye.begin(SEARCH, camera="ray", search=lambda place: wrong)
+    with pytest.raises(InvalidInput, match=r"^the search must give two numbers for place 1, not "):
+        run.until()
+    assert run.state.text == "AOJ L"
+
+
+def test_a_search_that_fails_fails_where_people_see_it() -> None:
+    run = handeye.begin(SEARCH, camera="ray", search=lambda place: (1 / 0, 0))
+    with pytest.raises(ZeroDivisionError):
+        run.until()
+    assert run.state.text == "AOJ L"
+
+
+@pytest.mark.render
+def test_pictures_are_those_of_the_camera_that_is_given() -> None:
+    cell = task().cell(WorldSpec(seed=0), parts_of(None, HalfDark).camera)
+    picture = cell.devices.camera.digitise()[0]
+    assert (picture[:, :150].mean() < 2, picture[:, 183:].mean() > 8) == (True, True)
+    assert cell.renderer == Renderer(method="replaced", platform=f"{__name__}.HalfDark")
+
+
+@pytest.mark.render
+@pytest.mark.parametrize("wrong", [np.zeros((333, 256)), np.full((256, 333), np.nan)])
+def test_what_is_no_picture_is_told_in_one_sentence(wrong: np.ndarray) -> None:
+    maker = parts_of(None, lambda model: SimpleNamespace(render=lambda data, view: wrong)).camera
+    cell = task().cell(WorldSpec(seed=0), maker)
+    with pytest.raises(
+        InvalidInput, match=r"must give a picture of 256 by 333 finite numbers, not of shape \("
+    ):
+        cell.devices.camera.digitise()
+
+
+def test_the_result_says_whose_pictures_they_were() -> None:
+    run = handeye.begin("OPEN 1\n", camera=HalfDark)
+    assert run.picture is None
+    assert run.result.camera.renderer == f"the caller's code ({__name__}.HalfDark)"
+    assert run.result.replaced == {"camera": f"{__name__}.HalfDark"}
+
+
+def test_limits_of_the_referee_are_values() -> None:
+    strict = handeye.assemble(script="OPEN 1\n", camera="ray", referee={"base_tilt": -1, "floor": -9})
+    found = strict.result.referee
+    assert (found["base_tilt"].ok, found["base_tilt"].limit, found["floor"].limit) == (False, -1, -9)
+    assert strict.result.replaced == {"referee": "handeye.report.judging.limits(base_tilt=-1, floor=-9)"}
+
+
+def test_a_referee_of_ones_own_has_the_word() -> None:
+    run = handeye.begin("OPEN 1\n", camera="ray", referee=easy)
+    assert run.assembled is None
+    run.until()
+    assert (run.assembled, [*run.result.referee]) == (True, ["height"])
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ({"search": 3}, r"^a search is called with the number of a place and gives it; not 3$"),
+        ({"camera": 3}, r"^a camera is `auto`, `gl`, `ray`, or is called with a scene; not 3$"),
+        ({"referee": 3}, r"^a referee is called with the truth of a cell, or is a table of limits; not 3$"),
+        (
+            {"referee": {"screws_clmp": 3}},
+            r"^the referee has no finding `screws_clmp`; did you mean `screws_clamp`\?$",
+        ),
+        ({"referee": {"screws_clamp": "x"}}, r"^the limit of screws_clamp must be a number, not 'x'$"),
+    ],
+)
+def test_what_is_no_part_is_told_in_one_sentence(words: dict[str, object], sentence: str) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        handeye.begin("OPEN 1\n", **{"camera": "ray", **words})
+
+
+def test_a_referee_that_finds_nothing_that_is_a_finding_is_told() -> None:
+    run = handeye.begin("OPEN 1\n", camera="ray", referee=lambda truth: {"height": 3})
+    run.until()
+    with pytest.raises(
+        InvalidInput, match=r"^a referee must give findings by their names, not \{'height': 3\}$"
+    ):
+        run.result  # noqa: B018
