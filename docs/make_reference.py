@@ -21,6 +21,9 @@ from handeye.door import provided  # noqa: E402
 from handeye.door.state import Memory  # noqa: E402
 from handeye.inspection.inspection import InspectedStage, InspectedStep  # noqa: E402
 from handeye.report import result  # noqa: E402
+from handeye.trace.forces import Forces  # noqa: E402
+from handeye.trace.motion import Motion  # noqa: E402
+from handeye.trace.replay import Moment  # noqa: E402
 
 PAGE = ROOT / "docs" / "python.md"
 MARK = "<!-- Below: docs/make_reference.py -->\n"
@@ -35,7 +38,8 @@ GROUPS: dict[str, dict[str, Any]] = {
                 "handeye.Finding": handeye.Finding, "handeye.at_most": handeye.at_most,
                 "handeye.at_least": handeye.at_least,
                 "handeye.trials.assemble_each": handeye.trials.assemble_each},
-    "Traces": {"handeye.open": handeye.open, "handeye.Trace": handeye.Trace},
+    "Traces": {"handeye.open": handeye.open, "handeye.Trace": handeye.Trace, "Motion": Motion, "Forces": Forces,
+               "Moment": Moment},
     "Tasks": {"handeye.Task": handeye.Task, "handeye.tasks.task": handeye.tasks.task,
               "handeye.tasks.register": handeye.tasks.register},
     "Errors": {"handeye.HandeyeError": handeye.HandeyeError, "handeye.InvalidInput": handeye.InvalidInput,

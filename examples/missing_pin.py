@@ -21,7 +21,7 @@ print(f"{state.stage}, at {state.time:.1f} s: {state.why}")
 assert run.result.error == 2
 
 state = run.back("take a pin")
-print(f"{state.why}: {state}")
+print(state)
 run.say(f"set position PIN {THERE}")
 
 state = run.until()

@@ -103,7 +103,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
 
     Args:
         script: a file (`.al`), with what is taught for it beside it (`.toml`); or a text, which is a `str` with a
-            line end in it; or a plan that was saved (`.plan.json`).
+            line end in it; or a plan that was saved, whose name ends in .json.
         taught: positions (in, deg) of the script: a TOML file, or the text of one. A text has none by default.
         task: name of the task whose arm is planned for.
 
