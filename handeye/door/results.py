@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import overload
+from typing import Final, overload
 
 from handeye.door.arguments import given_count
 from handeye.door.html import heading, inked, page, table
@@ -15,8 +15,10 @@ from handeye.trials.assembly import run_plan
 from handeye.trials.seeds import assemble_many
 from handeye.variation import WorldSpec, checked_seed
 
-_VERDICTS = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
+_VERDICTS: Final = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
 """Of a result by its exit code, and their colours."""
+_TOLD: Final = 2
+"""Findings that a row tells."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -62,6 +64,8 @@ def assemble_in(
     worlds: Iterable[int | World], *, script: FileName | Planned | None, camera: str, jobs: int
 ) -> Results:
     """Results of a script in some worlds; see `handeye.trials.assemble_each`."""
+    if isinstance(worlds, str) or not isinstance(worlds, Iterable):
+        raise InvalidInput(f"worlds are seeds or worlds one after the other, not {worlds!r}")
     specs = [_spec(world) for world in worlds]
     record = plan(default_script() if script is None else script).record
     if given_count(jobs, "jobs") == 1:
@@ -71,10 +75,12 @@ def assemble_in(
 
 
 def why(result: Result) -> str:
-    """Why a result is not as it should be; empty if it is."""
+    """Why a result is not as it should be, the first findings of many; empty if it is."""
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"
-    return "; ".join(f"{each.sentence}: {each.value:.3g}" for each in result.referee.values() if not each.ok)
+    wrong = [f"{each.sentence}: {each.value:.3g}" for each in result.referee.values() if not each.ok]
+    more = len(wrong) - _TOLD
+    return "; ".join(wrong if more < 2 else [*wrong[:_TOLD], f"and {more} more"])
 
 
 def _verdict(result: Result) -> tuple[str, str]:
