@@ -9,7 +9,7 @@ True
 Names are loaded when they are first used, so that the import itself costs next to nothing.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from handeye import tasks, trials
@@ -78,21 +78,22 @@ _HOMES = {
 """The module that each name comes from."""
 _MODULES = ("tasks", "trials")
 
+if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
 
-def __getattr__(name: str) -> Any:
-    """Load what a name stands for when it is first used."""
-    from importlib import import_module
+    def __getattr__(name: str) -> object:
+        """Load what a name stands for when it is first used."""
+        from importlib import import_module
 
-    if name in _MODULES:
-        return import_module(f"handeye.{name}")
-    if name == "__version__":
-        return import_module("handeye.versions").HANDEYE
-    if name not in _HOMES:
-        raise AttributeError(
-            f"module 'handeye' has no attribute {name!r}", name=name, obj=import_module("handeye")
-        )
-    value = globals()[name] = getattr(import_module(_HOMES[name]), name)
-    return value
+        if name in _MODULES:
+            return import_module(f"handeye.{name}")
+        if name == "__version__":
+            return import_module("handeye.versions").HANDEYE
+        if name not in _HOMES:
+            raise AttributeError(
+                f"module 'handeye' has no attribute {name!r}", name=name, obj=import_module("handeye")
+            )
+        value = globals()[name] = getattr(import_module(_HOMES[name]), name)
+        return value
 
 
 def __dir__() -> list[str]:

@@ -26,10 +26,18 @@ def in_a_fresh_interpreter(code: str) -> str:
 
 def seen_by_type_checkers() -> set[str]:
     """Names that the door imports for type checkers."""
-    (block,) = (node for node in ast.parse(SOURCE).body if isinstance(node, ast.If))
+    block = next(node for node in ast.parse(SOURCE).body if isinstance(node, ast.If))
     imported = [node for node in block.body if isinstance(node, ast.ImportFrom)]
     declared = [node.target.id for node in block.body if isinstance(node, ast.AnnAssign)]
     return {*declared, *(alias.asname or alias.name for node in imported for alias in node.names)}
+
+
+def named(name: str) -> object:
+    """What type checkers take a name of the door for."""
+    block = next(node for node in ast.parse(SOURCE).body if isinstance(node, ast.If))
+    imports = [node for node in block.body if isinstance(node, ast.ImportFrom)]
+    origin = next(node.module for node in imports if name in {alias.name for alias in node.names})
+    return getattr(importlib.import_module(origin), name)
 
 
 def test_the_import_loads_nothing_until_a_name_needs_it() -> None:
@@ -44,6 +52,11 @@ def test_a_plan_is_made_without_a_simulator() -> None:
 
 def test_type_checkers_see_every_name() -> None:
     assert seen_by_type_checkers() == {*handeye.__all__}
+
+
+def test_a_name_is_loaded_from_where_type_checkers_see_it() -> None:
+    names = {*handeye.__all__} - {"__version__"}
+    assert {name for name in names if getattr(handeye, name) is not named(name)} == set()
 
 
 def test_the_names_are_listed_in_their_order_and_all_of_them_are_there() -> None:

@@ -5,7 +5,9 @@ from functools import cached_property
 
 from handeye import tasks
 from handeye.door.arguments import given_names
+from handeye.door.html import heading, page, table
 from handeye.errors import InvalidInput
+from handeye.report.world_page import report
 from handeye.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.world_options import overrides
 
@@ -87,6 +89,13 @@ class World:
             InvalidInput: there is no such quantity; the nearest name is told.
         """
         return self._table.quantities[self._quantity(name)].unit
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (each.name, f"{each.value:.4g}", each.unit, each.override or "")
+            for each in report(self._table, self._table.draw(self.spec)).quantities
+        ]
+        return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
 
     def _quantity(self, name: str) -> str:
         """The name of one quantity."""

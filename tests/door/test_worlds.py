@@ -30,6 +30,13 @@ def test_a_world_shows_how_it_was_chosen() -> None:
     assert repr(handeye.World(3, level="low", without="camera", set={"arm.friction": 0})) == said
 
 
+def test_the_page_of_a_world_has_a_row_a_quantity() -> None:
+    world = handeye.World(3, set={"arm.friction": 0})
+    page = world._repr_html_()
+    assert page.count("<tr>") == 1 + len(world.values)
+    assert page.count(">set<") == 6
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
