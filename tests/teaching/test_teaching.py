@@ -19,8 +19,6 @@ from handeye.teaching.teacher import Teacher
 from handeye.teaching.workplace import Workplace
 from handeye.units import DEGREE, INCH
 
-pytestmark = pytest.mark.slow
-
 FILE = (plans() / "water_pump.toml").read_text(encoding="utf-8")
 
 
@@ -56,6 +54,7 @@ def hand(pupil: TeachSession) -> np.ndarray:
 # -- moving ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_joint_moves_by_so_much_with_a_sign_and_to_there_without(pupil: TeachSession) -> None:
     joints = pupil.teacher.workplace.run.drive
     before = joints.sensed.q.copy()
@@ -118,6 +117,7 @@ def test_what_the_joints_cannot_do_is_said_and_nothing_moves(pupil: TeachSession
 # -- naming ---------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_where_the_hand_is_gets_a_name_that_can_be_gone_to_and_is_saved_without_touching_the_rest(
     pupil: TeachSession,
 ) -> None:
@@ -138,6 +138,7 @@ def test_a_name_that_is_taken_is_not_taught_anew_without_again(pupil: TeachSessi
     assert pupil.teacher.unsaved == ["T1"]
 
 
+@pytest.mark.slow
 def test_a_place_named_of_a_part_is_relative_to_it(pupil: TeachSession) -> None:
     say(pupil, "move H0", "here H6 of PUMP")
     known = pupil.teacher.workplace.taught.positions
