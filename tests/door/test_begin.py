@@ -1,8 +1,10 @@
 """How a run is begun: at a stage, from what was kept, in which world; and what is refused."""
 
+import json
 from pathlib import Path
 
 import pytest
+from conftest import Command
 
 import handeye
 from handeye.errors import InvalidInput
@@ -118,3 +120,33 @@ def test_a_run_is_in_the_world_that_was_chosen() -> None:
     begun = handeye.begin("OPEN 1\n", world=world, camera="ray").events[0]
     assert isinstance(begun, RunStarted)
     assert begun.world == world.spec
+
+
+def test_the_folder_of_a_run_is_to_the_byte_that_of_the_command_line(
+    command: Command, tmp_path: Path
+) -> None:
+    plan = handeye.plan(SCRIPT).save(tmp_path / "a.plan.json")
+    words = ("--seed", "3", "--camera", "ray", "--judge", "--out", str(tmp_path / "typed"))
+    code, _, _ = command("run", str(plan), *words)
+    run = handeye.assemble(3, script=plan, camera="ray", out=tmp_path / "called")
+    left = [contents(tmp_path / name) for name in ("typed", "called")]
+    assert (code, run.result.exit_code) == (3, 3)
+    assert left[0] == left[1]
+    assert {"plan.json", "events.jsonl", "trace.mcap", "result.json", "pictures"} <= {*left[0]}
+
+
+def contents(folder: Path) -> dict[str, object]:
+    """What is in the folder of a run, but for the host's seconds."""
+    found: dict[str, object] = {
+        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else b""
+        for path in sorted(folder.rglob("*"))
+    }
+    result = json.loads(found.pop("result.json"))
+    host = [
+        name
+        for name in result["timing"]
+        if name.endswith(("_cpu_s", "_wall_s")) or name == "real_time_factor"
+    ]
+    for name in host:
+        del result["timing"][name]
+    return {**found, "host.json": b"", "result.json": result}
