@@ -21,6 +21,7 @@ FOUNDATIONS = {
     "diagnostics",
     "errors",
     "files",
+    "folders",
     "resources",
     "variation",
     "distributions",

@@ -29,7 +29,7 @@ EXAMPLES |= {
     "result.json",
     "plan.json",
 }
-EXAMPLES |= {"FILE.toml", "languages.toml"}
+EXAMPLES |= {"FILE.toml", "languages.toml", "scene.xml"}
 """Files that an example, a user or a run makes."""
 ELSEWHERE = (".venv/", "stanford/")
 """What the first start makes; names in the scene, which look like paths."""

@@ -21,8 +21,6 @@ BUILDING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["build"
 TESTING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["dev"]]
 PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
 """Packages whose modules have other names."""
-NOT_IMPORTED = {"trimesh"}
-"""Only the tests measure with it so far."""
 
 
 def locked(name: str) -> set[tuple[str, str]]:
@@ -64,7 +62,7 @@ def test_what_the_package_imports_and_what_it_asks_for_are_the_same() -> None:
     imported = {name.split(".")[0] for m in modules for name in imports(m.read_text("utf-8"), m.stem)}
     foreign = imported - sys.stdlib_module_names - {"handeye"}
     asked = {canonicalize_name(wanted.name) for wanted in DEPENDENCIES}
-    assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked - NOT_IMPORTED
+    assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked
 
 
 @pytest.mark.parametrize(

@@ -70,8 +70,7 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
     Args:
         newest: its newest checkpoint.
     """
-    state = None if newest.snapshot is None else newest.snapshot.state
-    if state is None or state.at is not None or state.stopped is not None or not (path / RESULT).exists():
+    if not newest.ended or not (path / RESULT).exists():
         return False
     try:
         result, _ = read_result(path / RESULT)

@@ -41,6 +41,12 @@ class Checkpoint(Record, frozen=True, kw_only=True):
         return -1 if self.snapshot is None else self.snapshot.position
 
     @property
+    def ended(self) -> bool:
+        """The plan has come to its end: no step is left, and no call of the operator stands."""
+        state = None if self.snapshot is None else self.snapshot.state
+        return state is not None and state.at is None and state.stopped is None
+
+    @property
     def touched(self) -> bool:
         """Somebody has interfered: an experiment, or an answer of the operator."""
         return interfered(self.events)

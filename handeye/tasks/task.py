@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from handeye.arm.model import ArmModel, digest
+from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.judge.finding import Findings
@@ -59,6 +60,15 @@ class Count:
 Trial = Callable[[int, WorldSpec, str, str], Count]
 """Tries one thing in some number of worlds, beginning with one; pictures made so (`auto`, `gl`, `ray`), by a camera of
 which the program knows so much (`true`, `drawn`, `calibrated`)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExportedScene:
+    """A scene for other programs."""
+
+    spec: mujoco.MjSpec
+    about: str
+    """Its names, and what of it differs from the cell: a piece of Markdown."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,6 +125,17 @@ class Task(ABC):
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
         """Findings of the referee on the finished work. The cell is not touched."""
+
+    def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
+        """The scene of a world as a truth of its cell has it, for other programs.
+
+        Args:
+            keyframe: name of the last keyframe, which is that truth.
+
+        Raises:
+            InvalidInput: this task exports none.
+        """
+        raise InvalidInput(f"the task {quoted(self.name)} exports no scene")
 
     def check_arm(self, plan: Plan) -> None:
         """See that a plan was made for the arm of this task.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from handeye.arm.robots.stanford import STANFORD
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture
-from handeye.tasks.task import Count, Eye, Period, Task, Words
+from handeye.tasks.task import Count, ExportedScene, Eye, Period, Task, Words
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
@@ -61,6 +61,11 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.cell import build_cell
 
         return build_cell(PumpWorld.draw(spec), camera=camera)
+
+    def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
+        from handeye.tasks.water_pump.exported import exported
+
+        return exported(PumpWorld.draw(world), truth, keyframe)
 
     def judge(self, truth: Truth) -> Findings:
         from handeye.tasks.water_pump.referee import judge

@@ -121,6 +121,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
         above=d("base.screw_holes.chamfer"),
     )  # fmt: skip
     shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "bore")
+    shaper.hole(body, f"base_hole{number}", (x, y, top), tap.radius)
     shaper.box(body, "base_land", (x - 0.008, y - 0.008, top - 0.010), (x + 0.008, y + 0.008, top))
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
     carrier.gravcomp = (

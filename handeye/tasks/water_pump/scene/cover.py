@@ -21,8 +21,9 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     # The moments are those of the mass that the contacts need, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
     hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
-    for px, py in screw_holes(len(world.holes)):
+    for number, (px, py) in enumerate(screw_holes(len(world.holes))):
         shaper.ring(body, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
+        shaper.hole(body, f"gasket_hole{number}", (px, py, thick), hole.radius)
         shaper.box(body, "gasket_land", (px - 0.005, py - 0.005, 0.0), (px + 0.005, py + 0.005, thick))
     half = d("gasket.web") / 2
     low, high = (web_centre() - half, -0.011, 0.0), (web_centre() + half, 0.011, thick)
@@ -55,8 +56,9 @@ def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, screws: int
         radius=d("top.screw_hole_radius"), outer=0.0095, height=flange,
         above=d("top.chamfer_above"), below=d("top.chamfer_below"),
     )  # fmt: skip
-    for x, y in screw_holes(screws):
+    for number, (x, y) in enumerate(screw_holes(screws)):
         shaper.ring(body, "top_hole", hole, (x, y, 0.0), lambda _: "bore")
+        shaper.hole(body, f"top_hole{number}", (x, y, flange), hole.radius)
         shaper.box(body, "seat", (x - 0.007, y - 0.007, 0.0), (x + 0.007, y + 0.007, flange))
         shaper.box(body, "top_land", (x - 0.008, y - 0.008, 0.0), (x + 0.008, y + 0.008, 0.006))
     x2 = d("base.large_hole_2.x")

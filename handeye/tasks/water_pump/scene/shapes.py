@@ -12,6 +12,8 @@ from handeye.cell.looks import BOX, CYLINDER, MESH
 from handeye.pose import Array
 
 Vector = Sequence[float]
+_MARK = 1e-4
+"""Half the height of the disc that marks a hole, m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,6 +98,10 @@ class Shaper:
                 body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn)
             )
         return wedges
+
+    def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
+        """Mark a hole: a site on its axis at the upper face (m), whose first size is the hole's radius."""
+        body.add_site(name=name, type=CYLINDER, pos=mouth, size=[radius, _MARK, 0.0], group=5)
 
     def look(
         self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],

@@ -1,0 +1,61 @@
+"""The state of a simulation as a part of its scene: what stood somewhere then stands there in the scene's files."""
+
+from collections.abc import Mapping
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.pose import Pose, inverse, pose
+
+FREE: Final = mujoco.mjtJoint.mjJNT_FREE
+HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE
+
+
+def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> None:
+    """Let a scene stand as a simulation of it does, and keep that as its last keyframe.
+
+    It stands so from the beginning too, so that a viewer that loads no keyframe shows the same.
+
+    Args:
+        spec: of the simulated scene, or of one that lacks some of its bodies.
+        elsewhere: `X_WP` of free bodies that are elsewhere than in the simulation, and at rest there.
+    """
+    for body in spec.bodies:
+        if body.joints:
+            _stand(body, data, elsewhere.get(body.name))
+    model = spec.compile()
+    spec.add_key(
+        name=name,
+        time=data.time,
+        qpos=model.qpos0.tolist(),
+        qvel=_rates(model, data, elsewhere),
+        ctrl=[data.actuator(model.actuator(number).name).ctrl[0] for number in range(model.nu)],
+    )
+
+
+def body_pose(data: mujoco.MjData, name: str) -> Pose:
+    """`X_WP` of a body."""
+    body = data.body(name)
+    return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())
+
+
+def _stand(body: mujoco.MjsBody, data: mujoco.MjData, elsewhere: Pose | None) -> None:
+    """Put a body with joints where it stands; where the joints are now is where they begin."""
+    X_WP = body_pose(data, body.name) if elsewhere is None else elsewhere
+    X = inverse(body_pose(data, body.parent.name)) @ X_WP
+    body.pos = X[:3, 3]
+    mujoco.mju_mat2Quat(body.quat, X[:3, :3].ravel())
+    for joint in body.joints:
+        if joint.type != FREE:
+            at = float(data.joint(joint.name).qpos[0])
+            joint.ref = np.degrees(at) if joint.type == HINGE and joint.compiler.degree else at
+
+
+def _rates(model: mujoco.MjModel, data: mujoco.MjData, elsewhere: Mapping[str, Pose]) -> list[float]:
+    rates: list[float] = []
+    for number in range(model.njnt):
+        joint = data.joint(model.joint(number).name)
+        resting = model.body(model.jnt_bodyid[number]).name in elsewhere
+        rates += [0.0] * len(joint.qvel) if resting else joint.qvel.tolist()
+    return rates

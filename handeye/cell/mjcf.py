@@ -1,0 +1,109 @@
+"""A scene as files that plain MuJoCo opens: XML with every figure in full, meshes as OBJ, textures as PNG."""
+
+import ctypes
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Final
+
+import cv2
+import mujoco
+import numpy as np
+import trimesh
+
+from handeye.errors import InvalidInput
+
+SCENE: Final = "scene.xml"
+MESHES: Final = "meshes"
+TEXTURES: Final = "textures"
+_ALL: Final = 17
+"""Digits that tell any two figures apart."""
+_FIGURE: Final = re.compile(r'(?<=[\s"])-?\d+(?:\.\d+(?:e[-+]\d+)?|e[-+]\d+)(?=[\s"])')
+_DIGITS: Final = 10
+"""Places of a vertex, m: finer than the single precision that MuJoCo keeps it in."""
+
+
+def mjcf_files(spec: mujoco.MjSpec, mark: str, told: Mapping[str, str]) -> dict[str, bytes]:
+    """The files of a scene by their names in its folder.
+
+    Meshes and textures of the specification become files: it is changed.
+
+    Args:
+        mark: the first line of the XML, a comment.
+        told: texts by their names, for `<custom>`.
+
+    Raises:
+        InvalidInput: this MuJoCo cannot write figures in full.
+    """
+    for name, text in told.items():
+        spec.add_text(name=name, data=text)
+    assets = {**_meshes(spec), **_textures(spec)}
+    spec.assets = assets
+    with _in_full():
+        xml = spec.to_xml()
+    return {SCENE: f"<!-- {mark} -->\n{_FIGURE.sub(_short, xml)}".encode(), **assets}
+
+
+def mesh_of(mesh: mujoco.MjsMesh) -> trimesh.Trimesh:
+    """A mesh of a specification, m; of one that is points only, their hull."""
+    points = np.array(mesh.uservert).reshape(-1, 3)
+    if not len(mesh.userface):
+        hull: trimesh.Trimesh = trimesh.Trimesh(points).convex_hull
+        return hull
+    return trimesh.Trimesh(points, np.array(mesh.userface).reshape(-1, 3), process=False)
+
+
+def _meshes(spec: mujoco.MjSpec) -> dict[str, bytes]:
+    files = {}
+    for mesh in spec.meshes:
+        shape = mesh_of(mesh)
+        mesh.uservert, mesh.userface, mesh.file = [], [], f"{MESHES}/{mesh.name}.obj"
+        files[mesh.file] = _obj(shape).encode()
+    return files
+
+
+def _obj(shape: trimesh.Trimesh) -> str:
+    text = shape.export(
+        file_type="obj", digits=_DIGITS, header=None, include_normals=False, include_color=False, include_texture=False
+    )  # fmt: skip
+    assert isinstance(text, str)
+    return text
+
+
+def _textures(spec: mujoco.MjSpec) -> dict[str, bytes]:
+    files = {}
+    for texture in spec.textures:
+        size = (texture.height, texture.width, texture.nchannel)
+        pixels = np.frombuffer(texture.data, dtype=np.uint8).reshape(size)
+        done, data = cv2.imencode(".png", pixels[:, :, ::-1])
+        assert done
+        texture.data, texture.file = b"", f"{TEXTURES}/{texture.name}.png"
+        files[texture.file] = data.tobytes()
+    return files
+
+
+@contextmanager
+def _in_full() -> Iterator[None]:
+    """While figures are written in full. MuJoCo has a setting for it, and no name for that setting in Python."""
+    try:
+        (library,) = Path(mujoco.__file__).parent.glob("*mujoco.[0-9ds]*")
+        functions = ctypes.CDLL(str(library))
+        before = functions._mjPRIVATE__get_xml_precision()
+        functions._mjPRIVATE__set_xml_precision(_ALL)
+    except (ValueError, OSError, AttributeError):
+        raise InvalidInput(
+            f"MuJoCo {mujoco.__version__} writes figures to six places only, which is too coarse for a scene"
+        ) from None
+    try:
+        yield
+    finally:
+        functions._mjPRIVATE__set_xml_precision(before)
+
+
+def _short(figure: re.Match[str]) -> str:
+    """The shortest text of a figure: as a double, or in single precision if it is no finer than that."""
+    value = float(figure[0])
+    single = np.float32(value)
+    text = str(single) if float(single) == value else repr(value)
+    return text.removesuffix(".0")

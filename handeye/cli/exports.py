@@ -1,0 +1,69 @@
+"""Commands that hand worlds, and what runs have left, to other programs."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import note, say
+from handeye.cli.world_options import ANY_WORLD, WorldOptions
+from handeye.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from handeye.runs.exhibit import Exhibit
+
+Run = Annotated[
+    Path, Parameter(help="The folder of a run, or a checkpoint; without one, a world as it is drawn.")
+]
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    export = App(name="export", help="Hand a world, or what a run has left, to other programs.")
+    for command in (mjcf,):
+        export.command(command)
+    app.command(export)
+
+
+def mjcf(
+    run: Run | None = None,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")],
+    overwrite: Annotated[bool, Parameter(help="Replace the export that is in the folder.")] = False,
+    world: WorldOptions = ANY_WORLD,
+) -> int:
+    """Write a scene that plain MuJoCo opens: scene.xml, its meshes and textures, and a README.
+
+    Exit code 0: it is written; 2: bad input.
+    """
+    from handeye.folders import check_folder, write_folder
+    from handeye.report.exported_scene import EXPORT, scene_files, shows
+
+    check_folder(output, EXPORT, overwrite=overwrite)
+    exhibit = _exhibit(run, world)
+    write_folder(output, scene_files(exhibit))
+    say(f"{output}: {shows(exhibit)}")
+    return 0
+
+
+def _exhibit(run: Path | None, world: WorldOptions) -> "Exhibit":
+    """What is to be exported; a note says what is wrong with it.
+
+    Raises:
+        InvalidInput: there is no such run or world.
+    """
+    from handeye.runs.exhibit import drawn, kept
+
+    if run is None:
+        return drawn(world.spec)
+    if world != ANY_WORLD:
+        raise InvalidInput(
+            f"{run} brings its own world; --seed, --level, --without and --set do not go with it"
+        )
+    exhibit, faults = kept(run)
+    for fault in faults:
+        note(f"left out: {fault}")
+    if exhibit.moment == "unfinished":
+        note(f"the run in {run} is not finished")
+    return exhibit

@@ -1,0 +1,78 @@
+"""The pump's cell as other programs are given it: things by people's names, screws where they are, no mechanisms.
+
+In the cell a screw in its thread is a carrier, and the screw itself lies on a tray below the floor
+(`tasks/water_pump/threads.py`). Here it is the screw that is in its hole: it is where the carrier is, welded to the
+base. Carriers, tray, and what couples the driver's motor to a carrier are left out.
+"""
+
+from collections.abc import Iterator
+from typing import Final
+
+import mujoco
+
+from handeye.cell.keyframe import add_keyframe, body_pose
+from handeye.cell.truth import Truth
+from handeye.pose import Pose, inverse
+from handeye.resources import scenes
+from handeye.tasks.task import ExportedScene
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene import specification
+from handeye.tasks.water_pump.threads import holes_of
+
+RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
+"""Names of the scene, and what is exported by another: joints, too, have the names of their bodies."""
+_MECHANISMS: Final = {
+    "actuators": ("drive",),
+    "equalities": ("thread", "merge_"),
+    "bodies": ("carrier",),
+    "sites": ("park",),
+    "geoms": ("tray",),
+}
+"""What only makes threads and clamping work, by kind and by how its names begin: what needs others comes first."""
+
+
+def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
+    """The scene of a world as a truth of its cell has it; arguments are those of `Task.exported`."""
+    model, data = truth.copy()
+    spec = specification(world)
+    model.eq_data[:] = spec.compile().eq_data  # of bonds that are left out
+    spec.copy_back(model)
+    threaded = dict(_threaded(truth, data))
+    for kind, names in _MECHANISMS.items():
+        for thing in [thing for thing in getattr(spec, kind) if thing.name.startswith(names)]:
+            spec.delete(thing)
+    for screw, X_WS in threaded.items():
+        _weld(spec, screw, inverse(body_pose(data, "base")) @ X_WS)
+    add_keyframe(spec, keyframe, data, threaded)
+    _rename(spec)
+    about = (scenes() / "water_pump" / "exported.md").read_text(encoding="utf-8")
+    return ExportedScene(spec=spec, about=about)
+
+
+def _threaded(truth: Truth, data: mujoco.MjData) -> Iterator[tuple[str, Pose]]:
+    """The screws that are in their threads, and `X_WS` of each."""
+    for hole, thread in enumerate(holes_of(truth)):
+        if thread.screw is not None:
+            yield f"screw{thread.screw}", body_pose(data, f"carrier{hole}")
+
+
+def _weld(spec: mujoco.MjSpec, screw: str, X_BS: Pose) -> None:
+    """Hold a screw in its hole, where its thread and the wedges around the hole overlap."""
+    weld = spec.add_equality(
+        name=f"{screw}_in_thread", type=mujoco.mjtEq.mjEQ_WELD, objtype=mujoco.mjtObj.mjOBJ_BODY,
+        name1="base", name2=screw, solref=[0.004, 1.0], solimp=[0.99, 0.999, 0.0001, 0.5, 2.0],
+    )  # fmt: skip
+    weld.data[:3] = 0.0
+    weld.data[3:6] = X_BS[:3, 3]
+    mujoco.mju_mat2Quat(weld.data[6:10], X_BS[:3, :3].ravel())
+    weld.data[10] = 1.0
+    spec.add_exclude(name=f"{screw}_in_base", bodyname1="base", bodyname2=screw)
+
+
+def _rename(spec: mujoco.MjSpec) -> None:
+    things = [thing for kind in (spec.bodies, spec.joints) for thing in kind if thing.name in RENAMED]
+    names = [RENAMED[thing.name] for thing in things]
+    for thing in things:
+        thing.name = f"{thing.name} of the scene"  # two must never have one name
+    for thing, name in zip(things, names, strict=True):
+        thing.name = name
