@@ -53,7 +53,7 @@ UNITS: Final = {
 }
 """Units by name; the last is that of a plain number."""
 
-_WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.IGNORECASE)
+_WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.IGNORECASE | re.ASCII)
 
 
 def split_value(text: str) -> tuple[float, str] | None:

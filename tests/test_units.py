@@ -37,6 +37,12 @@ def test_a_value_as_people_write_it_has_its_size_in_si(written: str, size: float
     assert number * unit_named(word).size == pytest.approx(size)
 
 
+@pytest.mark.parametrize("written", ["٣", "٣ mm", "1e٣", "", "mm", "nan"])
+def test_a_value_begins_with_a_number_in_ascii_digits(written: str) -> None:
+    found = split_value(written)
+    assert found is None or unit_named(found[1]) is None
+
+
 def test_a_turn_a_minute_is_a_sixtieth_of_a_turn_a_second() -> None:
     assert pytest.approx(2 * math.pi) == 60 * units.RPM
 

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from operator import index
 from pathlib import Path
 
+from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 
 
@@ -22,7 +23,19 @@ def given_file(given: object, what: str) -> Path:
     name = os.fspath(given)
     if not isinstance(name, str) or not name:
         raise InvalidInput(f"{what}, not {given!r}")
+    _check_name(name)
     return Path(name)
+
+
+def _check_name(name: str) -> None:
+    """Raises InvalidInput if no file can have this name: it is too long, or has a NUL in it."""
+    try:
+        os.lstat(name)
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InvalidInput(f"{quoted(name)} cannot be used as a file: {reason}") from None
 
 
 def given_names(given: object, what: str) -> tuple[str, ...]:

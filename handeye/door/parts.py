@@ -98,7 +98,9 @@ def _checked_camera(camera: Callable[[mujoco.MjModel], PictureMaker]) -> Rendere
 
 
 def _checked_findings(findings: object) -> Findings:
-    if not isinstance(findings, Mapping) or not all(isinstance(each, Finding) for each in findings.values()):
+    if not isinstance(findings, Mapping) or not all(
+        isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
+    ):
         raise InvalidInput(f"a referee must give findings by their names, not {findings!r}")
     return findings
 

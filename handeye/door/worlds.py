@@ -47,7 +47,7 @@ class World:
             InvalidInput: there is no such seed, level, quantity, unit or value; the nearest name is told.
         """
         number = checked_seed(seed)
-        if level not in SPREADS:
+        if not isinstance(level, str) or level not in SPREADS:
             raise InvalidInput(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
         if not isinstance(set, Mapping | None):
             raise InvalidInput(f"`set` is a table of values by the names of quantities, not {set!r}")
@@ -99,6 +99,8 @@ class World:
 
     def _quantity(self, name: str) -> str:
         """The name of one quantity."""
+        if not isinstance(name, str):
+            raise InvalidInput(f"a quantity is given by its name, not {name!r}")
         if name not in self._table.quantities:
             group = [quantity.name for quantity in self._table.select(name)]
             raise InvalidInput(f"`{name}` is a group of quantities: {', '.join(group)}")

@@ -31,6 +31,8 @@ class LimitedReferee:
         """Raises InvalidInput if a limit is no number."""
         self._limits, self._task = dict(limits), task
         for name, limit in self._limits.items():
+            if not isinstance(name, str):
+                raise InvalidInput(f"limits are given by the names of findings, not by {name!r}")
             if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
                 raise InvalidInput(f"the limit of {name} must be a number, not {limit!r}")
         said = ", ".join(f"{name}={limit:g}" for name, limit in self._limits.items())

@@ -1,5 +1,6 @@
 """Results on disk, those of an older handeye brought up to date as far as they go."""
 
+from math import nan
 from pathlib import Path
 from typing import Any, Final
 
@@ -49,6 +50,7 @@ def _bring_up_to_date(result: dict[str, Any]) -> tuple[str, ...]:
             missing.append(name)
     checks = result.get("referee")
     for check in checks.values() if isinstance(checks, dict) else ():
+        _restore_figures(check)
         _complete(check)
     timing = result.get("timing")
     return (*missing, *(_retimed(timing) if isinstance(timing, dict) else ()))
@@ -65,6 +67,13 @@ def _retimed(timing: dict[str, Any]) -> tuple[str, ...]:
     timing["working_s"] = sum(part for part in parts if isinstance(part, int | float))
     timing.update(dict.fromkeys(_ADDED))
     return _ADDED
+
+
+def _restore_figures(check: Any) -> None:
+    """Give a finding the figures back that JSON has no numbers for: what is not finite is null there."""
+    for name in ("value", "limit"):
+        if isinstance(check, dict) and name in check and check[name] is None:
+            check[name] = nan
 
 
 def _complete(check: Any) -> None:

@@ -1,5 +1,7 @@
 """The result of a run: one record, printed as a page or as one JSON object."""
 
+from typing import Literal
+
 import msgspec
 from msgspec import UNSET, UnsetType
 
@@ -7,12 +9,15 @@ from handeye.judge.finding import Relation
 from handeye.record import Record
 from handeye.variation import WorldSpec
 
+Status = Literal["done", "under way", "skipped", "stopped", "not reached"]
+"""How far a stage has come."""
+
 
 class Stage(Record, frozen=True, kw_only=True):
     """A stage of the program; `arm_s` is simulated seconds without those of the camera's mechanism."""
 
     name: str
-    status: str
+    status: Status
     arm_s: float
 
 
@@ -50,6 +55,7 @@ class Check(Record, frozen=True, kw_only=True):
     ok: bool
     subject: str
     value: float
+    """In `unit`, as `limit`; null in JSON: it is not finite."""
     relation: Relation
     limit: float
     unit: str

@@ -15,7 +15,7 @@ from handeye.events import (
 from handeye.judge.finding import Finding, Findings, all_right
 from handeye.ports.camera import Renderer
 from handeye.report.pauses import pause_sentence
-from handeye.report.result import CameraReport, Check, Result, Stage, Timing
+from handeye.report.result import CameraReport, Check, Result, Stage, Status, Timing
 from handeye.runs.advance import Pause
 from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.programs import context_of
@@ -83,7 +83,7 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
 def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
     """Status and arm time of each stage: simulated seconds without those of the camera's mechanism."""
     seconds = dict.fromkeys(names, 0.0)
-    status = dict.fromkeys(names, "not reached")
+    status: dict[str, Status] = dict.fromkeys(names, "not reached")
     here, begun, busy, now = "", 0.0, 0.0, 0.0
     for event in events:
         now = event.time

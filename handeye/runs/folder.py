@@ -58,7 +58,8 @@ class RunFolder(Observer):
         self.path = path
         self.kept = CheckpointStore(path / CHECKPOINTS)
         self._made = made
-        self._begun = self._closed = False
+        self._closed = False
+        self._first: Path | None = None  # the checkpoint that the run begins with, once it is written
         self._runner: Runner | None = None
         self._journal: Journal | None = None
         self._recorder: Recorder | None = None
@@ -97,13 +98,12 @@ class RunFolder(Observer):
         Raises:
             InvalidInput: the folder cannot be written to.
         """
-        self._begun = True
         self.kept.drop_after(-1)
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, kind_of(start.setup).encode(start.setup.plan))
-        self.kept.save(start)
+        self._first = self.kept.save(start)
 
     def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
         """A recorder that goes on after these events."""
@@ -186,9 +186,9 @@ class RunFolder(Observer):
 
     def discard(self) -> None:
         """Remove what `open_new` has made, if the run has not begun."""
-        if self._runner is not None or not self._begun:
+        if self._runner is not None or self._first is None:
             return
-        for path in (self.path / PLAN, self.path / CHECKPOINTS / "start.checkpoint"):
+        for path in (self.path / PLAN, self._first):
             path.unlink(missing_ok=True)
         for folder in self._made:
             if not any(folder.iterdir()):

@@ -74,7 +74,7 @@ def plan_script(file: Path, known: Taught | None = None, work: Task | None = Non
 
 def plan_text(text: str, known: Taught, work: Task) -> "PlannedScript":
     """Compile and plan a text; the files that it requires are looked for where this program runs."""
-    source = sewn(Source(name=UNNAMED, text=text), lambda key: read_source(key).text)
+    source = sewn(Source(name=UNNAMED, text=text.removeprefix("\ufeff")), lambda key: read_source(key).text)
     return planned(source, known, work, AL)
 
 

@@ -48,6 +48,8 @@ def task(name: str = DEFAULT) -> Task:
     Raises:
         InvalidInput: there is none such.
     """
+    if not isinstance(name, str):
+        raise InvalidInput(f"a task is given by its name, not {name!r}")
     if name in _REGISTERED:
         return _REGISTERED[name]
     if name not in _BUILT_IN:

@@ -103,6 +103,12 @@ def test_a_run_is_taken_up_with_the_code_it_was_begun_with(
     assert offsets(run) == [(1, 0), (2, 0), (3, 0), (4, 0)]
 
 
+def test_a_run_that_is_not_taken_up_leaves_no_folder(searched: handeye.Run, tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match=r"^the run has a search of its own, "):
+        handeye.begin(searched.out, out=tmp_path / "again")
+    assert [*tmp_path.iterdir()] == []
+
+
 def test_a_run_with_code_of_its_own_is_not_verified(searched: handeye.Run, tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match=r"^the run has a search of its own, "):
         difference(searched.trace, tmp_path / "again")
@@ -181,6 +187,7 @@ def test_a_referee_of_ones_own_has_the_word() -> None:
             {"referee": {"screws_clmp": 3}},
             r"^the referee has no finding `screws_clmp`; did you mean `screws_clamp`\?$",
         ),
+        ({"referee": {3: 3}}, r"^limits are given by the names of findings, not by 3$"),
         ({"referee": {"screws_clamp": "x"}}, r"^the limit of screws_clamp must be a number, not 'x'$"),
     ],
 )
@@ -189,10 +196,9 @@ def test_what_is_no_part_is_told_in_one_sentence(words: dict[str, object], sente
         handeye.begin("OPEN 1\n", **{"camera": "ray", **words})
 
 
-def test_a_referee_that_finds_nothing_that_is_a_finding_is_told() -> None:
-    run = handeye.begin("OPEN 1\n", camera="ray", referee=lambda truth: {"height": 3})
+@pytest.mark.parametrize("wrong", [{"height": 3}, {3: handeye.at_most(1, 2, "mm", "height")}, 3])
+def test_a_referee_that_finds_nothing_that_is_a_finding_is_told(wrong: object) -> None:
+    run = handeye.begin("OPEN 1\n", camera="ray", referee=lambda truth: wrong)
     run.until()
-    with pytest.raises(
-        InvalidInput, match=r"^a referee must give findings by their names, not \{'height': 3\}$"
-    ):
+    with pytest.raises(InvalidInput, match=r"^a referee must give findings by their names, not "):
         run.result  # noqa: B018

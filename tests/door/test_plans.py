@@ -1,5 +1,6 @@
 """A script becomes a plan that shows itself; its mistakes are values."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -85,6 +86,21 @@ def test_the_page_of_a_plan_has_a_row_a_stage_and_its_warnings(plan: handeye.Pla
 def test_what_is_no_script_is_refused_in_one_sentence(wrong: object) -> None:
     with pytest.raises(InvalidInput, match=r"^a script is a file or a text, not "):
         handeye.plan(wrong)
+
+
+@pytest.mark.parametrize("name", ["a" * 5000, "a\0b"])
+@pytest.mark.parametrize(
+    "use", [handeye.plan, handeye.open, lambda name: handeye.plan("OPEN 1\n").save(name)]
+)
+def test_a_name_that_no_file_can_have_is_refused_in_one_sentence(
+    name: str, use: Callable[[str], object]
+) -> None:
+    with pytest.raises(InvalidInput, match=r"^[^\n]* cannot be used as a file: [^\n]*$"):
+        use(name)
+
+
+def test_a_byte_order_mark_is_no_part_of_a_text(plan: handeye.Plan) -> None:
+    assert handeye.plan("\ufeffOPEN 1\n") == handeye.plan("OPEN 1\n")
 
 
 def test_a_line_without_an_end_is_the_name_of_a_file() -> None:

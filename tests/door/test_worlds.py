@@ -40,6 +40,7 @@ def test_the_page_of_a_world_has_a_row_a_quantity() -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
+        ({"level": ["high"]}, r"^there is no level \['high'\]; there are "),
         ({"level": "hihg"}, r"^there is no level 'hihg'; there are low, nominal, high$"),
         (
             {"without": ["arm.ofset"]},
@@ -64,5 +65,7 @@ def test_what_is_no_world_is_told_in_one_sentence(words: dict[str, object], sent
 def test_a_quantity_is_found_by_its_whole_name() -> None:
     with pytest.raises(InvalidInput, match=r"did you mean `arm\.offset"):
         handeye.World()["arm.offest.3"]
+    with pytest.raises(InvalidInput, match=r"^a quantity is given by its name, not 3$"):
+        handeye.World()[3]
     with pytest.raises(InvalidInput, match=r"^`arm\.offset` is a group of quantities: arm\.offset\.1, "):
         handeye.World()["arm.offset"]

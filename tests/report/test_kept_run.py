@@ -3,8 +3,10 @@
 import json
 import shutil
 from collections.abc import Callable, Iterator
+from math import inf, isnan, nan
 from pathlib import Path
 
+import msgspec
 import pytest
 from toy_system import begin_toy
 
@@ -12,7 +14,7 @@ from handeye.errors import InvalidInput
 from handeye.report.finishing import finished
 from handeye.report.kept_result import read_result
 from handeye.report.kept_run import has_ended, kept_run
-from handeye.report.result import to_json
+from handeye.report.result import Check, to_json
 from handeye.runs.advance import advance
 from handeye.runs.folder import EVENTS, HOST, PLAN, RESULT, open_again, open_new
 from handeye.runs.host_seconds import HostSeconds, Meter
@@ -138,6 +140,9 @@ DAMAGE: dict[str, tuple[str, Damage]] = {
         (run / EVENTS).read_bytes().replace(b'"stage":"count"', b'"stage":"moon"'))),
     "a damaged result": ("is not the result of a run", lambda run: (run / RESULT).write_bytes(b"{}")),
     "no result at all": ("is not the result of a run", lambda run: (run / RESULT).write_bytes(b"[" * 90_000)),
+    "a stage of no status": ("Invalid enum value 'lost'", lambda run: (run / RESULT).write_text(
+        json.dumps(OLD | {"stages": [{"name": "look", "status": "lost", "arm_s": 1.5}]}), encoding="utf-8"
+    )),
     "a folder": ("is a directory, not a file", lambda run: (run / RESULT).mkdir()),
 }  # fmt: skip
 
@@ -164,6 +169,16 @@ OLD = {
     "camera": {"renderer": "none", "sightings_rms_px": {}, "residual_in": None}, "versions": {},
 }  # fmt: skip
 """A result as an older handeye wrote it."""
+
+
+def test_a_finding_that_is_not_finite_is_shown_and_its_run_is_over(ended: Path) -> None:
+    words = {"subject": "gap", "relation": "at most", "unit": "mm", "sentence": "gap"}
+    found = {"gap": Check(ok=False, value=nan, limit=inf, **words)}
+    result = msgspec.structs.replace(kept_run(ended).result, assembled=False, referee=found)
+    (ended / RESULT).write_bytes(to_json(result))
+    kept = kept_run(ended).result.referee["gap"]
+    assert (kept.ok, isnan(kept.value), isnan(kept.limit)) == (False, True, True)
+    assert has_ended(ended, open_again(ended)[1], judged=True)
 
 
 def test_the_result_of_an_older_handeye_is_read_and_what_it_lacks_is_named(tmp_path: Path) -> None:

@@ -41,6 +41,12 @@ def test_an_unknown_task_is_refused_with_the_nearest_name(
         task(name)
 
 
+@pytest.mark.parametrize("wrong", [None, 3, ["water_pump"]])
+def test_what_is_no_name_of_a_task_is_refused(wrong: object) -> None:
+    with pytest.raises(InvalidInput, match=r"^a task is given by its name, not "):
+        task(wrong)
+
+
 def test_a_run_of_a_task_that_is_not_there_is_refused() -> None:
     start = begin("OPEN 1")
     setup = msgspec.structs.replace(start.setup, task="water_pmup")
