@@ -1,5 +1,6 @@
 """A finished pump, put together by decree: for tests of what looks at it afterwards."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 
@@ -48,6 +49,12 @@ def threads_of(cell: SimulatedCell) -> Threads:
 
 def tighten(cell: SimulatedCell, hole: int) -> None:
     """Let a screw take its thread just under its head's full depth, and turn it home with a wrench."""
+    for _ in tightening(cell, hole):
+        pass
+
+
+def tightening(cell: SimulatedCell, hole: int) -> Iterator[SimulatedCell]:
+    """The same a servo period at a time: the cell at the end of each."""
     size, threads, truth = dimensions(), threads_of(cell), cell.truth
     seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
     threads._take(hole, hole, depth=seated - 1e-4)
@@ -56,6 +63,7 @@ def tighten(cell: SimulatedCell, hole: int) -> None:
         truth.data.qfrc_applied[dof] = -TIGHTENING if period < 20 else 0.0
         threads._rub(hole)
         tick(cell.devices)
+        yield cell
 
 
 @cache
