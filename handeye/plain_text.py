@@ -1,6 +1,11 @@
-"""Small pieces of text for people: what may be shown on a terminal, and counts with their nouns."""
+"""Small pieces of text for people: what may be shown on a terminal, counts with their nouns, and numbers."""
 
 import textwrap
+from collections.abc import Sequence
+from typing import Final
+
+_MORE: Final = 6
+"""Decimals that are spent on telling numbers apart."""
 
 
 def printable(text: str) -> str:
@@ -16,6 +21,15 @@ def one_line(text: str) -> str:
 def counted(number: int, noun: str) -> str:
     """`1 step`, `2 steps`"""
     return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def told_apart(numbers: Sequence[float], decimals: int) -> list[str]:
+    """Numbers that are compared, with some decimals, or as many more as it takes to tell different ones apart."""
+    for places in range(decimals, decimals + _MORE):
+        told = [f"{number:z.{places}f}" for number in numbers]
+        if len({*told}) == len({*numbers}):
+            break
+    return told
 
 
 def folded(text: str, width: int) -> str:

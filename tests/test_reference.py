@@ -1,5 +1,6 @@
 """The page of the Python names is made from their docstrings, and its first screen works."""
 
+import doctest
 import importlib.util
 import re
 from pathlib import Path
@@ -40,3 +41,11 @@ def test_the_first_screen_names_what_there_is() -> None:
         (name, member) for name, member in re.findall(r"\b(run|handeye|plan|state)\.([a-z_]+)", first)
     } - {("run", "py")}
     assert {(name, member) for name, member in named if not hasattr(held[name], member)} == set()
+
+
+def test_the_examples_of_the_first_screen_do_what_they_say() -> None:
+    blocks = re.findall(r"```python\n(>>> .*?)```", PAGE.partition("<!--")[0], re.DOTALL)
+    test = doctest.DocTestParser().get_doctest("".join(blocks), {"handeye": handeye}, "python.md", None, 0)
+    said: list[str] = []
+    assert test.examples
+    assert not doctest.DocTestRunner().run(test, out=said.append).failed, "".join(said)

@@ -53,7 +53,11 @@ def elsewhere(word: str) -> str | None:
 
 def alone(word: str) -> str | None:
     """Help for an instruction that stands there without an operand, as another language has it."""
-    return f"it modifies the motion after it; {_ENDS}" if word == "STOP" else None
+    return (
+        f"it ends the motion after it when the hand presses with so many ounces; {_ENDS}"
+        if word == "STOP"
+        else None
+    )
 
 
 def with_digits(text: str) -> str | None:

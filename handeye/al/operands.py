@@ -285,7 +285,8 @@ class _Reader(msgspec.Struct, gc=False):
     def missing(self, operand: Operand) -> Mistake:
         message = f"`{self.definition.op}` lacks its {operand.plain}"
         end = (self.tokens[-1] if self.tokens else self.head).end
-        help = self.usage() if self.tokens else alone(self.definition.op) or self.usage()
+        said = None if self.tokens else alone(self.definition.op)
+        help = self.usage() if said is None else f"{self.usage()}: {said}"
         return Mistake("missing-operand", message, Span(start=end, end=end), "it is expected here", help)
 
     def too_many(self) -> None:

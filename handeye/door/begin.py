@@ -76,7 +76,7 @@ def begin(
         ScriptError: the script has errors.
         InvalidInput: an argument cannot be used, or the run stopped before it came to the stage.
 
-    >>> run = handeye.begin("OPEN 1\\nCLOSE .5\\n", seed=3, camera="ray")
+    >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", seed=3, camera="ray")
     >>> run
     <Run script, seed 3: 0 steps done, 0.00 s, program, line 1: OPEN 1; ready>
     """

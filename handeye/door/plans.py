@@ -29,11 +29,11 @@ class Plan:
 
     In a notebook it shows its stages, how long they take, and what is doubtful about the script.
 
-    >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nCLOSE .5\\n')
+    >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nOPEN 2\\n')
     >>> plan
     <Plan script: 1 stage, 2 steps, 0 motions>
     >>> plan.stages[0].name, [step.text for step in plan.steps]
-    ('a hand', ['OPEN 1', 'CLOSE .5'])
+    ('a hand', ['OPEN 1', 'OPEN 2'])
     """
 
     record: planfile.Plan
@@ -111,7 +111,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
         ScriptError: the script has errors; they are its `diagnostics`.
         InvalidInput: a file cannot be read, or what is in it cannot be used.
 
-    >>> handeye.plan("MOVE P\\nCLOSE .5\\n", taught="[positions]\\nP = { at = [25, 38, 6, 90, 90, 0] }\\n").seconds > 1
+    >>> handeye.plan("MOVE P\\nOPEN 2\\n", taught="[positions]\\nP = { at = [25, 38, 6, 90, 90, 0] }\\n").seconds > 1
     True
     """
     if isinstance(script, Plan | planfile.Plan):

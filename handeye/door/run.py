@@ -59,6 +59,8 @@ class Run:
 
     What moves it returns the `State` in which it pauses, which says why. As a context manager it closes itself.
 
+    `CLOSE .5` asks for something at least half an inch thick: on an empty hand it calls the operator.
+
     >>> with handeye.begin("OPEN 1\\nL1: CLOSE .5\\nOPEN 2\\n", camera="ray") as run:
     ...     state = run.until("L1")
     ...     print(state.line, state.why)
@@ -142,7 +144,7 @@ class Run:
             the answer as a record; `print` shows it as the stepper does. A command that is wrong changes nothing, and
             its answer says so in `error`.
 
-        >>> run = handeye.begin("OPEN 1\\nCLOSE .5\\n", camera="ray")
+        >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> print(run.say("show gap"))
         ── stage 1, program, step 0; 0 steps done, 0.00 s
         gap       -0.002 in

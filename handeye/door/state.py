@@ -1,7 +1,7 @@
 """The state of a run that pauses, as a caller from Python sees it: SI units, arrays that nobody can change."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -26,14 +26,17 @@ class Memory:
     place: int | None
     """Number of the place that a search has come to, from 0; None if none is under way."""
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Memory) and _same(_values(self), _values(other))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class State:
-    """Where a run pauses, and how the arm stands by its own sensors.
+    """Where a run pauses, and how the arm stands by its own sensors. States are equal if all in them is.
 
-    >>> state = handeye.begin("OPEN 1\\nCLOSE .5\\n", camera="ray").step()
+    >>> state = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray").step()
     >>> state
-    <State 1 step done, 0.85 s, program, line 2: CLOSE .5; paused after 1 step>
+    <State 1 step done, 0.85 s, program, line 2: OPEN 2; paused after 1 step>
     >>> state.joints.shape, round(state.gap / 0.0254, 2)
     ((6,), 1.0)
     """
@@ -50,7 +53,7 @@ class State:
     """The required file that its line is in; empty: the script itself."""
     line: int | None
     text: str | None
-    """Its statement."""
+    """Its statement, without the `STOP` or what else modifies it."""
     why: str
     """Why the run pauses, in words."""
     joints: Array
@@ -62,6 +65,9 @@ class State:
     force: Array
     """Force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N."""
     memory: Memory
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, State) and _same(_values(self), _values(other))
 
     def __repr__(self) -> str:
         return f"<State {self}>"
@@ -107,6 +113,19 @@ def _memory(runner: Runner) -> Memory:
         parts={name: _kept(X_WP) for name, X_WP in sorted(state.world.measured.items())},
         place=None if state.search is None else state.search.count,
     )
+
+
+def _values(record: State | Memory) -> dict[str, object]:
+    return {field.name: getattr(record, field.name) for field in fields(record)}
+
+
+def _same(one: object, other: object) -> bool:
+    """Two values are equal, arrays in them number by number."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other)
+    return one == other
 
 
 def _kept(values: Array) -> Array:

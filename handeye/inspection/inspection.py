@@ -18,6 +18,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     """The required file its line is in; empty: the script itself."""
     line: int
     text: str
+    """Its statement. What modifies it is told by `conditions` (`STOP`, `FORCE`) and `depends` (`RESTORE`)."""
     operation: str
     """Its name on disk."""
     seconds: float | None
@@ -27,7 +28,7 @@ class InspectedStep(Record, frozen=True, kw_only=True):
     press: Vector3 | None
     """Force it exerts, N, table coordinates."""
     conditions: tuple[str, ...]
-    """Its guards, in words and units of the language."""
+    """What ends it and the force it exerts, in words and units of the language."""
     depends: tuple[Dependence, ...]
     error: int | None
     """The error it tests for."""

@@ -3,6 +3,7 @@
 from typing import assert_never
 
 from handeye.errors import ERRORS
+from handeye.plain_text import told_apart
 from handeye.program import causes as c
 from handeye.program.causes import Cause
 from handeye.program.guards import GuardKind
@@ -41,12 +42,14 @@ def cause_sentence(cause: Cause) -> str:
         case c.GuardsUnmet():
             return "or the moment" if GuardKind.MOMENT in cause.guards else ""
         case c.TravelOutside():
-            allowed = f"{cause.minimum / INCH:.2f} to {_inches(cause.maximum)}"
-            return f"it went {_inches(cause.travel)}; allowed: {allowed}"
+            went, least, most = _apart(cause.travel, cause.minimum, cause.maximum)
+            return f"it went {went} in; allowed: {least} to {most} in"
         case c.GapTooSmall():
-            return f"the gap is {_inches(cause.gap)}, the minimum {_inches(cause.minimum)}"
+            gap, least = _apart(cause.gap, cause.minimum)
+            return f"the gap is {gap} in, the minimum {least} in"
         case c.GapTooLarge():
-            return f"the gap is {_inches(cause.gap)}, the maximum {_inches(cause.maximum)}"
+            gap, most = _apart(cause.gap, cause.maximum)
+            return f"the gap is {gap} in, the maximum {most} in"
         case c.NothingBetween():
             return f"the fingers do not both touch anything; the gap is {_inches(cause.gap)}"
         case c.NoPicture():
@@ -107,6 +110,11 @@ def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str
         case c.GasketHoleOff():
             return f"of the gasket is off by about {_inches(fault.off)}"
     assert_never(fault)
+
+
+def _apart(*lengths: float) -> list[str]:
+    """Lengths that are compared, in inches."""
+    return told_apart([length / INCH for length in lengths], 2)
 
 
 def _inches(length: float) -> str:

@@ -74,7 +74,10 @@ class CameraReport(Record, frozen=True, kw_only=True):
 
 
 class Result(Record, frozen=True, kw_only=True):
-    """Result of a run."""
+    """Result of a run.
+
+    Equal runs have equal `events`. Their results differ, for `timing` has seconds of the host too.
+    """
 
     assembled: bool | None
     """The referee's word; None if nobody was asked."""

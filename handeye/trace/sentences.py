@@ -8,7 +8,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from handeye import events as happened
 from handeye.events import Event
-from handeye.plain_text import counted
+from handeye.plain_text import counted, told_apart
 from handeye.ports.camera import Renderer
 from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence
 from handeye.program.guards import GuardKind
@@ -139,7 +139,12 @@ def _tripped(event: happened.GuardTripped) -> str:
 
 def _beyond(said: str, si: float, unit: str) -> Callable[[happened.GuardTripped], str]:
     """A sentence with what was felt, and what it is over."""
-    return lambda event: f"{said} {event.value / si:.1f} {unit}, over {event.limit / si:.1f}"
+
+    def sentence(event: happened.GuardTripped) -> str:
+        felt, limit = told_apart([event.value / si, event.limit / si], 1)
+        return f"{said} {felt} {unit}, over {limit}"
+
+    return sentence
 
 
 def _touched(event: happened.GuardTripped) -> str:

@@ -68,6 +68,15 @@ def test_a_state_stays_as_it_was_when_the_run_goes_on(run: handeye.Run) -> None:
     assert (state.position, state.gap < run.state.gap) == (1, True)
 
 
+def test_states_are_equal_if_all_in_them_is(run: handeye.Run) -> None:
+    state = run.step()
+    run.back()
+    assert run.state != state
+    assert run.step() == state
+    assert run.state.memory == state.memory
+    assert run.step() != state
+
+
 @pytest.mark.parametrize(
     ("place", "line", "why"),
     [

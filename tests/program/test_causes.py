@@ -36,6 +36,7 @@ WORDS: list[tuple[c.Cause, str]] = [
         "it went 0.30 in; allowed: 0.10 to 0.20 in",
     ),
     (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
+    (c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0), "the gap is -0.002 in, the minimum 0.000 in"),
     (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),
     (c.NothingBetween(gap=0.1 * INCH), "the fingers do not both touch anything; the gap is 0.10 in"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
