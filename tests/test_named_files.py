@@ -31,7 +31,7 @@ EXAMPLES |= {
 }
 EXAMPLES |= {"FILE.toml", "languages.toml", "scene.xml"}
 """Files that an example, a user or a run makes."""
-ELSEWHERE = (".venv/", "stanford/")
+ELSEWHERE = (".venv/", "stanford/", "base/")
 """What the first start makes; names in the scene, which look like paths."""
 
 

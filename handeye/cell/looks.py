@@ -8,6 +8,10 @@ BOX: Final = mujoco.mjtGeom.mjGEOM_BOX
 CYLINDER: Final = mujoco.mjtGeom.mjGEOM_CYLINDER
 MESH: Final = mujoco.mjtGeom.mjGEOM_MESH
 
+SPHERE: Final = mujoco.mjtGeom.mjGEOM_SPHERE
+
+SCENERY: Final = 1
+"""Group of the shapes that stand around for people, and that the television camera does not see."""
 SEEN: Final = 2
 """Group of the shapes by which a body is seen."""
 LATENT: Final = 4

@@ -20,7 +20,7 @@ Run = Annotated[
 def register(app: App) -> None:
     """Add the commands to the command line."""
     export = App(name="export", help="Hand a world, or what a run has left, to other programs.")
-    for command in (mjcf,):
+    for command in (mjcf, glb):
         export.command(command)
     app.command(export)
 
@@ -44,6 +44,31 @@ def mjcf(
     exhibit = _exhibit(run, world)
     write_folder(output, scene_files(exhibit))
     say(f"{output}: {shows(exhibit)}")
+    return 0
+
+
+def glb(
+    run: Run | None = None,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The file, .glb.")],
+    part: Annotated[str, Parameter(help="What of it: `cell` or `pump`.")] = "cell",
+    world: WorldOptions = ANY_WORLD,
+) -> int:
+    """Write solids for programs that show or measure shapes, and check that they are closed and weigh what they should.
+
+    Exit code 0: it is written, whatever the checks found; 2: bad input.
+    """
+    from handeye.files import check_place, write_over
+    from handeye.report.exported_scene import shows
+    from handeye.report.exported_solids import GLB, checks, exported_solids
+
+    check_place(output, GLB)
+    exhibit = _exhibit(run, world)
+    exported = exported_solids(exhibit, part)
+    write_over(output, exported.file, GLB)
+    for line in (f"{output}: {part}, {shows(exhibit)}", *checks(exported)):
+        say(line)
     return 0
 
 

@@ -28,14 +28,18 @@ def scene_files(exhibit: Exhibit) -> dict[str, bytes]:
         InvalidInput: its task exports no scene, or this MuJoCo cannot write one.
     """
     scene = task(exhibit.task).exported(exhibit.world, exhibit.truth, exhibit.moment)
-    told = {
+    files = mjcf_files(scene.spec, _MARK, told(exhibit))
+    return {README: _readme(exhibit, scene.about).encode(), **files}
+
+
+def told(exhibit: Exhibit) -> dict[str, str]:
+    """What the files of an exhibit tell programs, by name."""
+    return {
         "moment": exhibit.moment,
         "shows": shows(exhibit),
         "world": msgspec.json.encode(exhibit.world).decode(),
         "handeye": HANDEYE,
     }
-    files = mjcf_files(scene.spec, _MARK, told)
-    return {README: _readme(exhibit, scene.about).encode(), **files}
 
 
 def shows(exhibit: Exhibit) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -69,6 +69,10 @@ class ExportedScene:
     spec: mujoco.MjSpec
     about: str
     """Its names, and what of it differs from the cell: a piece of Markdown."""
+    parts: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Names of the bodies of what it can be asked for by a name of its own."""
+    densities: Mapping[str, float] = field(default_factory=dict)
+    """Of the solids that are of one metal throughout, by their names, kg/m3."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

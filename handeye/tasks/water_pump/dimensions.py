@@ -9,7 +9,17 @@ from handeye.errors import InvalidInput
 from handeye.resources import scenes
 from handeye.units import DEGREE, INCH
 
-UNITS: Final = {"in": INCH, "mm": 1e-3, "m": 1.0, "deg": DEGREE, "kg": 1.0, "N": 1.0, "N m": 1.0, "1": 1.0}
+UNITS: Final = {
+    "in": INCH,
+    "mm": 1e-3,
+    "m": 1.0,
+    "deg": DEGREE,
+    "kg": 1.0,
+    "kg/m3": 1.0,
+    "N": 1.0,
+    "N m": 1.0,
+    "1": 1.0,
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

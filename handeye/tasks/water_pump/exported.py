@@ -15,12 +15,22 @@ from handeye.cell.truth import Truth
 from handeye.pose import Pose, inverse
 from handeye.resources import scenes
 from handeye.tasks.task import ExportedScene
+from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import specification
 from handeye.tasks.water_pump.threads import holes_of
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
 """Names of the scene, and what is exported by another: joints, too, have the names of their bodies."""
+_METAL: Final = {
+    "base.casting.density": ("casting", "floor_2"),
+    "base.plate.density": ("base_plate",),
+    "gasket.density": ("gasket",),
+    "top.density": ("flange", "hub"),
+    "rotor.density": ("crank_bar", "crank_pin", "shaft", "collar"),
+}
+"""Figures of the table, and the solids that they are of."""
+_FASTENERS: Final = ("screw", "pin_nose", "pin_body")
 _MECHANISMS: Final = {
     "actuators": ("drive",),
     "equalities": ("thread", "merge_"),
@@ -46,7 +56,19 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     add_keyframe(spec, keyframe, data, threaded)
     _rename(spec)
     about = (scenes() / "water_pump" / "exported.md").read_text(encoding="utf-8")
-    return ExportedScene(spec=spec, about=about)
+    return ExportedScene(spec=spec, about=about, parts=_parts(len(world.holes)), densities=_densities(spec))
+
+
+def _parts(screws: int) -> dict[str, tuple[str, ...]]:
+    return {"pump": ("base", "gasket", "top", "rotor", *(f"screw{k}" for k in range(screws)))}
+
+
+def _densities(spec: mujoco.MjSpec) -> dict[str, float]:
+    """Of the solids that are of one metal, kg/m3: as the table has them, and of fasteners as the scene has them."""
+    steel = spec.find_default("shank")
+    assert steel is not None
+    table = {solid: dimensions()(figure) for figure, names in _METAL.items() for solid in names}
+    return {**table, **dict.fromkeys(_FASTENERS, float(steel.geom.density))}
 
 
 def _threaded(truth: Truth, data: mujoco.MjData) -> Iterator[tuple[str, Pose]]:

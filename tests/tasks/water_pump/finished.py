@@ -10,6 +10,7 @@ from driving import tick
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
 from handeye.pose import Pose, planar, translated
+from handeye.runs.exhibit import Exhibit
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, standard
@@ -82,3 +83,9 @@ def finished() -> Truth:
     truth = finished_cell().truth
     model, data = truth.copy()
     return replace(truth, model=model, data=data)
+
+
+def exhibit(truth: Truth) -> Exhibit:
+    """The nominal world as a truth has it."""
+    world = PumpWorld.nominal().drawn.spec
+    return Exhibit(task="water_pump", world=world, moment="final", truth=truth, program="pump", steps=9)

@@ -133,3 +133,30 @@ def test_what_is_no_run_is_refused(command: Command, what: str) -> None:
 def test_a_run_that_has_not_begun_is_refused(command: Command) -> None:
     open_new(Path("run"), begin())
     assert command("export", "mjcf", "run", "-o", "a") == (2, "", "handeye: the run in run has not begun\n")
+
+
+def test_solids_are_written_and_what_is_wrong_with_them_is_said(
+    command: Command, ended: tuple[Path, Runner]
+) -> None:
+    code, out, err = command("export", "glb", str(ended[0]), "-o", "pump.glb", "--part", "pump")
+    assert (code, err) == (0, "")
+    first, count, *weights = out.splitlines()
+    assert first.startswith("pump.glb: pump, short in the world of seed 0, after")
+    assert count == "16 solids, all closed"
+    assert any("in the model: base" in line for line in weights)
+    assert Path("pump.glb").read_bytes().startswith(b"glTF")
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("a.obj", "the name of the GLB file must end in .glb"),
+        ("mine.glb", "exists and is no GLB file; nothing was written"),
+    ],
+)
+def test_solids_take_the_place_of_no_other_file(command: Command, name: str, sentence: str) -> None:
+    Path("mine.glb").write_bytes(b"mine")
+    code, out, err = command("export", "glb", "-o", name)
+    assert (code, out) == (2, "")
+    assert sentence in err
+    assert Path("mine.glb").read_bytes() == b"mine"

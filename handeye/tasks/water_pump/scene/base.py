@@ -91,7 +91,7 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
         d("base.large_hole_2.diameter") / 2,
         d("base.plate.thickness"),
     )
-    shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole")
+    shaper.cylinder(body, "look", radius, (x, 0, floor), (x, 0, floor + 2e-4), "hole", "floor_2")
 
 
 def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[np.str_]:

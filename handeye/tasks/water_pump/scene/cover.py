@@ -81,10 +81,10 @@ def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:
     shaper.cylinder(body, "crank", pin, (-radius, 0, arm), (-radius, 0, end), name="crank")
     bar = solids.hull(solids.disc(0.011), solids.disc(0.0075, -radius))
     shaper.look(body, "crank_bar", "steel", solids.surface(solids.extruded(bar, arm - 0.006, arm)))
-    shaper.cylinder(body, "look", pin, (-radius, 0, arm), (-radius, 0, end), "brass")
-    shaper.cylinder(body, "look", 0.0063, (0, 0, 0), (0, 0, arm + 0.004), "steel")
+    shaper.cylinder(body, "look", pin, (-radius, 0, arm), (-radius, 0, end), "brass", "crank_pin")
+    shaper.cylinder(body, "look", 0.0063, (0, 0, 0), (0, 0, arm + 0.004), "steel", "shaft")
     collar = math.hypot(0.010, 0.004)
-    shaper.cylinder(body, "look", collar, (0, 0, 0), (0, 0, 0.006), "brass")
+    shaper.cylinder(body, "look", collar, (0, 0, 0), (0, 0, 0.006), "brass", "collar")
 
 
 def add_merging(spec: mujoco.MjSpec) -> None:

@@ -1,0 +1,166 @@
+"""Solids of a scene by their names, as trimesh has them: closed surfaces, each with a colour.
+
+A surface that the scene has in pieces of several colours is one solid here. Where two colours meet, its corners have
+the lighter one: a surface is closed only if its faces share their corners, and a corner has one colour.
+"""
+
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final, Self
+
+import mujoco
+import numpy as np
+import trimesh
+
+from handeye.cell.looks import BOX, CYLINDER, MESH, SCENERY, SEEN, SPHERE
+from handeye.cell.mjcf import mesh_of
+from handeye.pose import Array, Pose, pose
+
+SIDES: Final = 64
+"""Of what stands for a cylinder."""
+_RGB: Final = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solid:
+    """A solid of a body."""
+
+    name: str
+    """None other in its body has it."""
+    mesh: str | None
+    """Name of its shape, which other solids may have too."""
+    shape: trimesh.Trimesh
+    """In its own frame, m."""
+    X_BS: Pose
+    colours: Array
+    """Of its corners, shape (n, 4), or of all of it, shape (4,): red, green, blue, opacity, as a screen shows them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Weighed:
+    """A body that is of metal throughout, weighed by its volume."""
+
+    body: str
+    mass: float
+    """By volume and density, kg."""
+    mass_there: float
+    """In the scene, kg."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SolidScene:
+    """Bodies of a scene with their solids."""
+
+    spec: mujoco.MjSpec
+    model: mujoco.MjModel
+    """The specification, compiled."""
+    bodies: Mapping[str, tuple[Solid, ...]]
+    """By the names of bodies, as in the scene."""
+
+    @classmethod
+    def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
+        """Those of some bodies, by default of all, the world itself with what stands around for people included."""
+        model = spec.compile()
+        bodies = [body for body in spec.bodies if wanted is None or body.name in wanted]
+        return cls(
+            spec=spec, model=model, bodies={body.name: tuple(_solids(spec, model, body)) for body in bodies}
+        )
+
+    @property
+    def open(self) -> tuple[str, ...]:
+        """Names of the solids whose surface is not closed."""
+        found = (solid for body in self.bodies.values() for solid in body if not solid.shape.is_watertight)
+        return tuple(dict.fromkeys(solid.name for solid in found))
+
+    def weighed(self, densities: Mapping[str, float]) -> Iterator[Weighed]:
+        """The bodies of which every solid has a density, by the names of the solids, kg/m3."""
+        for name, body in self.bodies.items():
+            if body and all(solid.name in densities for solid in body):
+                mass = float(self.model.body(name).mass[0])
+                yield Weighed(body=name, mass=_mass(body, densities), mass_there=mass)
+
+
+def _mass(body: Sequence[Solid], densities: Mapping[str, float]) -> float:
+    """Mass of solids by their volumes, kg; what lies in two of one density counts once."""
+    total = 0.0
+    for density in sorted({densities[solid.name] for solid in body}):
+        shapes = [placed(solid) for solid in body if densities[solid.name] == density]
+        total += density * float(trimesh.boolean.union(shapes).volume)
+    return total
+
+
+def placed(solid: Solid) -> trimesh.Trimesh:
+    """The shape of a solid in the frame of its body."""
+    shape: trimesh.Trimesh = solid.shape.copy()
+    shape.apply_transform(solid.X_BS)
+    return shape
+
+
+def _solids(spec: mujoco.MjSpec, model: mujoco.MjModel, body: mujoco.MjsBody) -> Iterator[Solid]:
+    """The solids by which a body is seen."""
+    pieces: list[tuple[mujoco.MjsGeom, trimesh.Trimesh, Array]] = []
+    named: Counter[str] = Counter()
+    for number, geom in enumerate(geom for geom in body.geoms if geom.group in (SEEN, SCENERY)):
+        if geom.type != MESH:
+            yield _primitive(model, geom, geom.name or f"shape{number}")
+            continue
+        shape, mesh = mesh_of(spec.mesh(geom.meshname)), geom.meshname
+        if shape.is_watertight:
+            yield _mesh(geom, mesh, shape, _colour(model, geom), again=named[mesh])
+            named[mesh] += 1
+        else:
+            pieces.append((geom, shape, _colour(model, geom)))
+    if pieces:
+        first = pieces[0][0]
+        name = first.meshname.rpartition("_")[0]  # behind it stands the colour
+        yield _mesh(first, name, *_joined([piece[1:] for piece in pieces]), again=0)
+
+
+def _primitive(model: mujoco.MjModel, geom: mujoco.MjsGeom, name: str) -> Solid:
+    size = model.geom_size[geom.id]
+    if geom.type == BOX:
+        shape = trimesh.creation.box(extents=2 * size)
+    elif geom.type == CYLINDER:
+        shape = trimesh.creation.cylinder(radius=size[0], height=2 * size[1], sections=SIDES)
+    else:
+        assert geom.type == SPHERE, geom.type
+        shape = trimesh.creation.icosphere(radius=size[0])
+    X_BS = _pose(model.geom_quat[geom.id], model.geom_pos[geom.id])
+    return Solid(name=name, mesh=None, shape=shape, X_BS=X_BS, colours=_colour(model, geom))
+
+
+def _mesh(geom: mujoco.MjsGeom, mesh: str, shape: trimesh.Trimesh, colours: Array, *, again: int) -> Solid:
+    """A solid of a mesh that the body has had `again` times before."""
+    name = f"{mesh}{again}" if again else mesh
+    return Solid(name=name, mesh=mesh, shape=shape, X_BS=_pose(geom.quat, geom.pos), colours=colours)
+
+
+def _joined(pieces: Sequence[tuple[trimesh.Trimesh, Array]]) -> tuple[trimesh.Trimesh, Array]:
+    """One surface of pieces, each of a colour, and the colours of its corners."""
+    loose = trimesh.util.concatenate([shape for shape, _ in pieces])
+    assert isinstance(loose, trimesh.Trimesh)
+    painted = np.concatenate([np.tile(colour, (len(shape.vertices), 1)) for shape, colour in pieces])
+    corners, number = np.unique(loose.vertices, axis=0, return_inverse=True)
+    colours = np.zeros((len(corners), 4))
+    np.maximum.at(colours, number, painted)
+    return trimesh.Trimesh(corners, number[loose.faces], process=False), colours
+
+
+def _colour(model: mujoco.MjModel, geom: mujoco.MjsGeom) -> Array:
+    """The mean colour of a shape: that of its material, times the mean of its grain."""
+    material = int(model.geom_matid[geom.id])
+    if material < 0:
+        return np.array(model.geom_rgba[geom.id], dtype=float)
+    colour, grain = np.array(model.mat_rgba[material], dtype=float), int(model.mat_texid[material, _RGB])
+    if grain >= 0:
+        first, points = model.tex_adr[grain], model.tex_width[grain] * model.tex_height[grain]
+        pixels = model.tex_data[first : first + 3 * points].reshape(-1, 3)
+        colour[:3] *= pixels.mean(axis=0) / 255
+    return colour
+
+
+def _pose(quat: Array, place: Array) -> Pose:
+    R = np.empty(9)
+    mujoco.mju_quat2Mat(R, quat)
+    return pose(R.reshape(3, 3), place)
