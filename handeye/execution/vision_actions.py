@@ -143,9 +143,8 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
 def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
     """Name of the picture in which the step under way has found something, and the marks of that on it."""
     assert run.state.at is not None
-    operation = run.plan.program.steps[run.state.at].operation
-    assert isinstance(operation, General | Specific | Inspect)
-    name = operation.after if isinstance(operation, Inspect) else operation.picture
+    name = run.plan.program.steps[run.state.at].operation.examines
+    assert name is not None
     return name, run.state.found[name].marks()
 
 

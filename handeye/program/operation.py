@@ -81,6 +81,21 @@ class Operation(
         return None
 
     @property
+    def complies(self) -> bool:
+        """True if force or moment moves the hand on the way."""
+        return False
+
+    @property
+    def straight_way(self) -> Vector3 | None:
+        """The way of the hand, m, table coordinates, if it goes straight from where it is."""
+        return None
+
+    @property
+    def examines(self) -> str | None:
+        """The picture in which it looks for something, if it does."""
+        return None
+
+    @property
     def reads(self) -> tuple[Use, ...]:
         """Everything that decides how it is carried out."""
         return self.used(self.reading)

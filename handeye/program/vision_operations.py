@@ -56,6 +56,11 @@ class General(Operation, frozen=True, kw_only=True):
     part: str
     picture: str
 
+    @property
+    def examines(self) -> str | None:
+        """Its picture."""
+        return self.picture
+
 
 class Specific(Operation, frozen=True, kw_only=True):
     """Specific location: find the part's holes in the picture; measures its pose. Else error 31."""
@@ -68,6 +73,11 @@ class Specific(Operation, frozen=True, kw_only=True):
     part: str
     picture: str
 
+    @property
+    def examines(self) -> str | None:
+        """Its picture."""
+        return self.picture
+
 
 class Inspect(Operation, frozen=True, kw_only=True):
     """Difference pictures of a part before and after its gasket was put on; error 32 if that lies wrong."""
@@ -79,6 +89,11 @@ class Inspect(Operation, frozen=True, kw_only=True):
     part: str
     before: str
     after: str
+
+    @property
+    def examines(self) -> str | None:
+        """The later of its pictures."""
+        return self.after
 
 
 VisionOperation = Lens | Aim | Look | General | Specific | Inspect

@@ -19,7 +19,6 @@ from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode
 from handeye.pose import Array
 from handeye.program.guards import unmet
-from handeye.program.motion_operations import Change
 from handeye.program.operation import Operation
 from handeye.tasks import task
 from handeye.touch.guards import monitor
@@ -77,7 +76,7 @@ def _feelings(plan: Plan, arm: ArmModel, events: Sequence[AnyEvent], times: Arra
     settle = arm.servo.settle
     for step in done_steps(events):
         operation = plan.program.steps[step.started.step].operation
-        if not (operation.guards or _complies(operation)):
+        if not (operation.guards or operation.complies):
             continue
         rows = _under_way(step, operation, settle, times)
         tare, felt = slice(rows.start, rows.start + settle), slice(rows.start + settle, rows.stop)
@@ -93,12 +92,8 @@ def _under_way(step: DoneStep, operation: Operation, settle: int, times: Array) 
     rows = step.span.rows(times)
     errors = {event.number for event in step.events if isinstance(event, ErrorRaised)}
     ran_out = bool(operation.guards) and unmet(operation.guards) in errors
-    holds = ran_out and not _complies(operation)  # still, at the end of its way, and no longer feeling
+    holds = ran_out and not operation.complies  # still, at the end of its way, and no longer feeling
     return slice(rows.start, rows.stop - settle if holds else rows.stop)
-
-
-def _complies(operation: Operation) -> bool:
-    return isinstance(operation, Change) and operation.complies
 
 
 def _reckon(forces: Forces, feeling: _Feeling, arm: ArmModel, motion: Motion) -> None:
@@ -142,8 +137,8 @@ def _guard(forces: Forces, feeling: _Feeling, arm: ArmModel, motion: Motion) -> 
 def _ways(feeling: _Feeling, arm: ArmModel, motion: Motion) -> Array:
     """Unit vectors along which the hand went, shape (periods, 3)."""
     operation, felt = feeling.operation, feeling.felt
-    if isinstance(operation, Change):
-        way = np.array(operation.displacement)
+    if operation.straight_way is not None:
+        way = np.array(operation.straight_way)
         return np.tile(way / np.linalg.norm(way), (felt.stop - felt.start, 1))
     hands = forward(arm, motion.joints[felt])[:, :3, 3]
     row, last = np.arange(len(hands)), len(hands) - 1

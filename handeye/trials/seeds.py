@@ -1,9 +1,10 @@
 """Assembling many pumps, one world each, and counting."""
 
 import signal
+import threading
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from contextlib import ExitStack, contextmanager
 from multiprocessing import active_children, get_context
 
 from handeye.planfile.plan import Plan
@@ -17,10 +18,14 @@ def assemble_many(plan: Plan, worlds: Sequence[WorldSpec], *, camera: str, jobs:
 
     Who stops asking for them ends those processes too.
     """
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), max_tasks_per_child=1) as pool:
-        with _deaf_to_interrupts():
-            runs = [pool.submit(_one, plan, world, camera) for world in worlds]
+    with ExitStack() as closing:
+        runs: list[Future[Result]] = []
         try:
+            with _deaf_to_interrupts():
+                spawning = get_context("spawn")
+                pool = ProcessPoolExecutor(jobs, mp_context=spawning, max_tasks_per_child=1)
+                closing.enter_context(pool)
+                runs += [pool.submit(_one, plan, world, camera) for world in worlds]
             for run in as_completed(runs):
                 yield run.result()
         except BaseException:  # Ctrl-C first of all: a run under way would take minutes
@@ -35,16 +40,27 @@ def assemble_many(plan: Plan, worlds: Sequence[WorldSpec], *, camera: str, jobs:
 def _deaf_to_interrupts() -> Iterator[None]:
     """While processes are begun that shall not hear Ctrl-C at the terminal: we do, and end them without their words.
 
-    Threads that begin here, and the processes that those begin, are deaf for good.
+    Threads that begin here, and the processes that those begin, are deaf for good. Being told to end, which they must
+    hear, waits here until they have begun: half begun, they would complain.
+
+    Raises:
+        KeyboardInterrupt: behind it, if we were told to end meanwhile.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    told: list[int] = []
+    handles = threading.current_thread() is threading.main_thread()  # no other thread may, or is interrupted
+    handler = signal.signal(signal.SIGTERM, lambda number, _: told.append(number)) if handles else None
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, masked)
+        if handles:
+            signal.signal(signal.SIGTERM, handler)
+    if told:
+        raise KeyboardInterrupt
 
 
 def _one(plan: Plan, world: WorldSpec, camera: str) -> Result:
