@@ -46,6 +46,8 @@ CHEAP = {
     "trace verify": "trace verify run/events.jsonl",
     "world": "world --set part_mass=5%",
     "render": "render -o ✓.jpg",
+    "export mjcf": "export mjcf ✓ -o ✓",
+    "export glb": "export glb ✓ -o ✓.jpg",
     "trials assembly": "trials assembly --seeds ✓",
     "trials base": "trials base ✓",
     "trials gasket": "trials gasket 1 --set ✓",
