@@ -25,6 +25,8 @@ class Journal:
         """
         self._path = path
         self._owed: WentBack | None = None  # there was no room for it
+        if path.exists() and not path.is_file():  # to open a pipe that nobody reads would wait for ever
+            raise InvalidInput(f"{path} cannot be written: it is not a file")
         try:
             self._file = path.open("ab", buffering=0)
             self._lock()

@@ -1,8 +1,10 @@
 """The folder that a run leaves, and going on with it after whatever happened."""
 
+import os
 import resource
 import shutil
 import signal
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -359,3 +361,10 @@ def test_a_stage_alone_ends_in_the_state_it_has_within_the_whole_run(whole: Path
     runner = Runner(start)
     assert advance(runner, [AfterStage(stage=1, name=runner.stages[1])]).kind == "break"
     assert encode(runner.checkpoint()) == encode(end)
+
+
+@pytest.mark.parametrize("make", [Path.mkdir, os.mkfifo])
+def test_a_journal_that_is_no_file_is_refused_at_once(make: Callable[[Path], None], tmp_path: Path) -> None:
+    make(tmp_path / "events.jsonl")
+    with pytest.raises(InvalidInput, match=r"events\.jsonl cannot be written: it is not a file$"):
+        Journal(tmp_path / "events.jsonl", (), again=True)
