@@ -5,9 +5,9 @@ the lighter one: a surface is closed only if its faces share their corners, and 
 """
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, Self
+from typing import Final
 
 import mujoco
 import numpy as np
@@ -37,59 +37,6 @@ class Solid:
     """Of its corners, shape (n, 4), or of all of it, shape (4,): red, green, blue, opacity, as a screen shows them."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Weighed:
-    """A body that is of metal throughout, weighed by its volume."""
-
-    body: str
-    mass: float
-    """By volume and density, kg."""
-    mass_there: float
-    """In the scene, kg."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SolidScene:
-    """Bodies of a scene with their solids."""
-
-    spec: mujoco.MjSpec
-    model: mujoco.MjModel
-    """The specification, compiled."""
-    bodies: Mapping[str, tuple[Solid, ...]]
-    """By the names of bodies, as in the scene."""
-
-    @classmethod
-    def of(cls, spec: mujoco.MjSpec, wanted: Collection[str] | None) -> Self:
-        """Those of some bodies, by default of all, the world itself with what stands around for people included."""
-        model = spec.compile()
-        bodies = [body for body in spec.bodies if wanted is None or body.name in wanted]
-        return cls(
-            spec=spec, model=model, bodies={body.name: tuple(_solids(spec, model, body)) for body in bodies}
-        )
-
-    @property
-    def open(self) -> tuple[str, ...]:
-        """Names of the solids whose surface is not closed."""
-        found = (solid for body in self.bodies.values() for solid in body if not solid.shape.is_watertight)
-        return tuple(dict.fromkeys(solid.name for solid in found))
-
-    def weighed(self, densities: Mapping[str, float]) -> Iterator[Weighed]:
-        """The bodies of which every solid has a density, by the names of the solids, kg/m3."""
-        for name, body in self.bodies.items():
-            if body and all(solid.name in densities for solid in body):
-                mass = float(self.model.body(name).mass[0])
-                yield Weighed(body=name, mass=_mass(body, densities), mass_there=mass)
-
-
-def _mass(body: Sequence[Solid], densities: Mapping[str, float]) -> float:
-    """Mass of solids by their volumes, kg; what lies in two of one density counts once."""
-    total = 0.0
-    for density in sorted({densities[solid.name] for solid in body}):
-        shapes = [placed(solid) for solid in body if densities[solid.name] == density]
-        total += density * float(trimesh.boolean.union(shapes).volume)
-    return total
-
-
 def placed(solid: Solid) -> trimesh.Trimesh:
     """The shape of a solid in the frame of its body."""
     shape: trimesh.Trimesh = solid.shape.copy()
@@ -97,7 +44,7 @@ def placed(solid: Solid) -> trimesh.Trimesh:
     return shape
 
 
-def _solids(spec: mujoco.MjSpec, model: mujoco.MjModel, body: mujoco.MjsBody) -> Iterator[Solid]:
+def solids_of(spec: mujoco.MjSpec, model: mujoco.MjModel, body: mujoco.MjsBody) -> Iterator[Solid]:
     """The solids by which a body is seen."""
     pieces: list[tuple[mujoco.MjsGeom, trimesh.Trimesh, Array]] = []
     named: Counter[str] = Counter()

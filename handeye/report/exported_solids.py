@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import Final
 
 from handeye.cell.gltf import glb
-from handeye.cell.solids import SolidScene, Weighed
+from handeye.cell.solid_scene import SolidScene, Weighed
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.files import Kind

@@ -9,7 +9,7 @@ import trimesh
 from finished import exhibit, finished, finished_cell, put
 from manifold3d import Manifold
 
-from handeye.cell.solids import SolidScene, Weighed
+from handeye.cell.solid_scene import SolidScene, Weighed
 from handeye.errors import InvalidInput
 from handeye.judge import measured
 from handeye.pose import Array, planar

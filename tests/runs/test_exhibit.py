@@ -1,0 +1,32 @@
+"""What cannot be exported is refused in one sentence: a run without a cell, a task without a scene for others."""
+
+from pathlib import Path
+
+import pytest
+from block_task import BLOCK
+from toy_system import begin_toy
+
+from handeye.errors import InvalidInput
+from handeye.report.exported_scene import scene_files
+from handeye.runs.advance import advance
+from handeye.runs.exhibit import Exhibit, kept
+from handeye.runs.folder import open_new
+from handeye.runs.runner import Runner
+from handeye.variation import WorldSpec
+
+
+def test_a_run_of_a_system_without_a_cell_has_nothing_to_show(tmp_path: Path) -> None:
+    start = begin_toy()
+    folder = open_new(tmp_path / "run", start)
+    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
+    advance(runner, steps=4)
+    folder.close()
+    with pytest.raises(InvalidInput, match=r"run is of a system that acts on no cell$"):
+        kept(tmp_path / "run")
+
+
+def test_a_task_that_exports_no_scene_says_so() -> None:
+    world = WorldSpec(seed=0)
+    truth = BLOCK.cell(world, "ray").truth
+    with pytest.raises(InvalidInput, match=r"^the task `block` exports no scene$"):
+        scene_files(Exhibit(task="block", world=world, moment="drawn", truth=truth))
