@@ -59,7 +59,10 @@ def begin(
             or function that is called with the scene (`mujoco.MjModel`) and gives an object whose
             `render(data, view)` works out the light on the target, shape (256, 333), 1 for white in full light.
         search: the places that a `SEARCH` tries, in the place of its square spiral: called with the number of a
-            place, from 0, it gives x and y in steps of the search (table coordinates).
+            place, from 0, it gives x and y in steps of the search (table coordinates). It is called once for each
+            number, and again where the run is taken up: it must give the same then. A search ends with error 6 where it
+            gives None or raises StopIteration, and after 49 places. Its tries are events `SearchAdvanced`, and
+            `run.state.memory.place` is the number it has come to.
         referee: called with the truth of the cell, gives findings by their names; or limits alone, by the names of the
             findings that the task's referee has, as `{"screws_clamp": 60}`.
         judge: the referee is called at the end; by default if one is given, or the run was begun so.

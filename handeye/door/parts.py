@@ -1,6 +1,7 @@
 """Replaceable parts as people give them: checked, and wrapped so that what they give back is checked as well."""
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any, Final, Protocol, TypeVar
 
 import mujoco
@@ -77,17 +78,26 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
         raise InvalidInput(f"a search is called with the number of a place and gives it; not {search!r}")
 
-    def place(number: int) -> tuple[float, float]:
-        given = np.asarray(search(number), dtype=object)
+    @cache  # a place is asked for by AOJ, by each MOVE and by whoever shows it
+    def place(number: int) -> tuple[float, float] | None:
         try:
-            x, y = (float(each) for each in given)
-        except (TypeError, ValueError):
-            x = y = np.nan
-        if not np.isfinite([x, y]).all():
-            raise InvalidInput(f"the search must give two numbers for place {number}, not {search(number)!r}")
-        return x, y
+            given = search(number)
+        except StopIteration:
+            given = None
+        return None if given is None and number > 0 else _checked_place(number, given)
 
     return _named(place, search)
+
+
+def _checked_place(number: int, given: object) -> tuple[float, float]:
+    """Raises InvalidInput if a search gave something else than a place."""
+    try:
+        x, y = (float(each) for each in np.asarray(given, dtype=object))
+    except (TypeError, ValueError):
+        x = y = np.nan
+    if not np.isfinite([x, y]).all():
+        raise InvalidInput(f"the search must give two numbers for place {number}, not {given!r}")
+    return x, y
 
 
 def _checked_camera(camera: Callable[[mujoco.MjModel], PictureMaker]) -> RendererMaker:

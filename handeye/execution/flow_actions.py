@@ -54,11 +54,13 @@ def search(run: ExecutionContext, operation: Search) -> None:
 def advance(run: ExecutionContext, _: Advance) -> Fault | None:
     """Go on to the next place of the search, to which the next searching motion will go."""
     found = run.state.search
-    if found is None or found.count + 1 >= found.limit:
-        tried = NoSearch() if found is None else PlacesTried(places=found.limit)
-        return Fault(number=errors.SEARCH_EXHAUSTED, cause=tried)
+    if found is None:
+        return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())
+    following = found.place(run.search, found.count + 1)
+    if following is None:
+        return Fault(number=errors.SEARCH_EXHAUSTED, cause=PlacesTried(places=found.count + 1))
     found.count += 1
-    x, y = found.offset(run.search)
+    x, y = following
     run.emit(SearchAdvanced(time=run.time, count=found.count, offset=(round(x, 6), round(y, 6))))
     return None
 

@@ -43,9 +43,20 @@ class SearchState(MutableRecord, kw_only=True):
     count: Natural = 0
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
-        """Horizontal offset of the present place in a pattern, m."""
-        i, j = pattern(self.count)
-        return i * self.step, j * self.step
+        """Horizontal offset of the present place in a pattern, m.
+
+        Raises:
+            InvalidInput: the pattern has no such place.
+        """
+        found = self.place(pattern, self.count)
+        if found is None:
+            raise InvalidInput(f"the search has no place {self.count}, to which it has come")
+        return found
+
+    def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
+        """Horizontal offset of a place in a pattern, m; None: the pattern has no more."""
+        found = pattern(number) if number < self.limit else None
+        return None if found is None else (found[0] * self.step, found[1] * self.step)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,8 +3,8 @@
 import math
 from collections.abc import Callable
 
-SearchPattern = Callable[[int], tuple[float, float]]
-"""The place of a number, from 0, in steps of the search along x and y of the table; number 0 is (0, 0)."""
+SearchPattern = Callable[[int], tuple[float, float] | None]
+"""The place of a number, from 0, in steps of the search along x and y of the table; None: there are no more."""
 
 
 def spiral(k: int) -> tuple[int, int]:

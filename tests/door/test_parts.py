@@ -1,6 +1,6 @@
 """Search pattern, camera and referee are replaced by code; what they decide is recorded, and never passed over."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -122,12 +122,35 @@ def test_a_part_may_be_replaced_from_a_checkpoint_on_and_the_run_says_so(tmp_pat
     assert run.result.replaced == run.events[0].replaced == {"search": f"{__name__}.column"}
 
 
-@pytest.mark.parametrize("wrong", [None, 3, (1, 2, 3), ("a", "b"), (float("nan"), 0)])
+@pytest.mark.parametrize("wrong", [3, (1, 2, 3), ("a", "b"), (float("nan"), 0)])
 def test_a_search_that_gives_no_place_is_told_and_its_step_is_not_done(wrong: object) -> None:
     run = handeye.begin(SEARCH, camera="ray", search=lambda place: wrong)
     with pytest.raises(InvalidInput, match=r"^the search must give two numbers for place 1, not "):
         run.until()
     assert run.state.text == "AOJ L"
+
+
+def test_a_search_without_a_first_place_is_told() -> None:
+    run = handeye.begin("OPEN 1\nSEARCH .1\nAOJ L\n", camera="ray", search=lambda place: None)
+    with pytest.raises(InvalidInput, match=r"^the search must give two numbers for place 0, not None$"):
+        run.until()
+
+
+@pytest.mark.parametrize("search", [{1: (1, 0)}.get, lambda number: next(iter([(1, 0)][number - 1 :]))])
+def test_a_search_ends_where_there_are_no_more_places(
+    search: Callable[[int], tuple[float, float] | None],
+) -> None:
+    run = handeye.begin(SEARCH, camera="ray", search=search)
+    assert run.until().why.endswith("(2 places tried)")
+    assert (offsets(run), run.result.error) == ([(1, 0)], 6)
+
+
+def test_a_search_is_asked_once_for_each_place() -> None:
+    asked: list[int] = []
+    run = handeye.begin(SEARCH, camera="ray", search=lambda number: asked.append(number) or (number, 0))
+    run.step(6)
+    run.say("show search")
+    assert asked == [1, 2]
 
 
 def test_a_search_that_fails_fails_where_people_see_it() -> None:
