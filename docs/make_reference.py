@@ -11,16 +11,19 @@ import textwrap
 from collections.abc import Iterator
 from functools import cache, cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 import handeye  # noqa: E402
+from handeye import events  # noqa: E402
 from handeye.door import provided  # noqa: E402
+from handeye.door.results import Results  # noqa: E402
 from handeye.door.state import Memory  # noqa: E402
 from handeye.inspection.inspection import InspectedStage, InspectedStep  # noqa: E402
 from handeye.report import result  # noqa: E402
+from handeye.report.world_page import QuantityReport  # noqa: E402
 from handeye.trace.forces import Forces  # noqa: E402
 from handeye.trace.motion import Motion  # noqa: E402
 from handeye.trace.replay import Moment  # noqa: E402
@@ -33,11 +36,11 @@ GROUPS: dict[str, dict[str, Any]] = {
               "InspectedStep": InspectedStep, "handeye.Diagnostic": handeye.Diagnostic},
     "Runs": {"handeye.begin": handeye.begin, "handeye.assemble": handeye.assemble, "handeye.Run": handeye.Run,
              "handeye.State": handeye.State, "Memory": Memory},
-    "Worlds": {"handeye.World": handeye.World},
+    "Worlds": {"handeye.World": handeye.World, "QuantityReport": QuantityReport},
     "Results": {"handeye.Result": handeye.Result, "Stage": result.Stage, "Timing": result.Timing, "Check": result.Check,
                 "handeye.Finding": handeye.Finding, "handeye.at_most": handeye.at_most,
                 "handeye.at_least": handeye.at_least,
-                "handeye.trials.assemble_each": handeye.trials.assemble_each},
+                "handeye.trials.assemble_each": handeye.trials.assemble_each, "Results": Results},
     "Traces": {"handeye.open": handeye.open, "handeye.Trace": handeye.Trace, "Motion": Motion, "Forces": Forces,
                "Moment": Moment},
     "Tasks": {"handeye.Task": handeye.Task, "handeye.tasks.task": handeye.tasks.task,
@@ -55,7 +58,35 @@ def reference() -> str:
         out += [f"## {group}", ""]
         for name, named in names.items():
             out += described(name, named)
+        out += TABLES[group]() if group in TABLES else []
     return "\n".join(out).rstrip() + "\n"
+
+
+def findings() -> Iterator[str]:
+    """The findings of the task's referee, as a table."""
+    judged = handeye.assemble(script="OPEN 1\n", camera="ray").result.referee
+    yield from ("### Findings of the water pump's referee", "", "| name | finding |", "|---|---|")
+    yield from (f"| `{name}` | {check.sentence} |" for name, check in judged.items())
+    yield ""
+
+
+def happenings() -> Iterator[str]:
+    """The events, as a table."""
+    yield from ("### Events", "", *told(events.Event))
+    yield from paragraph(
+        "The seconds since a run began are `event.time - run.events[0].time`. A guard trips at the end of the servo "
+        "period in which it was met, so its `value` lies over its `limit`: N, N m, or the mask of the fingers."
+    )
+    yield from ("", "| `handeye.events` | fields | what happened |", "|---|---|---|")
+    for event in get_args(events.AnyEvent):
+        fields = ", ".join(f"`{each}`" for each in event.__struct_fields__ if each != "time")
+        said = "; ".join(inspect.getdoc(event).splitlines())
+        yield f"| `{event.__name__}` | {fields} | {said} |"
+    yield ""
+
+
+TABLES = {"Results": findings, "Runs": happenings}
+"""What stands below the names of a group."""
 
 
 def described(name: str, named: Any) -> Iterator[str]:
@@ -82,15 +113,11 @@ def members(name: str, named: type) -> Iterator[str]:
     yield from [""] if said else []
     for each, member in own.items():
         function = member.__func__ if isinstance(member, classmethod) else member
-        if (
-            inspect.isfunction(function)
-            and not (name == "Diagnostic" and each == "of")
-            and each not in HIDDEN
-        ):
+        if inspect.isfunction(function) and each not in HIDDEN:
             yield from (*signature(f"{name}.{each}", function), *told(function))
 
 
-HIDDEN = {"attend", "reach"}
+HIDDEN = {"attend", "reach", "of"}
 """Methods for handeye's own use."""
 
 

@@ -64,7 +64,8 @@ def begin(
             gives None or raises StopIteration, and after 49 places. Its tries are events `SearchAdvanced`, and
             `run.state.memory.place` is the number it has come to.
         referee: called with the truth of the cell, gives findings by their names; or limits alone, by the names of the
-            findings that the task's referee has, as `{"screws_clamp": 60}`.
+            findings that the task's referee has, as `{"screws_clamp": 60}`, each in the unit of its finding. A run that
+            was kept is judged again by `handeye.begin(folder, referee=...).result`.
         judge: the referee is called at the end; by default if one is given, or the run was begun so.
         taught: as for `handeye.plan`.
         task: name of the task.

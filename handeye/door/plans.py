@@ -58,7 +58,7 @@ class Plan:
 
     @property
     def seconds(self) -> float:
-        """Seconds of planned motion, each step counted once."""
+        """Seconds of planned motion, each step counted once. Fingers and pictures count nothing."""
         return self._laid_open.seconds
 
     @property

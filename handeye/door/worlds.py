@@ -7,7 +7,7 @@ from handeye import tasks
 from handeye.door.arguments import given_names
 from handeye.door.html import heading, page, table
 from handeye.errors import InvalidInput
-from handeye.report.world_page import report
+from handeye.report.world_page import QuantityReport, report
 from handeye.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.world_options import overrides
 
@@ -15,7 +15,7 @@ from handeye.world_options import overrides
 class World:
     """A world: where things lie and every error, drawn from a seed. Equal worlds are the same to the last digit.
 
-    Its quantities, their names and their units are those that `handeye world` lists.
+    Its quantities, their names and their units are those that `handeye world` lists: `values`, `quantities`.
 
     >>> world = handeye.World(seed=3, level="high", without=["arm.offset"], set={"arm.friction": 0})
     >>> world
@@ -40,7 +40,8 @@ class World:
             level: how large its errors are: `low` half as large as `nominal`, `high` twice as large.
             without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) that have their nominal values.
             set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
-                unit, as `".3 in"`.
+                unit, as `".3 in"`. The quantities of a group may differ in their units: a number for `arm.friction` is
+                N m at joints that turn, and N at the one that slides.
             task: name of the task whose cell it is.
 
         Raises:
@@ -74,6 +75,11 @@ class World:
         drawn, table = self._table.draw(self.spec), self._table.quantities
         return {name: value / table[name].measure.size for name, value in drawn.values.items()}
 
+    @cached_property
+    def quantities(self) -> tuple[QuantityReport, ...]:
+        """Each quantity with its `name`, `value`, `unit` and `source`, which says what it is."""
+        return report(self._table, self._table.draw(self.spec)).quantities
+
     def __getitem__(self, name: str) -> float:
         """The value of a quantity, in its unit.
 
@@ -91,10 +97,7 @@ class World:
         return self._table.quantities[self._quantity(name)].unit
 
     def _repr_html_(self) -> str:
-        rows = [
-            (each.name, f"{each.value:.4g}", each.unit, each.override or "")
-            for each in report(self._table, self._table.draw(self.spec)).quantities
-        ]
+        rows = [(each.name, f"{each.value:.4g}", each.unit, each.override or "") for each in self.quantities]
         return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
 
     def _quantity(self, name: str) -> str:

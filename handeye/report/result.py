@@ -5,7 +5,7 @@ from typing import Literal
 import msgspec
 from msgspec import UNSET, UnsetType
 
-from handeye.judge.finding import Relation
+from handeye.judge.finding import Finding, Relation
 from handeye.record import Record
 from handeye.variation import WorldSpec
 
@@ -50,7 +50,7 @@ class Timing(Record, frozen=True, kw_only=True):
 
 
 class Check(Record, frozen=True, kw_only=True):
-    """One finding of the referee."""
+    """One finding of the referee, as results keep it: a `Finding` with its sentence."""
 
     ok: bool
     subject: str
@@ -61,6 +61,24 @@ class Check(Record, frozen=True, kw_only=True):
     unit: str
     sentence: str
     """All of it for people, but the value."""
+
+    @classmethod
+    def of(cls, found: Finding) -> "Check":
+        """A finding with the sentence that tells of it."""
+        return cls(
+            ok=found.ok,
+            subject=found.subject,
+            value=float(found.value),
+            relation=found.relation,
+            limit=float(found.limit),
+            unit=found.unit,
+            sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
+        )
+
+    def limited(self, limit: float) -> "Check":
+        """The same measurement against another limit, in the same unit."""
+        facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
+        return Check.of(Finding(**facts).limited(limit))
 
 
 class CameraReport(Record, frozen=True, kw_only=True):
@@ -93,6 +111,7 @@ class Result(Record, frozen=True, kw_only=True):
     stages: tuple[Stage, ...]
     timing: Timing
     referee: dict[str, Check]
+    """Findings by their names; none if nobody was asked, or if the program did not come to its end: see `message`."""
     task: str
     program: str
     seed: int

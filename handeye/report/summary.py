@@ -12,7 +12,7 @@ from handeye.events import (
     StageStarted,
     beginning,
 )
-from handeye.judge.finding import Finding, Findings, all_right
+from handeye.judge.finding import Findings, all_right
 from handeye.ports.camera import Renderer
 from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Status, Timing
@@ -35,7 +35,7 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
     """
     completed = pause.kind == "end"
     names = runner.stages
-    checks = {name: _check(finding) for name, finding in (findings or {}).items()}
+    checks = {name: Check.of(finding) for name, finding in (findings or {}).items()}
     return Result(
         assembled=None if findings is None else completed and all_right(findings),
         completed=completed,
@@ -53,19 +53,6 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
         world=runner.setup.world,
         camera=_camera(runner),
         versions=versions(),
-    )
-
-
-def _check(found: Finding) -> Check:
-    """A finding with the sentence that tells of it."""
-    return Check(
-        ok=found.ok,
-        subject=found.subject,
-        value=float(found.value),
-        relation=found.relation,
-        limit=float(found.limit),
-        unit=found.unit,
-        sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
     )
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, RunStarted
+from handeye.plain_text import one_line
 from handeye.pose import Array
 from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS, REPEATABLE
 from handeye.trace.forces import Forces, recorded_forces
@@ -38,7 +39,8 @@ Read = TypeVar("Read")
 class Trace:
     """A trace that was read, and found sound. What is worked out from its messages is worked out once.
 
-    Times are those of the cell's clock, as in the events, s; `elapsed` gives the time that people see. There are n
+    Times are those of the cell's clock, as in the events, s. It runs while the camera is calibrated too, before the
+    program begins: `elapsed` gives the time from there, which people see, and `State.time` is. There are n
     servo periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
     says.
     """
@@ -110,7 +112,7 @@ class Trace:
 
         Args:
             line: its number in the script, or `"pins.al:12"` in a file that the script requires; each time it was
-                carried out counts.
+                carried out counts. A motion goes by its own line, not by that of its `STOP`.
 
         Raises:
             InvalidInput: no such line was carried out; or there is no record of the force, and the arm that the plan
@@ -120,8 +122,19 @@ class Trace:
             return self._forces
         spans = [step.span for step in done_steps(self.events) if step.started.place == str(line)]
         if not spans:
-            raise InvalidInput(f"line {line} of {self.head.program} was not carried out in {self.name}")
+            said = f"line {line} of {self.head.program} was not carried out in {self.name}"
+            raise InvalidInput(f"{said}{self._line_below(str(line))}")
         return self._forces.within(spans)
+
+    def _line_below(self, place: str) -> str:
+        """Tell the next line that was carried out: that of the motion, where `place` is that of its `STOP`."""
+        file, _, number = place.rpartition(":")
+        started = [step.started for step in done_steps(self.events) if step.started.file == file]
+        below = [step for step in started if number.isdecimal() and step.line > int(number)]
+        if not below:
+            return ""
+        nearest = min(below, key=lambda step: step.line)
+        return f"; the next line that was is {nearest.place}: {one_line(nearest.text)}"
 
     @cached_property
     def _forces(self) -> Forces:

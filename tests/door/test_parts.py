@@ -14,6 +14,7 @@ from handeye.door.parts import parts_of
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted, SearchAdvanced
 from handeye.ports.camera import Renderer
+from handeye.report.result import Check
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.verify import difference
 from handeye.tasks import task
@@ -131,7 +132,8 @@ def test_a_search_that_gives_no_place_is_told_and_its_step_is_not_done(wrong: ob
 
 
 def test_a_search_without_a_first_place_is_told() -> None:
-    run = handeye.begin("OPEN 1\nSEARCH .1\nAOJ L\n", camera="ray", search=lambda place: None)
+    script, taught = "SEARCH .1\nL: MOVE P\nAOJ L\n", "[positions]\nP = { at = [25, 38, 6, 90, 90, 0] }\n"
+    run = handeye.begin(script, taught=taught, camera="ray", search=lambda place: None)
     with pytest.raises(InvalidInput, match=r"^the search must give two numbers for place 0, not None$"):
         run.until()
 
@@ -191,6 +193,11 @@ def test_limits_of_the_referee_are_values() -> None:
     found = strict.result.referee
     assert (found["base_tilt"].ok, found["base_tilt"].limit, found["floor"].limit) == (False, -1, -9)
     assert strict.result.replaced == {"referee": "handeye.report.judging.limits(base_tilt=-1, floor=-9)"}
+
+
+def test_what_a_result_keeps_of_a_finding_stands_against_another_limit() -> None:
+    check = Check.of(handeye.at_most(0.3, 0.2, "mm", "gap under the head")).limited(0.5)
+    assert (check.ok, check.limit, check.sentence) == (True, 0.5, "gap under the head (at most 0.5 mm)")
 
 
 def test_a_referee_of_ones_own_has_the_word() -> None:

@@ -69,3 +69,11 @@ def test_a_quantity_is_found_by_its_whole_name() -> None:
         handeye.World()[3]
     with pytest.raises(InvalidInput, match=r"^`arm\.offset` is a group of quantities: arm\.offset\.1, "):
         handeye.World()["arm.offset"]
+
+
+def test_a_world_says_what_its_quantities_are() -> None:
+    world = handeye.World(3)
+    first = world.quantities[0]
+    assert (first.name, first.value, first.unit) == ("base.x", world["base.x"], "in")
+    assert first.source.startswith("Where the pump base lies on the belt")
+    assert [each.name for each in world.quantities] == [*world.values]

@@ -101,9 +101,12 @@ def test_the_force_of_a_line_is_that_of_each_time_it_was_carried_out(trace: Trac
     assert np.array_equal(trace.forces(line="4").times, of_line.times)
 
 
-def test_a_line_that_was_not_carried_out_is_refused(trace: Trace) -> None:
-    with pytest.raises(InvalidInput, match=r"^line 5 of short was not carried out in .*short\.mcap$"):
-        trace.forces(line=5)
+@pytest.mark.parametrize(("line", "below"), [(5, r"; the next line that was is 6: .+"), (900, "")])
+def test_a_line_that_was_not_carried_out_is_refused(trace: Trace, line: int, below: str) -> None:
+    with pytest.raises(
+        InvalidInput, match=rf"^line {line} of short was not carried out in .*short\.mcap{below}$"
+    ):
+        trace.forces(line=line)
 
 
 def test_the_manual_names_nothing_that_a_trace_does_not_have() -> None:
