@@ -9,7 +9,7 @@ from handeye import tasks
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.stepper import Stepper
 from handeye.door.arguments import given_file, given_place
-from handeye.door.parts import Camera, parts_of, referee_of
+from handeye.door.parts import Camera, limits_of, parts_of, referee_of
 from handeye.door.plans import FileName, Planned
 from handeye.door.run import Keeping, Place, Run
 from handeye.door.starts import Start, Wanted, start_of
@@ -18,7 +18,7 @@ from handeye.errors import InvalidInput
 from handeye.host_time import HostTimer
 from handeye.plain_text import counted
 from handeye.report.cautions import cautions
-from handeye.report.judging import LimitedReferee, Limits, Referee
+from handeye.report.judging import Limits, Referee, check_limits
 from handeye.runs.folder import PICTURES, HoldsRun, RunFolder, open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
@@ -73,8 +73,8 @@ def begin(
             the folder of a run, give it here as well.
         overwrite: a run that is in that folder may be lost.
 
-    Code in the place of a part cannot be kept. Checkpoints, trace and result name it, `handeye resume` and
-    `handeye trace verify` refuse such a run, and it is taken up here with a part of the same name.
+    Limits are kept with the run. Code in the place of a part cannot be: checkpoints, trace and result name it,
+    `handeye resume` and `handeye trace verify` refuse such a run, and it is taken up here with a part of the same name.
 
     Raises:
         ScriptError: the script has errors.
@@ -84,14 +84,15 @@ def begin(
     >>> run
     <Run script, seed 3: 0 steps done, 0.00 s, program, line 1: OPEN 1; ready>
     """
-    timer, work = HostTimer(), tasks.task(task)
-    parts, umpire = parts_of(search, camera), referee_of(referee, work)
+    timer = HostTimer()
+    parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
     wanted = Wanted(
         seed=seed,
         world=world,
         camera=camera if isinstance(camera, str) and camera != "auto" else None,
         task=task,
-        judged=(umpire is not None) if judge is None else judge,
+        judged=(referee is not None) if judge is None else judge,
+        limits=limits,
         replaced=parts.names | ({} if umpire is None else {"referee": name_of(umpire)}),
     )
     stage = None if at is None else given_place(at)
@@ -192,8 +193,7 @@ def _built(start: Start, parts: Parts, keeping: Keeping) -> Run:
     folder, state = keeping.folder, start.state
 
     def looking(runner: Runner) -> Sequence[Observer]:
-        if isinstance(keeping.referee, LimitedReferee):
-            keeping.referee(runner.cell.truth)  # a wrong name is told now, and not at the end
+        check_limits(runner)
         again = start.folder is not None
         return [] if folder is None else [folder.watch(runner, state, again=again, meter=keeping.meter)]
 

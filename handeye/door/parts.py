@@ -14,9 +14,8 @@ from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.judge.finding import Finding, Findings
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
-from handeye.report.judging import LimitedReferee, Limits, Referee
+from handeye.report.judging import Limits, Referee, checked_limits
 from handeye.runs.parts import Parts, name_of
-from handeye.tasks.task import Task
 from handeye.touch.spiral import SearchPattern
 from handeye.vision.camera_model import View
 
@@ -57,16 +56,23 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
     return Parts(search=None if search is None else _checked_search(search), camera=maker)
 
 
-def referee_of(given: Referee | Limits | None, task: Task) -> Referee | None:
-    """A referee that is not the task's own.
+def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
+    """Limits, where they alone were given in the place of a referee; None: they were not.
+
+    Raises:
+        InvalidInput: a limit is no number.
+    """
+    return checked_limits(given) if isinstance(given, Mapping) else None
+
+
+def referee_of(given: Referee | Limits | None) -> Referee | None:
+    """A referee that is not the task's own; None: it is, though maybe with other limits.
 
     Raises:
         InvalidInput: it is no referee, and no table of limits.
     """
-    if given is None:
+    if given is None or isinstance(given, Mapping):
         return None
-    if isinstance(given, Mapping):
-        return LimitedReferee(given, task)
     if not callable(given):
         raise InvalidInput(
             f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"

@@ -2,15 +2,19 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Final, overload
 
 from handeye.door.arguments import given_count
 from handeye.door.html import heading, inked, page, table
+from handeye.door.parts import limits_of, parts_of, referee_of
 from handeye.door.plans import FileName, Planned, plan
 from handeye.door.worlds import World
 from handeye.errors import InvalidInput
+from handeye.report.judging import Limits, Referee
 from handeye.report.result import Result
 from handeye.runs.scripts import default_script
+from handeye.touch.spiral import SearchPattern
 from handeye.trials.assembly import run_plan
 from handeye.trials.seeds import assemble_many
 from handeye.variation import WorldSpec, checked_seed
@@ -61,16 +65,27 @@ class Results(Sequence[Result]):
 
 
 def assemble_in(
-    worlds: Iterable[int | World], *, script: FileName | Planned | None, camera: str, jobs: int
+    worlds: Iterable[int | World],
+    *,
+    script: FileName | Planned | None,
+    taught: FileName | None,
+    camera: str,
+    search: SearchPattern | None,
+    referee: Referee | Limits | None,
+    jobs: int,
 ) -> Results:
     """Results of a script in some worlds; see `handeye.trials.assemble_each`."""
     if isinstance(worlds, str) or not isinstance(worlds, Iterable):
         raise InvalidInput(f"worlds are seeds or worlds one after the other, not {worlds!r}")
     specs = [_spec(world) for world in worlds]
-    record = plan(default_script() if script is None else script).record
+    record = plan(default_script() if script is None else script, taught=taught).record
+    parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
     if given_count(jobs, "jobs") == 1:
-        return Results(tuple(run_plan(record, world=spec, camera=camera).result for spec in specs))
-    found = list(assemble_many(record, specs, camera=camera, jobs=jobs))
+        trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, umpire=umpire)
+        return Results(tuple(trial(world=spec).result for spec in specs))
+    if search is not None or umpire is not None:
+        raise InvalidInput("code in the place of a part takes one process: leave jobs=... out")
+    found = list(assemble_many(record, specs, camera=camera, jobs=jobs, limits=limits))
     return Results(tuple(sorted(found, key=lambda result: specs.index(result.world))))
 
 

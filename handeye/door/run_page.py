@@ -22,6 +22,10 @@ def run_page(result: Result, state: State, name: str | None, png: bytes | None) 
     pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
     if result.referee:
         pieces.append(_findings(result))
+    limits = (result.limits or {}).items()
+    pieces += [
+        line(inked(f"limit of {name} set by the caller: {limit:g}", "doubtful")) for name, limit in limits
+    ]
     pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
     pieces += [
         line(inked(f"{part}: the caller's own, {code}", "doubtful")) for part, code in own_parts(result)

@@ -36,6 +36,8 @@ class Wanted:
     camera: str | None
     task: str
     judged: bool
+    limits: dict[str, float] | None
+    """Limits for the findings of the task's referee."""
     replaced: dict[str, str]
     """Parts of the caller's own, with the names of their code."""
 
@@ -113,6 +115,7 @@ def _new(plan: Plan, wanted: Wanted) -> Checkpoint:
         camera=wanted.camera or "auto",
         task=wanted.task,
         judged=wanted.judged,
+        limits=wanted.limits or {},
         replaced=wanted.replaced,
     )
     return Checkpoint(setup=setup)
@@ -145,7 +148,7 @@ def _again(given: FileName, wanted: Wanted) -> Start:
     if has_ended(path, start, judged=start.setup.judged):
         raise InvalidInput(f"the run in {path} has ended; without out=..., it can be taken up and go back")
     _check_same(path, start.setup, wanted)
-    if wanted.replaced:
+    if wanted.replaced or wanted.limits not in (None, start.setup.limits):
         raise InvalidInput(
             f"parts of a run that is in {path} cannot be replaced there; choose another folder as out=..."
         )
@@ -161,7 +164,7 @@ def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
 
 def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
     """The same with parts of the caller's from here on: what is told of its beginning says so."""
-    if not wanted.replaced and not wanted.judged:
+    if not wanted.replaced and not wanted.judged and wanted.limits is None:
         return start
     setup = start.setup
     replaced = setup.replaced | wanted.replaced
@@ -176,4 +179,14 @@ def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
         eye = events[0].camera if camera is None else Renderer(method="replaced", platform=camera)
         events = (msgspec.structs.replace(events[0], replaced=replaced, camera=eye), *events[1:])
     changed = msgspec.structs.replace(setup, replaced=replaced, judged=setup.judged or wanted.judged)
-    return msgspec.structs.replace(start, setup=changed, events=events)
+    return msgspec.structs.replace(start, setup=_with_referee(changed, wanted), events=events)
+
+
+def _with_referee(setup: Setup, wanted: Wanted) -> Setup:
+    """The same, judged by the caller's code or limits in the place of what judged it before."""
+    if "referee" in wanted.replaced:
+        return msgspec.structs.replace(setup, limits={})
+    if wanted.limits is None:
+        return setup
+    others = {part: name for part, name in setup.replaced.items() if part != "referee"}
+    return msgspec.structs.replace(setup, limits=wanted.limits, replaced=others)

@@ -51,4 +51,5 @@ def outcome(
     found = findings(runner, pause, referee) if judged and pause.kind != "break" else None
     result = summary(runner, pause, findings=found, host=meter.seconds(runner))
     others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
-    return msgspec.structs.replace(result, replaced=others or UNSET)
+    limits = runner.setup.limits if found is not None and referee is None else None
+    return msgspec.structs.replace(result, limits=limits or UNSET, replaced=others or UNSET)

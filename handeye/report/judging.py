@@ -9,7 +9,6 @@ from handeye.errors import InvalidInput
 from handeye.judge.finding import Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
-from handeye.tasks.task import Task
 
 Referee = Callable[[Truth], Findings]
 """Judges the truth of a cell; the cell is not touched."""
@@ -18,36 +17,49 @@ Limits = Mapping[str, float]
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Ask a referee, by default that of the task; nothing of a program that did not come to its end."""
+    """Ask a referee, by default that of the task, its limits those of the run; nothing of a program without an end."""
     if pause.kind != "end":
         return {}
-    return runner.task.judge(runner.cell.truth) if referee is None else referee(runner.cell.truth)
+    truth = runner.cell.truth
+    return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
 
 
-class LimitedReferee:
-    """Finds what the referee of a task finds, against other limits."""
+def checked_limits(limits: Limits) -> dict[str, float]:
+    """Limits that somebody gave.
 
-    def __init__(self, limits: Limits, task: Task) -> None:
-        """Raises InvalidInput if a limit is no number."""
-        self._limits, self._task = dict(limits), task
-        for name, limit in self._limits.items():
-            if not isinstance(name, str):
-                raise InvalidInput(f"limits are given by the names of findings, not by {name!r}")
-            if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
-                raise InvalidInput(f"the limit of {name} must be a number, not {limit!r}")
-        said = ", ".join(f"{name}={limit:g}" for name, limit in self._limits.items())
-        self.__qualname__ = f"limits({said})"
+    Raises:
+        InvalidInput: a name is none, or a limit is no number.
+    """
+    checked: dict[str, float] = {}
+    for name, limit in limits.items():
+        if not isinstance(name, str):
+            raise InvalidInput(f"limits are given by the names of findings, not by {name!r}")
+        if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
+            raise InvalidInput(f"the limit of {name} must be a number, not {limit!r}")
+        checked[name] = float(limit)
+    return checked
 
-    def __call__(self, truth: Truth) -> Findings:
-        """The findings.
 
-        Raises:
-            InvalidInput: the referee of the task has no finding of the name of a limit.
-        """
-        found = dict(self._task.judge(truth))
-        for name, limit in self._limits.items():
-            if name not in found:
-                near = suggestion(name, found) or f"there are {', '.join(map(quoted, found))}"
-                raise InvalidInput(f"the referee has no finding {quoted(name)}; {near}")
-            found[name] = found[name].limited(limit)
-        return found
+def check_limits(runner: Runner) -> None:
+    """Make sure before a run that each of its limits has a finding: at its end it would be late.
+
+    Raises:
+        InvalidInput: one has none.
+    """
+    if runner.setup.limits:
+        limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
+
+
+def limited(findings: Findings, limits: Limits) -> Findings:
+    """Findings against other limits.
+
+    Raises:
+        InvalidInput: there is no finding of the name of a limit.
+    """
+    found = dict(findings)
+    for name, limit in limits.items():
+        if name not in found:
+            near = suggestion(name, found) or f"there are {', '.join(map(quoted, found))}"
+            raise InvalidInput(f"the referee has no finding {quoted(name)}; {near}")
+        found[name] = found[name].limited(limit)
+    return found

@@ -31,6 +31,8 @@ def page(result: Result) -> RenderableType:
         parts += [Text(), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
+    limits = (result.limits or {}).items()
+    parts += [Text(f"limit of {name} set by the caller: {limit:g}", "yellow") for name, limit in limits]
     parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
     return Group(*parts, Text(), verdict(result))
 

@@ -118,6 +118,8 @@ class Result(Record, frozen=True, kw_only=True):
     world: WorldSpec
     camera: CameraReport
     versions: dict[str, str]
+    limits: dict[str, float] | UnsetType = UNSET
+    """Limits that somebody put in the place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code of whoever began the run took the place of, with the names of that code."""
 

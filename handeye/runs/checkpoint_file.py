@@ -63,6 +63,8 @@ class Head(Record, frozen=True, kw_only=True):
     task: str = DEFAULT
     judged: bool = False
     """The referee is to look at what came out."""
+    limits: dict[str, float] | UnsetType = UNSET
+    """Limits that its findings stand against in the place of its own."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code took the place of, with its names: the run goes on only with parts of the same names."""
 
@@ -104,6 +106,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         touched=checkpoint.touched,
         task=setup.task,
         judged=setup.judged,
+        limits=setup.limits or UNSET,
         replaced=setup.replaced or UNSET,
     )
 
@@ -142,6 +145,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
         camera=head.camera,
         task=head.task,
         judged=head.judged,
+        limits=head.limits or {},
         replaced=head.replaced or {},
     )
     try:

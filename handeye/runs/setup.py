@@ -23,6 +23,8 @@ class Setup(Record, frozen=True, kw_only=True):
     """Name of the task."""
     judged: bool = False
     """The referee is to look at what came out. It decides nothing of the run."""
+    limits: dict[str, float] = msgspec.field(default_factory=dict)
+    """Limits that findings of the task's referee stand against in the place of its own, in their units."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)
     """Parts that code of whoever began the run takes the place of, with the names of that code."""
 

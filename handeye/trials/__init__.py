@@ -9,6 +9,8 @@ if TYPE_CHECKING:  # a trial is seldom wanted where something in this folder is
     from handeye.door.plans import FileName, Planned
     from handeye.door.results import Results
     from handeye.door.worlds import World
+    from handeye.report.judging import Limits, Referee
+    from handeye.touch.spiral import SearchPattern
 
 __all__ = ["assemble_each"]
 
@@ -17,7 +19,10 @@ def assemble_each(
     worlds: Iterable[int | World],
     *,
     script: FileName | Planned | None = None,
+    taught: FileName | None = None,
     camera: str = "auto",
+    search: SearchPattern | None = None,
+    referee: Referee | Limits | None = None,
     jobs: int = 1,
 ) -> Results:
     """Carry out a script in each of some worlds, and have each result judged.
@@ -25,8 +30,12 @@ def assemble_each(
     Args:
         worlds: seeds, or worlds.
         script: what `handeye.plan` takes; by default that of the water pump.
+        taught: as for `handeye.plan`.
         camera: how pictures are made: `auto`, `gl` or `ray`.
-        jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`.
+        search: as for `handeye.begin`.
+        referee: as for `handeye.begin`.
+        jobs: processes at a time; with more than 1 a program must be guarded by `if __name__ == "__main__":`, and
+            limits are taken, but no code in the place of a part.
 
     Returns:
         a table of results in the order of the worlds.
@@ -41,4 +50,6 @@ def assemble_each(
     """
     from handeye.door.results import assemble_in
 
-    return assemble_in(worlds, script=script, camera=camera, jobs=jobs)
+    return assemble_in(
+        worlds, script=script, taught=taught, camera=camera, search=search, referee=referee, jobs=jobs
+    )

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 from handeye.planfile.plan import Plan
 from handeye.report.finishing import finished
+from handeye.report.judging import Limits, Referee, check_limits
 from handeye.report.result import Result
 from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
+from handeye.runs.parts import OWN, Parts
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -30,6 +32,9 @@ def run_plan(
     camera: str = "auto",
     meter: Meter | None = None,
     referee: bool = True,
+    limits: Limits | None = None,
+    parts: Parts = OWN,
+    umpire: Referee | None = None,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     viewed: Callable[[int, int], None] = lambda *_: None,
 ) -> Finished:
@@ -37,12 +42,18 @@ def run_plan(
 
     Args:
         meter: measures what the run costs the host; by default from now on.
+        limits: those of the task's referee, where they are others.
+        parts: parts of the run that are not handeye's own.
+        umpire: takes the place of the task's referee.
         viewed: told of each view in which the camera is calibrated: its number, of how many.
 
     Raises:
-        InvalidInput: the plan is for another arm, or the camera cannot work as asked.
+        InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
+            the camera cannot work as asked.
     """
     metered = meter or Meter()
-    start = Checkpoint(setup=Setup(plan=plan, world=world, camera=camera))
-    runner = Runner(start, viewed=viewed, observers=observers)
-    return Finished(result=finished(runner, advance(runner), metered, judged=referee), runner=runner)
+    setup = Setup(plan=plan, world=world, camera=camera, limits={**(limits or {})}, replaced=parts.names)
+    runner = Runner(Checkpoint(setup=setup), viewed=viewed, observers=observers, parts=parts)
+    check_limits(runner)
+    result = finished(runner, advance(runner), metered, judged=referee, referee=umpire)
+    return Finished(result=result, runner=runner)

@@ -8,12 +8,15 @@ from contextlib import ExitStack, contextmanager
 from multiprocessing import active_children, get_context
 
 from handeye.planfile.plan import Plan
+from handeye.report.judging import Limits
 from handeye.report.result import Result
 from handeye.trials.assembly import run_plan
 from handeye.variation import WorldSpec
 
 
-def assemble_many(plan: Plan, worlds: Sequence[WorldSpec], *, camera: str, jobs: int) -> Iterator[Result]:
+def assemble_many(
+    plan: Plan, worlds: Sequence[WorldSpec], *, camera: str, jobs: int, limits: Limits | None = None
+) -> Iterator[Result]:
     """Results in the order they come; each world in a process of its own making, so that none can sway another.
 
     Who stops asking for them ends those processes too.
@@ -25,7 +28,7 @@ def assemble_many(plan: Plan, worlds: Sequence[WorldSpec], *, camera: str, jobs:
                 spawning = get_context("spawn")
                 pool = ProcessPoolExecutor(jobs, mp_context=spawning, max_tasks_per_child=1)
                 closing.enter_context(pool)
-                runs += [pool.submit(_one, plan, world, camera) for world in worlds]
+                runs += [pool.submit(_one, plan, world, camera, limits) for world in worlds]
             for run in as_completed(runs):
                 yield run.result()
         except BaseException:  # Ctrl-C first of all: a run under way would take minutes
@@ -63,5 +66,5 @@ def _deaf_to_interrupts() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-def _one(plan: Plan, world: WorldSpec, camera: str) -> Result:
-    return run_plan(plan, world=world, camera=camera).result
+def _one(plan: Plan, world: WorldSpec, camera: str, limits: Limits | None) -> Result:
+    return run_plan(plan, world=world, camera=camera, limits=limits).result

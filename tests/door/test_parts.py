@@ -1,5 +1,6 @@
 """Search pattern, camera and referee are replaced by code; what they decide is recorded, and never passed over."""
 
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import SimpleNamespace
@@ -7,13 +8,16 @@ from types import SimpleNamespace
 import mujoco
 import numpy as np
 import pytest
+from msgspec import UNSET
 
 import handeye
 from handeye.cell.truth import Truth
+from handeye.cli import app
 from handeye.door.parts import parts_of
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted, SearchAdvanced
 from handeye.ports.camera import Renderer
+from handeye.report.kept_run import kept_run
 from handeye.report.result import Check
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.verify import difference
@@ -84,7 +88,7 @@ def test_an_ordinary_run_names_no_code(tmp_path: Path) -> None:
         run.until()
     kept = [*tmp_path.rglob("events.jsonl"), *tmp_path.rglob("result.json"), *tmp_path.rglob("*.checkpoint")]
     assert len(kept) > 3
-    assert [file for file in kept if b"replaced" in file.read_bytes()] == []
+    assert [file for file in kept if re.search(rb"replaced|limits", file.read_bytes())] == []
 
 
 @pytest.mark.parametrize(
@@ -188,11 +192,44 @@ def test_the_result_says_whose_pictures_they_were() -> None:
     assert run.result.replaced == {"camera": f"{__name__}.HalfDark"}
 
 
-def test_limits_of_the_referee_are_values() -> None:
-    strict = handeye.assemble(script="OPEN 1\n", camera="ray", referee={"base_tilt": -1, "floor": -9})
+@pytest.fixture(scope="module")
+def strict(tmp_path_factory: pytest.TempPathFactory) -> handeye.Run:
+    """A run that was judged against limits of its own, and kept."""
+    limits = {"base_tilt": -1, "floor": -9}
+    folder = tmp_path_factory.mktemp("strict") / "run"
+    return handeye.assemble(script="OPEN 1\n", camera="ray", referee=limits, out=folder)
+
+
+def test_limits_of_the_referee_are_values(strict: handeye.Run) -> None:
     found = strict.result.referee
     assert (found["base_tilt"].ok, found["base_tilt"].limit, found["floor"].limit) == (False, -1, -9)
-    assert strict.result.replaced == {"referee": "handeye.report.judging.limits(base_tilt=-1, floor=-9)"}
+    assert (strict.result.limits, strict.result.replaced) == ({"base_tilt": -1, "floor": -9}, UNSET)
+
+
+def test_a_run_that_is_taken_up_keeps_its_limits(strict: handeye.Run) -> None:
+    again = handeye.begin(strict.out).result
+    assert (again.limits, again.referee) == (strict.result.limits, strict.result.referee)
+    assert kept_run(strict.out).result.limits == strict.result.limits
+
+
+def test_the_command_line_judges_by_the_limits_of_a_run(
+    strict: handeye.Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = handeye.begin(strict.out).checkpoint(tmp_path / "a.checkpoint")
+    assert app(["resume", str(file)], result_action="return_value") == 3
+    assert "limit of floor set by the caller: -9" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("limits", "kept"), [({"floor": 99}, {"floor": 99}), ({}, UNSET)])
+def test_a_run_that_was_kept_is_judged_again(strict: handeye.Run, limits: object, kept: object) -> None:
+    result = handeye.begin(strict.out, referee=limits).result
+    assert (result.limits, result.referee["base_tilt"].limit) == (kept, 0.3)
+
+
+def test_a_referee_of_ones_own_takes_the_place_of_limits(strict: handeye.Run, tmp_path: Path) -> None:
+    run = handeye.begin(strict.out, referee=easy)
+    assert (run.result.limits, run.assembled) == (UNSET, True)
+    assert read_head(run.checkpoint(tmp_path / "a.checkpoint")).limits is UNSET
 
 
 def test_what_a_result_keeps_of_a_finding_stands_against_another_limit() -> None:

@@ -4,6 +4,7 @@ import pytest
 
 import handeye
 from handeye.errors import InvalidInput
+from handeye.touch.spiral import spiral
 
 pytestmark = pytest.mark.slow
 
@@ -28,9 +29,19 @@ def test_a_table_tells_the_verdict_on_each(results: list[handeye.Result]) -> Non
     assert results._repr_html_().count("<tr>") == 3
 
 
-def test_processes_give_the_same_results(results: list[handeye.Result]) -> None:
-    again = handeye.trials.assemble_each([4, 1], script="OPEN 1\n", camera="ray", jobs=2)
-    assert [each.referee for each in again][:1] == [each.referee for each in results][:1]
+def test_processes_give_the_same_results_against_other_limits(results: list[handeye.Result]) -> None:
+    limits = {"floor": 99}
+    again = handeye.trials.assemble_each([4, 1], script="OPEN 1\n", camera="ray", referee=limits, jobs=2)
+    expected = results[0].referee | {"floor": results[0].referee["floor"].limited(99)}
+    assert (again[0].referee, again[0].limits) == (expected, limits)
+
+
+def test_trials_have_what_is_taught_and_a_search_and_a_referee_of_their_own() -> None:
+    script, taught = "SEARCH .1\nL: MOVE P\nAOJ L\n", "[positions]\nP = { at = [25, 38, 6, 90, 90, 0] }\n"
+    (result,) = handeye.trials.assemble_each(
+        [3], script=script, taught=taught, camera="ray", search={0: (0, 0)}.get, referee=lambda truth: {}
+    )
+    assert (result.error, [*result.replaced]) == (6, ["search", "referee"])
 
 
 @pytest.mark.parametrize(
@@ -39,6 +50,11 @@ def test_processes_give_the_same_results(results: list[handeye.Result]) -> None:
         ({"worlds": ["3"]}, r"^a world is a seed or a handeye\.World, not '3'$"),
         ({"worlds": [-1]}, r"^a seed is a whole number from 0 up; -1 is not$"),
         ({"worlds": 3}, r"^worlds are seeds or worlds one after the other, not 3$"),
+        (
+            {"worlds": [1], "jobs": 2, "search": spiral},
+            r"^code in the place of a part takes one process: leave ",
+        ),
+        ({"worlds": [1], "referee": {"pump": 1}}, r"^the referee has no finding `pump`; "),
         ({"worlds": [1], "jobs": 0}, r"^jobs are a whole number from 1 up, not 0$"),
     ],
 )
