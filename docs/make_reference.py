@@ -19,7 +19,6 @@ sys.path.insert(0, str(ROOT))
 import handeye  # noqa: E402
 from handeye import events  # noqa: E402
 from handeye.door import provided  # noqa: E402
-from handeye.door.results import Results  # noqa: E402
 from handeye.door.state import Memory  # noqa: E402
 from handeye.inspection.inspection import InspectedStage, InspectedStep  # noqa: E402
 from handeye.report import result  # noqa: E402
@@ -27,6 +26,7 @@ from handeye.report.world_page import QuantityReport  # noqa: E402
 from handeye.trace.forces import Forces  # noqa: E402
 from handeye.trace.motion import Motion  # noqa: E402
 from handeye.trace.replay import Moment  # noqa: E402
+from handeye.trials.results import Results  # noqa: E402
 
 PAGE = ROOT / "docs" / "python.md"
 MARK = "<!-- Below: docs/make_reference.py -->\n"

@@ -58,9 +58,3 @@ class Reply(CommandResult, frozen=True, kw_only=True):
     """Events that have happened, in full."""
     error: str | None = None
     """Why the command was not carried out."""
-
-    def __str__(self) -> str:
-        """The answer for people, as lines of text."""
-        from handeye.debugger.formatting import as_text  # which tells of replies
-
-        return as_text(self)

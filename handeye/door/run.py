@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from handeye.debugger.breakpoints import breakpoint, stage_number
 from handeye.debugger.reachability import is_ahead
-from handeye.debugger.reply import Break, Reply
+from handeye.debugger.reply import Break
 from handeye.debugger.stepper import Stepper
 from handeye.debugger.views import last_picture
+from handeye.door.answer import Answer, answer
 from handeye.door.arguments import given_count, given_file, given_place
 from handeye.door.plans import Plan
 from handeye.door.run_page import run_page
@@ -137,7 +138,7 @@ class Run:
         """
         return self._hands.add_break(given_place(place))
 
-    def say(self, line: str) -> Reply:
+    def say(self, line: str) -> Answer:
         """Say a command of the stepper (`handeye run --step`), as `"show force"`, `"set saved H 0 0 .1"`, `"retry"`.
 
         Returns:
@@ -154,7 +155,7 @@ class Run:
         self._why = None if reply.pause is None else reason(reply.pause)
         if self._stepper.over:
             self.close()
-        return reply
+        return answer(reply)
 
     def _go(self, stops: list[AnyStop] | None = None, steps: int | None = None) -> State:
         self._check_open()

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # a trial is seldom wanted where something in this folder is
     from handeye.door.plans import FileName, Planned
-    from handeye.door.results import Results
     from handeye.door.worlds import World
     from handeye.report.judging import Limits, Referee
     from handeye.touch.spiral import SearchPattern
+    from handeye.trials.results import Results
 
 __all__ = ["assemble_each"]
 
@@ -48,7 +48,7 @@ def assemble_each(
     >>> [(result.seed, result.completed) for result in results]
     [(0, True), (1, True)]
     """
-    from handeye.door.results import assemble_in
+    from handeye.trials.results import assemble_in
 
     return assemble_in(
         worlds, script=script, taught=taught, camera=camera, search=search, referee=referee, jobs=jobs
