@@ -9,9 +9,11 @@ from rich.text import Text
 
 from handeye.diagnostics import visible
 from handeye.report.result import Result, Timing
-from handeye.tasks import task
-from handeye.tasks.task import Period
+from handeye.tasks import known
+from handeye.tasks.task import Period, Words
 
+_NEUTRAL = Words(done="The referee found everything right.", product="the work")
+"""Of a task that only the program knew that began the run."""
 _MARK = {
     "done": ("✓", "green"),
     "under way": ("▸", "yellow"),
@@ -96,8 +98,9 @@ def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[tuple[str, float, fl
 
 
 def period(result: Result) -> Period | None:
-    """The times of 1973, or of whenever it was, if they are those of this program."""
-    then = task(result.task).period
+    """The times of 1973, or of whenever it was, if they are those of this program; None of a task unknown here."""
+    task = known(result.task)
+    then = None if task is None else task.period
     return then if then is not None and then.program == result.program else None
 
 
@@ -146,7 +149,8 @@ def verdict(result: Result) -> Text:
         return Text(f"Stopped{where}{number}: {result.message}", "bold red")
     if result.assembled is None:
         return Text("The program came to its end.", "bold")
-    words = task(result.task).words
+    task = known(result.task)
+    words = _NEUTRAL if task is None else task.words
     if result.assembled:
         return Text(words.done, "bold green")
     wrong = [check.sentence for check in result.referee.values() if not check.ok]

@@ -50,12 +50,18 @@ def task(name: str = DEFAULT) -> Task:
     """
     if not isinstance(name, str):
         raise InvalidInput(f"a task is given by its name, not {name!r}")
-    if name in _REGISTERED:
-        return _REGISTERED[name]
-    if name not in _BUILT_IN:
-        known = {*_BUILT_IN, *_REGISTERED}
-        near = suggestion(name, known) or f"there are {', '.join(map(quoted, sorted(known)))}"
+    found = known(name)
+    if found is None:
+        names = {*_BUILT_IN, *_REGISTERED}
+        near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
         raise InvalidInput(f"no task is called {quoted(name)}; {near}{_ELSEWHERE}")
+    return found
+
+
+def known(name: str) -> Task | None:
+    """The task of a name; None: this process does not know it, as it may be another program's own."""
+    if name not in _BUILT_IN:
+        return _REGISTERED.get(name)
     module, value = _BUILT_IN[name]
     found: Task = getattr(import_module(module), value)
     return found

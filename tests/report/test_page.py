@@ -55,6 +55,17 @@ def test_only_the_pump_is_compared_with_1973(program: str, compared: bool) -> No
     assert "working phase" in shown
 
 
+@pytest.mark.parametrize(
+    ("assembled", "said"), [(True, "The referee found everything right."), (False, "but the work is not right:")]
+)
+def test_a_run_of_a_task_that_is_not_known_here_is_shown_in_neutral_words(assembled: bool, said: str) -> None:
+    odd = msgspec.structs.replace(result(completed=True, assembled=assembled), task="another program's own")
+    console = Console(file=io.StringIO(), width=80)
+    with console.capture() as shown:
+        console.print(page(odd))
+    assert (said in shown.get(), "1973" in shown.get()) == (True, False)
+
+
 @pytest.mark.parametrize(("planning", "told"), [(0.0, False), (0.4, True)])
 def test_planning_is_timed_where_it_was_done(planning: float, told: bool) -> None:
     assert ("planning phase" in table(result(completed=True, assembled=None, planning=planning))) == told
