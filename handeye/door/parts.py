@@ -1,6 +1,7 @@
 """Replaceable parts as people give them: checked, and wrapped so that what they give back is checked as well."""
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from functools import cache
 from typing import Any, Final, Protocol, TypeVar
 
@@ -19,6 +20,8 @@ from handeye.runs.parts import Parts, name_of
 from handeye.touch.spiral import SearchPattern
 from handeye.vision.camera_model import View
 
+_SHOWN: Final = 60
+"""Characters of what is no picture: it may be long."""
 CAMERAS: Final = ("auto", "gl", "ray")
 
 
@@ -29,7 +32,7 @@ class PictureMaker(Protocol):
         """Light on the target, shape (256, 333), 1 for a white surface in full light.
 
         Args:
-            data: the scene as it is; it must not be changed.
+            data: the scene as it is, a copy.
             view: the camera: lens, and where it stands and looks.
         """
 
@@ -77,12 +80,15 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
         raise InvalidInput(
             f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"
         )
-    return _named(lambda truth: _checked_findings(given(truth)), given)
+    name = name_of(given)
+    return _named(lambda truth: _checked_findings(name, given(truth)), given)
 
 
 def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
         raise InvalidInput(f"a search is called with the number of a place and gives it; not {search!r}")
+
+    name = name_of(search)
 
     @cache  # a place is asked for by AOJ, by each MOVE and by whoever shows it
     def place(number: int) -> tuple[float, float] | None:
@@ -90,52 +96,67 @@ def _checked_search(search: SearchPattern) -> SearchPattern:
             given = search(number)
         except StopIteration:
             given = None
-        return None if given is None and number > 0 else _checked_place(number, given)
+        return None if given is None and number > 0 else _checked_place(name, number, given)
 
     return _named(place, search)
 
 
-def _checked_place(number: int, given: object) -> tuple[float, float]:
+def _checked_place(name: str, number: int, given: object) -> tuple[float, float]:
     """Raises InvalidInput if a search gave something else than a place."""
     try:
         x, y = (float(each) for each in np.asarray(given, dtype=object))
     except (TypeError, ValueError):
         x = y = np.nan
     if not np.isfinite([x, y]).all():
-        raise InvalidInput(f"the search must give two numbers for place {number}, not {given!r}")
+        raise InvalidInput(f"the search `{name}` must give two numbers for place {number}, not {given!r}")
     return x, y
 
 
 def _checked_camera(camera: Callable[[mujoco.MjModel], PictureMaker]) -> RendererMaker:
     if not callable(camera):
         raise InvalidInput(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
-    name = name_of(camera)
-    return _named(lambda model: _Replaced(camera(model), name), camera)
+    return _named(lambda model: _Replaced(camera, model), camera)
 
 
-def _checked_findings(findings: object) -> Findings:
+def _checked_findings(name: str, findings: object) -> Findings:
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
-        raise InvalidInput(f"a referee must give findings by their names, not {findings!r}")
+        raise InvalidInput(f"the referee `{name}` must give findings by their names, not {findings!r}")
     return findings
 
 
 class _Replaced(SceneRenderer):
-    """A maker of pictures that somebody brought."""
+    """A maker of pictures that somebody brought; it sees copies, so that nothing it does changes the run."""
 
-    def __init__(self, maker: PictureMaker, name: str) -> None:
-        self.identity = Renderer(method="replaced", platform=name)
-        self._maker = maker
+    def __init__(self, camera: Callable[[mujoco.MjModel], PictureMaker], model: mujoco.MjModel) -> None:
+        self.identity = Renderer(method="replaced", platform=name_of(camera))
+        self._scene = copy(model)
+        self._maker = camera(self._scene)
+        if not callable(getattr(self._maker, "render", None)):
+            raise InvalidInput(
+                f"the camera `{self.identity.platform}` must give an object that has `render`, not {self._maker!r}"
+            )
+        self._model, self._data = model, mujoco.MjData(self._scene)
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
-        light = np.asarray(self._maker.render(data, view), dtype=np.float32)
-        if light.shape != (ROWS, COLUMNS) or not np.isfinite(light).all():
-            raise InvalidInput(
-                f"{self.identity.platform} must give a picture of {ROWS} by {COLUMNS} finite numbers, "
-                f"not of shape {light.shape}"
-            )
+        mujoco.mj_copyData(self._data, self._model, data)
+        given = self._maker.render(self._data, view)
+        try:
+            light = np.asarray(given, dtype=np.float32)
+        except (TypeError, ValueError):
+            raise self._no_picture(repr(given)) from None
+        if light.shape != (ROWS, COLUMNS):
+            raise self._no_picture(f"of shape {light.shape}")
+        if not np.isfinite(light).all():
+            raise self._no_picture("with some that are not finite")
         return light
+
+    def _no_picture(self, what: str) -> InvalidInput:
+        name = self.identity.platform
+        return InvalidInput(
+            f"the camera `{name}` must give a picture of {ROWS} by {COLUMNS} finite numbers, not {what[:_SHOWN]}"
+        )
 
 
 def _named(wrapped: Code, code: Any) -> Code:

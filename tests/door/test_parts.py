@@ -130,7 +130,9 @@ def test_a_part_may_be_replaced_from_a_checkpoint_on_and_the_run_says_so(tmp_pat
 @pytest.mark.parametrize("wrong", [3, (1, 2, 3), ("a", "b"), (float("nan"), 0)])
 def test_a_search_that_gives_no_place_is_told_and_its_step_is_not_done(wrong: object) -> None:
     run = handeye.begin(SEARCH, camera="ray", search=lambda place: wrong)
-    with pytest.raises(InvalidInput, match=r"^the search must give two numbers for place 1, not "):
+    with pytest.raises(
+        InvalidInput, match=r"^the search `.*<lambda>` must give two numbers for place 1, not "
+    ):
         run.until()
     assert run.state.text == "AOJ L"
 
@@ -138,7 +140,9 @@ def test_a_search_that_gives_no_place_is_told_and_its_step_is_not_done(wrong: ob
 def test_a_search_without_a_first_place_is_told() -> None:
     script, taught = "SEARCH .1\nL: MOVE P\nAOJ L\n", "[positions]\nP = { at = [25, 38, 6, 90, 90, 0] }\n"
     run = handeye.begin(script, taught=taught, camera="ray", search=lambda place: None)
-    with pytest.raises(InvalidInput, match=r"^the search must give two numbers for place 0, not None$"):
+    with pytest.raises(
+        InvalidInput, match=r"^the search `.*<lambda>` must give two numbers for place 0, not None$"
+    ):
         run.until()
 
 
@@ -175,14 +179,50 @@ def test_pictures_are_those_of_the_camera_that_is_given() -> None:
 
 
 @pytest.mark.render
-@pytest.mark.parametrize("wrong", [np.zeros((333, 256)), np.full((256, 333), np.nan)])
-def test_what_is_no_picture_is_told_in_one_sentence(wrong: np.ndarray) -> None:
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (np.zeros((333, 256)), r"of shape \(333, 256\)"),
+        (np.full((256, 333), np.nan), "with some that are not finite"),
+        ("abc", "'abc'"),
+        ([[1], [1, 2]], r"\[\[1\], \[1, 2\]\]"),
+    ],
+)
+def test_what_is_no_picture_is_told_in_one_sentence(wrong: object, said: str) -> None:
     maker = parts_of(None, lambda model: SimpleNamespace(render=lambda data, view: wrong)).camera
     cell = task().cell(WorldSpec(seed=0), maker)
-    with pytest.raises(
-        InvalidInput, match=r"must give a picture of 256 by 333 finite numbers, not of shape \("
-    ):
+    sentence = rf"^the camera `.*<lambda>` must give a picture of 256 by 333 finite numbers, not {said}$"
+    with pytest.raises(InvalidInput, match=sentence):
         cell.devices.camera.digitise()
+
+
+def test_a_camera_that_makes_no_pictures_is_told_before_the_run() -> None:
+    with pytest.raises(
+        InvalidInput, match=r"^the camera `.*<lambda>` must give an object that has `render`, not 3$"
+    ):
+        handeye.begin("OPEN 1\n", camera=lambda model: 3)
+
+
+class Careless(HalfDark):
+    """A camera that writes in everything it is given."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        model.opt.gravity[:] = 0
+        model.body_mass[:] = 7
+
+    def render(self, data: mujoco.MjData, view: View) -> np.ndarray:
+        data.qpos[:], data.qvel[:], data.time = 1, 1, 9
+        data.model.opt.timestep = 1
+        return super().render(data, view)
+
+
+@pytest.mark.render
+def test_a_camera_cannot_change_the_run() -> None:
+    cells = [task().cell(WorldSpec(seed=0), parts_of(None, made).camera) for made in (HalfDark, Careless)]
+    for cell in cells:
+        cell.devices.camera.digitise()
+        cell.advance(1 / 60)
+    assert np.array_equal(*(cell.capture().physics for cell in cells))
 
 
 def test_the_result_says_whose_pictures_they_were() -> None:
@@ -267,5 +307,7 @@ def test_what_is_no_part_is_told_in_one_sentence(words: dict[str, object], sente
 def test_a_referee_that_finds_nothing_that_is_a_finding_is_told(wrong: object) -> None:
     run = handeye.begin("OPEN 1\n", camera="ray", referee=lambda truth: wrong)
     run.until()
-    with pytest.raises(InvalidInput, match=r"^a referee must give findings by their names, not "):
+    with pytest.raises(
+        InvalidInput, match=r"^the referee `.*<lambda>` must give findings by their names, not "
+    ):
         run.result  # noqa: B018

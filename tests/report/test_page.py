@@ -56,7 +56,8 @@ def test_only_the_pump_is_compared_with_1973(program: str, compared: bool) -> No
 
 
 @pytest.mark.parametrize(
-    ("assembled", "said"), [(True, "The referee found everything right."), (False, "but the work is not right:")]
+    ("assembled", "said"),
+    [(True, "The referee found everything right."), (False, "but the work is not right:")],
 )
 def test_a_run_of_a_task_that_is_not_known_here_is_shown_in_neutral_words(assembled: bool, said: str) -> None:
     odd = msgspec.structs.replace(result(completed=True, assembled=assembled), task="another program's own")
