@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, note, screen
+from handeye.diagnostics import quoted
 
 if TYPE_CHECKING:
     from handeye.report.kept_run import KeptRun
+    from handeye.report.result import Result
 
 Folder = Annotated[Path, Parameter(help="The folder of a run.")]
 
@@ -27,8 +29,25 @@ def show(folder: Folder, /, *, json: Json = False) -> int:
     """
     kept = shown(folder, json=json)
     if not (kept.left and kept.result.completed):
-        note(f"resume with: handeye resume {shlex.quote(str(folder))}")
+        note(_way_on(folder, kept.result))
     return 0
+
+
+def _way_on(folder: Path, result: "Result") -> str:
+    """Tell how a run is gone on with: from Python, if code of its caller belongs to it."""
+    from handeye.runs.parts import deciding
+    from handeye.tasks import known
+
+    parts = deciding(result.replaced or {})
+    own = [f"{part} {quoted(name)}" for part, name in parts.items()]
+    if known(result.task) is None:
+        own.append(f"task {quoted(result.task)}")
+    if not own:
+        return f"resume with: handeye resume {shlex.quote(str(folder))}"
+    call = ", ".join([repr(str(folder)), *(f"{part}=..." for part in parts)])
+    return (
+        f"the run has a {' and a '.join(own)} of its own: from Python, handeye.begin({call}) goes on with it"
+    )
 
 
 def shown(folder: Path, *, json: bool) -> "KeptRun":

@@ -108,6 +108,15 @@ def test_a_run_is_taken_up_with_the_code_it_was_begun_with(
     assert offsets(run) == [(1, 0), (2, 0), (3, 0), (4, 0)]
 
 
+def test_a_run_with_code_of_its_own_is_shown_with_how_python_goes_on_with_it(
+    searched: handeye.Run, capsys: pytest.CaptureFixture[str]
+) -> None:
+    app(["show", str(searched.out)], result_action="return_value")
+    told = capsys.readouterr().err
+    said = f"search `{__name__}.row` of its own: from Python, handeye.begin('{searched.out}', search=...) goes on"
+    assert (said in " ".join(told.split()), "handeye resume" in told) == (True, False)
+
+
 def test_a_run_that_is_not_taken_up_leaves_no_folder(searched: handeye.Run, tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match=r"^the run has a search of its own, "):
         handeye.begin(searched.out, out=tmp_path / "again")
