@@ -521,8 +521,20 @@ def test_a_trace_that_was_lost_is_told_of_and_shows_nothing_that_it_does_not_hol
     assert (code, "; 1 s is outside" in err) == (2, True)
 
 
+@pytest.mark.parametrize("left", [None, b"", b'{"event":"RunFinished","time":1.0,"completed":true}\n'])
+def test_an_event_list_that_was_lost_is_told_of(command: Command, folder: Path, left: bytes | None) -> None:
+    shutil.copytree(folder, "again")
+    Path("again/result.json").unlink()
+    Path("again/events.jsonl").unlink()
+    if left is not None:
+        Path("again/events.jsonl").write_bytes(left)
+    said = "the event list again/events.jsonl was lost, damaged or of another run, and is begun anew "
+    assert said in command("resume", "again")[2]
+
+
 def test_of_a_sound_run_nothing_is_said_to_be_lost(command: Command, folder: Path) -> None:
     shutil.copytree(folder, "again")
+    Path("again/result.json").unlink()
     assert "lost" not in command("resume", "again")[2]
     assert "not compared" not in command("trace", "verify", "again")[2]
 

@@ -21,7 +21,7 @@ from handeye.errors import InvalidInput
 from handeye.events import beginning
 from handeye.execution.servo_loop import Halted
 from handeye.host_time import HostTimer
-from handeye.report.cautions import cautions
+from handeye.report.cautions import cautions, losses
 from handeye.report.finishing import finished
 from handeye.report.page import page
 from handeye.report.progress import Progress
@@ -138,11 +138,8 @@ class _Work:
             raise
         for sentence in cautions(runner, judged=self.job.referee):
             note(sentence)
-        if self.folder is not None and self.folder.lost:
-            note(
-                f"the trace in {self.folder.path} was lost or damaged: "
-                f"it lacks the motions before {runner.elapsed:.2f} s"
-            )
+        for sentence in () if self.folder is None else losses(self.folder, runner):
+            note(sentence)
         return runner
 
     def _observers(self, runner: Runner) -> list[Observer]:

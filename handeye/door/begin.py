@@ -17,7 +17,7 @@ from handeye.door.worlds import World
 from handeye.errors import InvalidInput
 from handeye.host_time import HostTimer
 from handeye.plain_text import counted
-from handeye.report.cautions import cautions
+from handeye.report.cautions import cautions, losses
 from handeye.report.judging import Limits, Referee, check_limits
 from handeye.runs.folder import PICTURES, HoldsRun, RunFolder, open_new
 from handeye.runs.host_seconds import Meter
@@ -56,7 +56,7 @@ def begin(
             it are carried out, from the nearest checkpoint if there is a folder of a run.
         world: the world, in the place of a seed.
         camera: how pictures are made: `gl` (OpenGL), `ray` (ray casting, everywhere the same) or `auto`; or a class
-            or function that is called with the scene (`mujoco.MjModel`) and gives an object whose
+            or function that is called with a copy of the scene (`mujoco.MjModel`) and gives an object whose
             `render(data, view)` works out the light on the target, shape (256, 333), 1 for white in full light.
         search: the places that a `SEARCH` tries, in the place of its square spiral: called with the number of a
             place, from 0, it gives x and y in steps of the search (table coordinates). It is called once for each
@@ -204,7 +204,9 @@ def _built(start: Start, parts: Parts, keeping: Keeping) -> Run:
             folder.close()
             folder.discard()
         raise
-    for sentence in cautions(runner, judged=keeping.judged and keeping.referee is None):
+    doubts = cautions(runner, judged=keeping.judged and keeping.referee is None)
+    lost = () if folder is None else losses(folder, runner)
+    for sentence in (*doubts, *lost):
         warnings.warn(sentence, stacklevel=3)
     stepper = Stepper(
         runner,

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from handeye.events import RunStarted
+from handeye.runs.folder import EVENTS, RunFolder
 from handeye.runs.runner import Runner
 from handeye.trace.sentences import renderer_name
 from handeye.versions import versions
@@ -26,3 +27,17 @@ def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
     referee = runner.setup.replaced.get("referee")
     if judged and referee is not None:
         yield f"the run was begun with another referee, `{referee}`, which is in no file; the task's own judges it"
+
+
+def losses(folder: RunFolder, runner: Runner) -> Iterator[str]:
+    """Sentences on what the folder of a run that goes on has lost of it."""
+    if folder.lost:
+        yield (
+            f"the trace in {folder.path} was lost or damaged: "
+            f"it lacks the motions before {runner.elapsed:.2f} s"
+        )
+    if folder.journal_lost:
+        yield (
+            f"the event list {folder.path / EVENTS} was lost, damaged or of another run, and is begun anew "
+            "from the checkpoint: what was undone before is not in it"
+        )

@@ -92,6 +92,11 @@ class RunFolder(Observer):
         """Events of a run that goes on which its trace had lost, and with them the motions between them."""
         return 0 if self._recorder is None else self._recorder.lost
 
+    @property
+    def journal_lost(self) -> bool:
+        """The event list of a run that goes on was lost or another's, and was begun anew."""
+        return self._journal is not None and self._journal.lost
+
     def begin(self, start: Checkpoint) -> None:
         """Let this run take the place of the one that was here.
 

@@ -34,7 +34,10 @@ class Journal:
             self._file.truncate(text.rfind(b"\n") + 1)
         except OSError as error:
             raise self._unwritable(error) from None
-        if effective(read_events(path))[: len(events)] != list(events):
+        lacking = effective(read_events(path))[: len(events)] != list(events)
+        self.lost = again and lacking
+        """Some of the events were not there, and it was begun anew: what was undone before is told nowhere."""
+        if lacking:
             self._file.truncate(0)
             for event in events:
                 self.append(event)
