@@ -6,6 +6,7 @@ from pathlib import Path
 
 from msgspec import UNSET
 
+from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
@@ -53,15 +54,38 @@ def kept_run(path: Path) -> KeptRun:
     Raises:
         InvalidInput: it is no folder of a run, the run has not begun, or what is there cannot be read.
     """
+    faults = []
     if (path / RESULT).exists():
         result, missing = read_result(path / RESULT)
-        return KeptRun(result=result, missing=missing)
+        if _belongs(result, missing, _readable_events(path)):
+            return KeptRun(result=result, missing=missing)
+        faults.append(
+            f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
+        )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
         raise InvalidInput(f"{path} is not the folder of a run: it has no {PLAN}")
     events = effective(read_events(path / EVENTS, growing=True)) if (path / EVENTS).exists() else []
     if not events:
         raise InvalidInput(f"the run in {path} has not begun")
-    return _so_far(path, events)
+    return _so_far(path, events, faults)
+
+
+def _readable_events(path: Path) -> list[AnyEvent]:
+    """The events in the folder of a run; none if they cannot be read."""
+    try:
+        return effective(read_events(path / EVENTS, growing=True))
+    except InvalidInput:
+        return []
+
+
+def _belongs(result: Result, missing: Sequence[str], events: Sequence[AnyEvent]) -> bool:
+    """A result may be that of the run of these events, by the program, the task and the world that both name."""
+    begun = next((event for event in events if isinstance(event, RunStarted)), None)
+    names = [name for name in ("program", "task", "world") if name not in missing]
+    return begun is None or (
+        result.seed == begun.world.seed
+        and all(getattr(result, name) == getattr(begun, name) for name in names)
+    )
 
 
 def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
@@ -73,14 +97,15 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
     if not newest.ended or not (path / RESULT).exists():
         return False
     try:
-        result, _ = read_result(path / RESULT)
+        result, missing = read_result(path / RESULT)
     except InvalidInput:  # it is made anew
         return False
-    return result.completed and (result.assembled is not None or not judged)
+    own = _belongs(result, missing, newest.events)
+    return own and result.completed and (result.assembled is not None or not judged)
 
 
-def _so_far(path: Path, events: Sequence[AnyEvent]) -> KeptRun:
-    """A run that has left no result, by its events."""
+def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:
+    """A run that has left no result, by its events; `faults` are known already."""
     begun, last = events[0], events[-1]
     if not isinstance(begun, RunStarted):
         raise InvalidInput(f"{path / EVENTS} is an event list without the start of a run")
@@ -88,7 +113,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent]) -> KeptRun:
     stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not stages <= set(listing.stages):
         raise InvalidInput(f"{path / EVENTS} tells of stages that the plan beside it lacks")
-    host, faults = _host(path)
+    host, unread = _host(path)
     checkpoint, damaged = CheckpointStore(path / CHECKPOINTS).newest()
     state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state
     calibration = state.calibration if isinstance(state, ExecutionState) else None
@@ -112,7 +137,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent]) -> KeptRun:
         versions=begun.versions,
         replaced=deciding(begun.own_parts) or UNSET,
     )
-    return KeptRun(result=result, faults=(*faults, *damaged), left=False)
+    return KeptRun(result=result, faults=(*faults, *unread, *damaged), left=False)
 
 
 def _listing(path: Path, begun: RunStarted) -> Listing:

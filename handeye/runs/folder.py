@@ -78,6 +78,8 @@ class RunFolder(Observer):
         Raises:
             InvalidInput: the folder cannot be written to.
         """
+        if (self.path / RESULT).is_dir():  # it would be found out when the run is over
+            raise InvalidInput(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
         self._journal = Journal(self.path / EVENTS, start.events, again=again)
         if not again:

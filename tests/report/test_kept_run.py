@@ -19,6 +19,7 @@ from handeye.runs.advance import advance
 from handeye.runs.folder import EVENTS, HOST, PLAN, RESULT, open_again, open_new
 from handeye.runs.host_seconds import HostSeconds, Meter
 from handeye.runs.runner import Runner
+from handeye.variation import WorldSpec
 
 
 @pytest.fixture
@@ -100,6 +101,28 @@ def test_a_result_stands_until_its_run_goes_on(
         runner.undo()
     folder.close()
     assert (copy / RESULT).exists() is stands
+
+
+OTHERS = {"program": "another", "task": "another", "world": WorldSpec(seed=0, level="high"), "seed": 77}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_the_result_of_another_run_is_left_out_and_told_of(ended: Path, name: str) -> None:
+    other = msgspec.structs.replace(kept_run(ended).result, **{name: OTHERS[name]})
+    (ended / RESULT).write_bytes(to_json(other))
+    kept = kept_run(ended)
+    assert [fault.partition(": ")[0] for fault in kept.faults] == [f"{ended / RESULT} is of another run"]
+    assert (getattr(kept.result, name) != OTHERS[name], kept.left) == (True, False)
+    assert not has_ended(ended, open_again(ended)[1], judged=False)
+
+
+def test_a_run_whose_result_cannot_be_written_does_not_go_on(broken: Path, tmp_path: Path) -> None:
+    copy = Path(shutil.copytree(broken, tmp_path / "copy"))
+    (copy / RESULT).mkdir()
+    folder, newest, _ = open_again(copy)
+    with pytest.raises(InvalidInput, match=r"^.*result\.json cannot be written: it is a folder$"):
+        Runner(newest, observers=lambda r: [folder.watch(r, newest, again=True)])
+    assert (copy / EVENTS).read_bytes() == (broken / EVENTS).read_bytes()
 
 
 @pytest.mark.parametrize("written", [None, b"hello"])
