@@ -70,7 +70,8 @@ def smooth_photograph(
     Raises:
         InvalidInput: as `photograph`, or the size cannot be.
     """
-    if not (SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
+    whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
+    if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise InvalidInput(
             f"a picture of {width} x {height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
         )

@@ -134,8 +134,9 @@ class Run:
             the breakpoint and its `number`, by which `run.say("delete 1")` takes it away.
 
         Raises:
-            InvalidInput: there is no such place.
+            InvalidInput: there is no such place, or the run is closed.
         """
+        self._check_open()
         return self._hands.add_break(given_place(place))
 
     def say(self, line: str) -> Answer:
@@ -145,12 +146,17 @@ class Run:
             the answer as a record; `print` shows it as the stepper does. A command that is wrong changes nothing, and
             its answer says so in `error`.
 
+        Raises:
+            InvalidInput: the line is no text, or the run is closed.
+
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
         >>> print(run.say("show gap"))
         ── stage 1, program, step 0; 0 steps done, 0.00 s
         gap       -0.002 in
         """
         self._check_open()
+        if not isinstance(line, str):
+            raise InvalidInput(f"a command of the stepper is a text, not {line!r}")
         reply = self._stepper.do(line)
         self._why = None if reply.pause is None else reason(reply.pause)
         if self._stepper.over:
@@ -280,8 +286,9 @@ class Run:
             the file.
 
         Raises:
-            InvalidInput: it cannot be written, or the run has no folder and no file is named.
+            InvalidInput: it cannot be written, the run is closed, or it has no folder and no file is named.
         """
+        self._check_open()
         kept = self._runner.checkpoint()
         if path is None:
             folder = self._keeping.folder

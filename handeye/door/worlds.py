@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
+from types import MappingProxyType
 
 from handeye import tasks
 from handeye.door.arguments import given_names
@@ -73,7 +74,9 @@ class World:
     def values(self) -> Mapping[str, float]:
         """The value of each quantity by its name, each in its own unit."""
         drawn, table = self._table.draw(self.spec), self._table.quantities
-        return {name: value / table[name].measure.size for name, value in drawn.values.items()}
+        return MappingProxyType(
+            {name: value / table[name].measure.size for name, value in drawn.values.items()}
+        )
 
     @cached_property
     def quantities(self) -> tuple[QuantityReport, ...]:

@@ -151,8 +151,10 @@ class Trace:
         """The run as it was at a time (s).
 
         Raises:
-            InvalidInput: the time is outside what was recorded, or nothing was recorded between the events.
+            InvalidInput: it is no time, it is outside what was recorded, or nothing was recorded between the events.
         """
+        if not isinstance(time, (int, float, np.number)):
+            raise InvalidInput(f"a time is a number of seconds, not {time!r}")
         begin, end = self.covers
         if not begin - SHOWN <= time <= end + SHOWN:
             raise InvalidInput(

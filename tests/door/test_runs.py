@@ -1,6 +1,6 @@
 """A run in the hands of a program: it goes on, goes back, tells where it stands and what came of it."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -138,6 +138,7 @@ def test_the_stepper_is_spoken_to(run: handeye.Run) -> None:
         (lambda run: run.until() and run.until(), r"^the program has ended"),
         (lambda run: run.until("L1") and run.until("open up"), r"^the run never comes to open up from here$"),
         (lambda run: run.until(3.5), r"^a place is a text or the number of a line, not 3\.5$"),
+        (lambda run: run.say(3), r"^a command of the stepper is a text, not 3$"),
         (lambda run: run.back(), r"^1 steps cannot be undone; 0 are done$"),
         (lambda run: run.back("shut"), r"^stage shut the hand has not begun yet$"),
         (lambda run: run.checkpoint(), r"^this run has no folder for checkpoints; name a file$"),
@@ -179,9 +180,20 @@ def test_a_checkpoint_is_gone_on_from(run: handeye.Run, tmp_path: Path) -> None:
     assert list(other.until().joints) == list(run.until().joints)
 
 
-def test_a_run_that_is_closed_moves_no_more(kept: handeye.Run) -> None:
+@pytest.mark.parametrize(
+    "act",
+    [
+        lambda run: run.step(),
+        lambda run: run.break_at("L1"),
+        lambda run: run.checkpoint(),
+        lambda run: run.say("show"),
+    ],
+)
+def test_with_a_run_that_is_closed_nothing_more_is_done(
+    kept: handeye.Run, act: Callable[[handeye.Run], object]
+) -> None:
     with pytest.raises(InvalidInput, match=r"^the run is closed; "):
-        kept.step()
+        act(kept)
     kept.close()
     assert kept.completed
 

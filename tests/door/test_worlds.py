@@ -19,6 +19,11 @@ def test_values_are_in_their_own_units() -> None:
     assert (world.unit("camera.place.x"), world.values["camera.place.x"]) == ("in", pytest.approx(0.3))
 
 
+def test_nobody_changes_the_values_of_a_world() -> None:
+    with pytest.raises(TypeError, match="does not support item assignment"):
+        handeye.World().values["camera.place.x"] = 7.0
+
+
 def test_equal_worlds_are_equal() -> None:
     assert handeye.World(3, without="camera") == handeye.World(3, without=["camera"])
     assert handeye.World(3) != handeye.World(4)

@@ -100,6 +100,12 @@ def test_a_camera_that_the_scene_does_not_have_is_refused(trace: Trace) -> None:
         trace.frame(1.0, "nowhere")
 
 
+@pytest.mark.parametrize("sides", [{"width": "a"}, {"height": 640.5}])
+def test_a_size_that_is_none_is_refused(trace: Trace, sides: dict[str, object]) -> None:
+    with pytest.raises(InvalidInput, match=r"^a picture of .* cannot be made; a side has 8 to 2048 points$"):
+        trace.frame(trace.head.time + 1.0, **sides)
+
+
 def test_the_cell_of_the_first_version_is_not_photographed(trace: Trace) -> None:
     with pytest.raises(
         InvalidInput, match=r"was recorded by an older handeye, whose cell this one cannot build"

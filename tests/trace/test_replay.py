@@ -20,6 +20,11 @@ def trace(tmp_path: Path) -> Trace:
     return read_trace(tmp_path / "short.mcap")
 
 
+def test_what_is_no_time_is_refused(trace: Trace) -> None:
+    with pytest.raises(InvalidInput, match=r"^a time is a number of seconds, not '3'$"):
+        trace.at("3")
+
+
 def test_joints_and_frames_are_where_they_were_in_every_servo_period(trace: Trace) -> None:
     for moment in reversed(TICKS):
         assert isinstance(moment.what, Sensed)
