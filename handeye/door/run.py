@@ -7,6 +7,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,7 +37,7 @@ from handeye.runs.host_seconds import Meter
 from handeye.runs.operator import Operator, attend, beginnings
 from handeye.runs.programs import context_of
 from handeye.runs.setup import plan_of
-from handeye.runs.stops import AfterSteps, AnyStop, AtStage
+from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 
@@ -77,6 +78,7 @@ class Run:
         self._why: str | None = why
         self._closed: Result | None = None
         self._outcome: tuple[int, Result] | None = None
+        self._broken: BrokenOff | None = None
 
     # -- going on -------------------------------------------------------------------------------------
 
@@ -315,10 +317,12 @@ class Run:
 
     def _ended(self, make: Callable[..., Result], **more: Any) -> Result:
         """The result of the run as it now pauses."""
-        keeping = self._keeping
+        keeping, pause = self._keeping, self._hands.pause
+        if self._broken is not None and pause.kind == "break":
+            pause = msgspec.structs.replace(pause, met=self._broken)
         return make(
             self._runner,
-            self._hands.pause,
+            pause,
             keeping.meter,
             judged=keeping.judged,
             referee=keeping.referee,
@@ -335,6 +339,8 @@ class Run:
     def __exit__(
         self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
     ) -> None:
+        if kind is not None:
+            self._broken = BrokenOff(exception=kind.__name__)
         self.close()
 
     # -- showing --------------------------------------------------------------------------------------

@@ -39,6 +39,8 @@ def stop_name(stop: AnyStop) -> str:
             return counted(stop.count, "step")
         case stops.ByHand():
             return "by hand"
+        case stops.BrokenOff():
+            return stop.exception
 
 
 def _met(stop: AnyStop) -> str:
@@ -53,5 +55,7 @@ def _met(stop: AnyStop) -> str:
             return f"{stop_name(stop)} done"
         case stops.ByHand():
             return "left by the user"
+        case stops.BrokenOff():
+            return f"broken off by {stop_name(stop)} in the program that called handeye"
         case _:
             return f"breakpoint at {stop_name(stop)}"

@@ -96,4 +96,22 @@ class ByHand(StopCondition, frozen=True, kw_only=True):
     """Pause because somebody left the run as it was."""
 
 
-AnyStop = AtLine | AtLabel | AtInstruction | BeforeStep | AtStage | OnError | AfterStage | AfterSteps | ByHand
+class BrokenOff(StopCondition, frozen=True, kw_only=True):
+    """Pause because the program that drives the run failed."""
+
+    exception: str
+    """The class of what it raised."""
+
+
+AnyStop = (
+    AtLine
+    | AtLabel
+    | AtInstruction
+    | BeforeStep
+    | AtStage
+    | OnError
+    | AfterStage
+    | AfterSteps
+    | ByHand
+    | BrokenOff
+)

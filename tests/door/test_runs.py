@@ -220,6 +220,14 @@ def test_a_run_that_is_left_before_its_end_can_be_gone_on_with_in_its_folder(tmp
         handeye.begin(tmp_path / "run", out=tmp_path / "run")
 
 
+def test_the_result_of_a_run_that_was_left_says_what_broke_it_off() -> None:
+    run = handeye.begin(SCRIPT, camera="ray")
+    with pytest.raises(InvalidInput, match="nowhere"), run:
+        run.until("nowhere")
+    said = "broken off by InvalidInput in the program that called handeye"
+    assert (run.result.message, run.result.paused) == (said, True)
+
+
 def test_a_run_shows_itself(kept: handeye.Run, run: handeye.Run) -> None:
     assert repr(run) == "<Run script, seed 3: 0 steps done, 0.00 s, open up, line 2: OPEN 1; paused>"
     page = kept._repr_html_()
