@@ -3,61 +3,91 @@
 python docs/make_reference.py
 """
 
-import ast
-import inspect
 import re
 import sys
 import textwrap
+import warnings
 from collections.abc import Iterator
-from functools import cache, cached_property
 from pathlib import Path
-from typing import Any, get_args
+from typing import Final, get_args
+
+import griffe
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 import handeye  # noqa: E402
 from handeye import events  # noqa: E402
-from handeye.door import provided  # noqa: E402
-from handeye.door.state import Memory  # noqa: E402
-from handeye.inspection.inspection import InspectedStage, InspectedStep  # noqa: E402
-from handeye.report import result  # noqa: E402
-from handeye.report.world_page import QuantityReport  # noqa: E402
-from handeye.trace.forces import Forces  # noqa: E402
-from handeye.trace.motion import Motion  # noqa: E402
-from handeye.trace.replay import Moment  # noqa: E402
-from handeye.trials.results import Results  # noqa: E402
 
 PAGE = ROOT / "docs" / "python.md"
 MARK = "<!-- Below: docs/make_reference.py -->\n"
-PARTS = ("Args", "Returns", "Raises")
-GROUPS: dict[str, dict[str, Any]] = {
-    "Plans": {"handeye.plan": handeye.plan, "handeye.Plan": handeye.Plan, "InspectedStage": InspectedStage,
-              "InspectedStep": InspectedStep, "handeye.Diagnostic": handeye.Diagnostic},
-    "Runs": {"handeye.begin": handeye.begin, "handeye.assemble": handeye.assemble, "handeye.Run": handeye.Run,
-             "handeye.State": handeye.State, "Memory": Memory},
-    "Worlds": {"handeye.World": handeye.World, "QuantityReport": QuantityReport},
-    "Results": {"handeye.Result": handeye.Result, "Stage": result.Stage, "Timing": result.Timing, "Check": result.Check,
-                "handeye.Finding": handeye.Finding, "handeye.at_most": handeye.at_most,
-                "handeye.at_least": handeye.at_least,
-                "handeye.trials.assemble_each": handeye.trials.assemble_each, "Results": Results},
-    "Traces": {"handeye.open": handeye.open, "handeye.Trace": handeye.Trace, "Motion": Motion, "Forces": Forces,
-               "Moment": Moment},
-    "Tasks": {"handeye.Task": handeye.Task, "handeye.tasks.task": handeye.tasks.task,
-              "handeye.tasks.register": handeye.tasks.register},
-    "Errors": {"handeye.HandeyeError": handeye.HandeyeError, "handeye.InvalidInput": handeye.InvalidInput,
-               "handeye.ScriptError": handeye.ScriptError},
-}  # fmt: skip
-"""Names by what they are for; those without `handeye.` are records that others hold."""
+OPTIONS: Final = {"returns_multiple_items": False, "returns_named_value": False, "warnings": False}
+with warnings.catch_warnings():
+    warnings.simplefilter(
+        "ignore", SyntaxWarning
+    )  # griffe tries to read texts within annotations as annotations
+    PACKAGE: Final = griffe.load(
+        "handeye", search_paths=[ROOT], docstring_parser="google", docstring_options=OPTIONS
+    )
+GROUPS: Final = {
+    "Plans": {
+        "handeye.plan": "door.plans.plan",
+        "handeye.Plan": "door.plans.Plan",
+        "InspectedStage": "inspection.inspection.InspectedStage",
+        "InspectedStep": "inspection.inspection.InspectedStep",
+        "handeye.Diagnostic": "door.diagnostic.Diagnostic",
+    },
+    "Runs": {
+        "handeye.begin": "door.begin.begin",
+        "handeye.assemble": "door.begin.assemble",
+        "handeye.Run": "door.run.Run",
+        "handeye.State": "door.state.State",
+        "Memory": "door.state.Memory",
+    },
+    "Worlds": {
+        "handeye.World": "door.worlds.World",
+        "QuantityReport": "report.world_page.QuantityReport",
+    },
+    "Results": {
+        "handeye.Result": "report.result.Result",
+        "Stage": "report.result.Stage",
+        "Timing": "report.result.Timing",
+        "Check": "report.result.Check",
+        "handeye.Finding": "judge.finding.Finding",
+        "handeye.at_most": "judge.finding.at_most",
+        "handeye.at_least": "judge.finding.at_least",
+        "handeye.trials.assemble_each": "trials.assemble_each",
+        "Results": "trials.results.Results",
+    },
+    "Traces": {
+        "handeye.open": "door.opening.open",
+        "handeye.Trace": "trace.trace.Trace",
+        "Motion": "trace.motion.Motion",
+        "Forces": "trace.forces.Forces",
+        "Moment": "trace.replay.Moment",
+    },
+    "Tasks": {
+        "handeye.Task": "tasks.task.Task",
+        "handeye.tasks.task": "tasks:task",
+        "handeye.tasks.register": "tasks:register",
+    },
+    "Errors": {
+        "handeye.HandeyeError": "errors.HandeyeError",
+        "handeye.InvalidInput": "errors.InvalidInput",
+        "handeye.ScriptError": "door.diagnostic.ScriptError",
+    },
+}
+"""Names by what they are for, and where each is defined; those without `handeye.` are records that others hold. A
+colon: in the folder's own file, where a module bears the same name."""
 
 
 def reference() -> str:
     """All names with what is said of them."""
-    out = [f"`handeye.scripts`: {attributes(provided)['scripts']}", ""]
+    out = [f"`handeye.scripts`: {sentence(PACKAGE['door.provided.scripts'])}", ""]
     for group, names in GROUPS.items():
         out += [f"## {group}", ""]
-        for name, named in names.items():
-            out += described(name, named)
+        for name, place in names.items():
+            out += described(name, place)
         out += TABLES[group]() if group in TABLES else []
     return "\n".join(out).rstrip() + "\n"
 
@@ -72,7 +102,7 @@ def findings() -> Iterator[str]:
 
 def happenings() -> Iterator[str]:
     """The events, as a table."""
-    yield from ("### Events", "", *told(events.Event))
+    yield from ("### Events", "", *told(PACKAGE["events.Event"]))
     yield from paragraph(
         "The seconds since a run began are `event.time - run.events[0].time`. A guard trips at the end of the servo "
         "period in which it was met, so its `value` lies over its `limit`: N, N m, or the mask of the fingers."
@@ -80,116 +110,135 @@ def happenings() -> Iterator[str]:
     yield from ("", "| `handeye.events` | fields | what happened |", "|---|---|---|")
     for event in get_args(events.AnyEvent):
         fields = ", ".join(f"`{each}`" for each in event.__struct_fields__ if each != "time")
-        said = "; ".join(inspect.getdoc(event).splitlines())
+        said = sentence(PACKAGE["events"][event.__name__])
         yield f"| `{event.__name__}` | {fields} | {said} |"
     yield ""
 
 
-TABLES = {"Results": findings, "Runs": happenings}
+TABLES: Final = {"Results": findings, "Runs": happenings}
 """What stands below the names of a group."""
-
-
-def described(name: str, named: Any) -> Iterator[str]:
-    """The section of a name."""
-    yield from (f"### {name}", "")
-    if inspect.isfunction(named):
-        yield from (*signature(name, named), *told(named))
-        return
-    constructed = isinstance(vars(named).get("__init__"), type(told)) and name == "handeye.World"
-    yield from told(named)
-    if constructed:
-        yield from (*signature(name, named.__init__), *told(named.__init__))
-    yield from members(name.split(".")[-1], named)
-
-
-def members(name: str, named: type) -> Iterator[str]:
-    """What a class has: attributes as a list, then methods."""
-    fields = {each: said for each, said in attributes(named).items() if not each.startswith("_")}
-    own = {each: member for each, member in vars(named).items() if not each.startswith("_")}
-    asked = {each: member for each, member in own.items() if isinstance(member, property | cached_property)}
-    said = fields | {each: inline(member) for each, member in asked.items()}
-    for each, text in said.items():
-        yield from paragraph(f"- `{each}`: {text}" if text else f"- `{each}`", "  ")
-    yield from [""] if said else []
-    for each, member in own.items():
-        function = member.__func__ if isinstance(member, classmethod) else member
-        if inspect.isfunction(function) and each not in HIDDEN:
-            yield from (*signature(f"{name}.{each}", function), *told(function))
-
-
-HIDDEN = {"attend", "reach", "of"}
+HIDDEN: Final = {"attend", "reach", "of"}
 """Methods for handeye's own use."""
 
 
-def signature(name: str, function: Any) -> Iterator[str]:
+def found(place: str) -> griffe.Object:
+    """What is defined in a place of the package."""
+    folder, colon, name = place.partition(":")
+    if not colon:
+        return PACKAGE[place]
+    file = ROOT / "handeye" / folder / "__init__.py"
+    module = griffe.visit(
+        f"handeye.{folder}", filepath=file, code=file.read_text(encoding="utf-8"), docstring_parser="google",
+        docstring_options=OPTIONS,
+    )  # fmt: skip
+    return module.members[name]
+
+
+def described(name: str, place: str) -> Iterator[str]:
+    """The section of a name."""
+    named = found(place)
+    yield from (f"### {name}", "")
+    if named.is_function:
+        yield from (*signature(name, named), *told(named))
+        return
+    yield from told(named)
+    if name == "handeye.World":  # the one class that people construct
+        yield from (*signature(name, named.members["__init__"]), *told(named.members["__init__"]))
+    yield from members(name.split(".")[-1], named)
+
+
+def members(name: str, named: griffe.Class) -> Iterator[str]:
+    """What a class has: attributes as a list, those that are asked for last, then methods."""
+    own = {
+        each: member
+        for each, member in named.members.items()
+        if not (each.startswith("_") or member.is_alias)
+    }
+    attributes = {each: member for each, member in own.items() if member.is_attribute}
+    asked = {each for each, member in attributes.items() if "property" in member.labels}
+    held = {each for each, member in attributes.items() if member.annotation is not None} - asked
+    for each in sorted(attributes, key=lambda each: each in asked):
+        if each in held | asked:
+            said = sentence(attributes[each])
+            yield from paragraph(f"- `{each}`: {said}" if said else f"- `{each}`", "  ")
+    yield from [""] if held | asked else []
+    for each, member in own.items():
+        if member.is_function and each not in HIDDEN:
+            yield from (*signature(f"{name}.{each}", member), *told(member))
+
+
+def signature(name: str, function: griffe.Function) -> Iterator[str]:
     """How a function is called, without what its arguments are: the text says so."""
-    shown = []
-    star = False
-    for each in inspect.signature(function).parameters.values():
-        if each.name == "self":
+    shown: list[str] = []
+    for each in function.parameters:
+        if each.name in ("self", "cls"):
             continue
-        if each.kind is each.KEYWORD_ONLY and not star:
+        if each.kind is griffe.ParameterKind.keyword_only and "*" not in shown:
             shown.append("*")
-            star = True
-        shown.append(each.name if each.default is each.empty else f"{each.name}={each.default!r}")
+        shown.append(each.name if each.default is None else f"{each.name}={default(each.default)}")
     text = f"{name}({', '.join(shown)})"
     yield from ("```", *textwrap.wrap(text, 100, subsequent_indent=" " * (len(name) + 1)), "```", "")
 
 
-def told(named: Any) -> Iterator[str]:
+def default(value: str | griffe.Expr) -> str:
+    """A default as a person would write it: a constant of the package by its value."""
+    named = isinstance(value, griffe.ExprName | griffe.ExprAttribute)
+    if named and value.canonical_path.startswith("handeye."):
+        value = PACKAGE[value.canonical_path.removeprefix("handeye.")].value
+    return str(value).replace('"', "'")
+
+
+def told(named: griffe.Object) -> Iterator[str]:
     """A docstring as paragraphs: what it is, arguments, what comes back, what is raised, an example."""
-    text = inspect.getdoc(named) or ""
-    prose, mark, example = text.partition(">>> ")
-    for block in re.split(r"\n\n", prose.strip()):
-        head, _, rest = block.partition(":\n")
-        if head in PARTS:
-            yield from (*part(head, textwrap.dedent(rest)), "")
-        else:
-            yield from (*paragraph(block), "")
+    for section in parsed(named):
+        match section:
+            case griffe.DocstringSectionText(value=text):
+                yield from prose(text)
+            case griffe.DocstringSectionParameters(value=arguments):
+                yield from (*listed((each.name, each.description) for each in arguments), "")
+            case griffe.DocstringSectionReturns(value=[returned]):
+                yield from (*paragraph(f"Returns {returned.description}"), "")
+            case griffe.DocstringSectionRaises(value=errors):
+                yield from ("Raises:", "")
+                yield from (*listed((str(each.annotation), each.description) for each in errors), "")
+            case _:
+                raise ValueError(f"{named.path}: nothing is known of a section of {section.kind.value}")
+
+
+def parsed(named: griffe.Object) -> list[griffe.DocstringSection]:
+    """The sections of a docstring."""
+    return named.docstring.parsed if named.docstring else []
+
+
+def prose(text: str) -> Iterator[str]:
+    """Paragraphs, and the example that ends them."""
+    said, mark, example = text.partition(">>> ")
+    for block in re.split(r"\n\n", said.strip()):
+        yield from (*paragraph(block), "") if block else ()
     if mark:
         yield from ("```python", *(mark + example).rstrip().splitlines(), "```", "")
+
+
+def listed(entries: Iterator[tuple[str, str]]) -> Iterator[str]:
+    """Arguments, or exceptions, as a list."""
+    for name, said in entries:
+        yield from paragraph(f"- `{name}`: {said}", "  ")
+
+
+def sentence(named: griffe.Object) -> str:
+    """What is said of an attribute in one line, with what it raises."""
+    said = []
+    for section in parsed(named):
+        if isinstance(section, griffe.DocstringSectionText):
+            said.append(section.value.partition(">>> ")[0])
+        elif isinstance(section, griffe.DocstringSectionRaises):
+            said += [f"Raises {each.annotation}: {each.description}" for each in section.value]
+    return " ".join(" ".join(said).split())
 
 
 def paragraph(text: str, indent: str = "") -> list[str]:
     """Text in lines as long as the pages have them."""
     return textwrap.wrap(" ".join(text.split()), 120, subsequent_indent=indent, break_on_hyphens=False)
-
-
-def part(head: str, text: str) -> Iterator[str]:
-    """Arguments, or exceptions, as a list; what comes back as a sentence."""
-    if head == "Returns":
-        yield from paragraph(f"Returns {text}")
-        return
-    if head == "Raises":
-        yield "Raises:"
-        yield ""
-    for entry in re.split(r"\n(?=\S)", text.strip()):
-        name, _, said = entry.partition(": ")
-        yield from paragraph(f"- `{name}`: {said}", "  ")
-
-
-def inline(member: property | cached_property[Any]) -> str:
-    """What is said of a property, with what it raises."""
-    text = " ".join((inspect.getdoc(member) or "").partition(">>> ")[0].split())
-    return text.replace(" Raises: ", " Raises ")
-
-
-@cache
-def attributes(named: Any) -> dict[str, str]:
-    """What is said of the attributes of a class or module, by their names."""
-    source = inspect.getsource(named)
-    body = ast.parse(textwrap.dedent(source)).body
-    body = body[0].body if isinstance(named, type) else body
-    found: dict[str, str] = {}
-    for node, after in zip(body, [*body[1:], None], strict=True):
-        if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
-            said = (
-                after.value.value
-                if isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant)
-                else ""
-            )
-            found[node.target.id] = " ".join(str(said).split())
-    return found
 
 
 def page() -> str:

@@ -133,7 +133,7 @@ def assemble(
     The other arguments are those of `handeye.begin`.
 
     Returns:
-        the run, closed: `assembled`, `completed`, `result`, `events` tell what came of it.
+        the closed run; its `assembled`, `completed`, `result`, `events` tell what came of it.
 
     Raises:
         ScriptError: the script has errors.
