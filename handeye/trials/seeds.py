@@ -2,7 +2,7 @@
 
 import signal
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from contextlib import ExitStack, contextmanager
 from multiprocessing import active_children, get_context
@@ -25,10 +25,11 @@ def assemble_many(
         runs: list[Future[Result]] = []
         try:
             with _deaf_to_interrupts():
-                spawning = get_context("spawn")
-                pool = ProcessPoolExecutor(jobs, mp_context=spawning, max_tasks_per_child=1)
+                pool = ProcessPoolExecutor(
+                    jobs, get_context("spawn"), _begin, (plan, camera, limits), max_tasks_per_child=1
+                )
                 closing.enter_context(pool)
-                runs += [pool.submit(_one, plan, world, camera, limits) for world in worlds]
+                runs += [pool.submit(_one, world) for world in worlds]
             for run in as_completed(runs):
                 yield run.result()
         except BaseException:  # Ctrl-C first of all: a run under way would take minutes
@@ -66,5 +67,20 @@ def _deaf_to_interrupts() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-def _one(plan: Plan, world: WorldSpec, camera: str, limits: Limits | None) -> Result:
-    return run_plan(plan, world=world, camera=camera, limits=limits).result
+_trial: Callable[[WorldSpec], Result]
+"""What a process carries out in a world. It comes with the process and not with each world: a plan is too much for the
+pipe of a pool, whose writer would wait for ever for processes that were ended."""
+
+
+def _begin(plan: Plan, camera: str, limits: Limits | None) -> None:
+    """Begin a process."""
+    global _trial
+
+    def trial(world: WorldSpec) -> Result:
+        return run_plan(plan, world=world, camera=camera, limits=limits).result
+
+    _trial = trial
+
+
+def _one(world: WorldSpec) -> Result:
+    return _trial(world)
