@@ -3,7 +3,7 @@
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import ExitStack, contextmanager
 from multiprocessing import active_children, get_context
 
@@ -22,19 +22,17 @@ def assemble_many(
     Who stops asking for them ends those processes too.
     """
     with ExitStack() as closing:
-        runs: list[Future[Result]] = []
         try:
             with _deaf_to_interrupts():
                 pool = ProcessPoolExecutor(
                     jobs, get_context("spawn"), _begin, (plan, camera, limits), max_tasks_per_child=1
                 )
                 closing.enter_context(pool)
-                runs += [pool.submit(_one, world) for world in worlds]
+                closing.callback(pool.shutdown, wait=False, cancel_futures=True)
+                runs = [pool.submit(_one, world) for world in worlds]
             for run in as_completed(runs):
                 yield run.result()
         except BaseException:  # Ctrl-C first of all: a run under way would take minutes
-            for run in runs:
-                run.cancel()
             for process in active_children():
                 process.terminate()
             raise
