@@ -21,7 +21,7 @@ from handeye.errors import InvalidInput
 from handeye.record import Record
 from handeye.units import UNITS, Unit
 
-DRAWING: Final = 2
+DRAWING: Final = 3
 """How a world comes from its seed: raised when equal seeds give other worlds than before."""
 
 LARGEST_SEED: Final = (1 << 63) - 1

@@ -56,7 +56,7 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     add_keyframe(spec, keyframe, data, threaded)
     _rename(spec)
     about = (scenes() / "water_pump" / "exported.md").read_text(encoding="utf-8")
-    return ExportedScene(spec=spec, about=about, parts=_parts(len(world.holes)), densities=_densities(spec))
+    return ExportedScene(spec=spec, about=about, parts=_parts(world.screws), densities=_densities(spec))
 
 
 def _parts(screws: int) -> dict[str, tuple[str, ...]]:

@@ -6,10 +6,12 @@ from typing import Self
 import numpy as np
 
 from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
+from handeye.tasks.water_pump.drawing import Point, screw_holes
 from handeye.tasks.water_pump.stations import stations
 from handeye.tasks.water_pump.variation import (
     ARM_CENTRE,
     ARM_PERIOD,
+    DRILLED,
     JOINT_UNITS,
     RUBBING,
     SEVENTH,
@@ -54,8 +56,8 @@ class PumpWorld:
     light: Light
     fixtures: dict[str, Placing]
     """Error of each fixture."""
-    holes: tuple[tuple[float, float], ...]
-    """Error of each tapped hole in the base, m; as many as there are holes."""
+    holes: dict[str, tuple[Point, ...]]
+    """Error of each screw hole of a part, m, by the names in DRILLED; the base's are the tapped ones."""
     part_mass: float
     """Scale of the masses of base and top."""
     friction: dict[str, float]
@@ -66,7 +68,6 @@ class PumpWorld:
     @classmethod
     def of(cls, world: World) -> Self:
         """The values of a drawn world, by what they belong to."""
-        holes = range(1, screws(world.spec.seed) + 1)
         return cls(
             drawn=world,
             base=_placing(world, "base"),
@@ -80,7 +81,7 @@ class PumpWorld:
                 ambient=world["light.ambient"],
             ),
             fixtures={station: _placing(world, f"fixtures.{station}") for station in stations()},
-            holes=tuple((world[f"holes.{hole}.x"], world[f"holes.{hole}.y"]) for hole in holes),
+            holes={part: _drilling(world, part) for part in DRILLED},
             part_mass=1 + world["part_mass"],
             friction={name: 1 + world[f"friction.{name}"] for name in RUBBING},
             thread_phase=world.numbered("thread_phase"),
@@ -109,6 +110,16 @@ class PumpWorld:
         smooth = {quantity.name: 0.0 for quantity in table.select("arm.friction")}
         return cls.draw(WorldSpec(seed=seed, overrides=Overrides(without=everything, set=smooth)))
 
+    @property
+    def screws(self) -> int:
+        """How many screws the pump has."""
+        return len(self.holes["base"])
+
+    def drilled(self, part: str) -> tuple[Point, ...]:
+        """Where the screw holes of a part really are, in the part's frame, m."""
+        drawn = screw_holes(self.screws)
+        return tuple((x + dx, y + dy) for (x, y), (dx, dy) in zip(drawn, self.holes[part], strict=True))
+
     def generator(self, stream: str) -> np.random.Generator:
         """A source of noise of this world; different `stream`s are independent."""
         return self.drawn.generator(stream)
@@ -116,6 +127,11 @@ class PumpWorld:
 
 def _placing(world: World, name: str) -> Placing:
     return Placing(x=world[f"{name}.x"], y=world[f"{name}.y"], yaw=world[f"{name}.yaw"])
+
+
+def _drilling(world: World, part: str) -> tuple[Point, ...]:
+    holes = range(1, screws(world.spec.seed) + 1)
+    return tuple((world[f"holes.{part}.{hole}.x"], world[f"holes.{part}.{hole}.y"]) for hole in holes)
 
 
 def _arm(world: World) -> ArmErrors:

@@ -11,7 +11,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import Array, hand
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, SEVENTH, variation
+from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, variation
 from handeye.units import DEGREE, INCH
 from handeye.variation import Overrides, WorldSpec
 
@@ -79,7 +79,8 @@ def test_noise_streams_of_a_world_are_independent() -> None:
 
 def test_from_the_seventh_screw_on_the_world_has_one_more_hole_and_thread() -> None:
     more = variation(SEVENTH).quantities.keys() - variation(SEVENTH - 1).quantities.keys()
-    assert more == {"holes.7.x", "holes.7.y", "thread_phase.7"}
+    holes = {f"holes.{part}.7.{axis}" for part in DRILLED for axis in "xy"}
+    assert more == {*holes, "thread_phase.7"}
 
 
 @pytest.mark.slow

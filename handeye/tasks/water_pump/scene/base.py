@@ -32,11 +32,10 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
     mass = (d("base.casting.mass") + d("base.plate.mass")) * world.part_mass
     size = (d("base.plate.length"), d("base.plate.width"), base_top())
     body_inertia(body, mass, d.all("base.casting.mass_centre"), box_moments(mass, size))
-    screws = len(world.holes)
-    holes = [(x + dx, y + dy) for (x, y), (dx, dy) in zip(screw_holes(screws), world.holes, strict=True)]
+    holes = world.drilled("base")
     _add_plate(shaper, body, d)
     _add_casting(shaper, body, d, holes)
-    _add_looks(shaper, body, screws)
+    _add_looks(shaper, body, world.screws)
     for number, (x, y) in enumerate(holes):
         _add_tapped_hole(shaper, body, d, number, (x, y))
 
@@ -47,7 +46,7 @@ def _add_plate(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions) -> None:
     shaper.box(body, "solid", low, high, name="plate")
 
 
-def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: list[Point]) -> None:
+def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
     """Walls of solid metal around the large holes; wedges with a tapped hole in them stop only the hand."""
     floor, top = d("base.plate.thickness"), base_top()
     bores = (

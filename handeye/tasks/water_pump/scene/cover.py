@@ -1,11 +1,12 @@
 """The gasket, and the top with its rotor."""
 
 import math
+from collections.abc import Sequence
 
 import mujoco
 
 from handeye.tasks.water_pump.dimensions import Dimensions, dimensions
-from handeye.tasks.water_pump.drawing import screw_holes, web_centre
+from handeye.tasks.water_pump.drawing import Point, web_centre
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fixtures import add_gasket_stand, add_top_stand
@@ -21,14 +22,14 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     # The moments are those of the mass that the contacts need, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
     hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
-    for number, (px, py) in enumerate(screw_holes(len(world.holes))):
+    for number, (px, py) in enumerate(world.drilled("gasket")):
         shaper.ring(body, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
         shaper.hole(body, f"gasket_hole{number}", (px, py, thick), hole.radius)
         shaper.box(body, "gasket_land", (px - 0.005, py - 0.005, 0.0), (px + 0.005, py + 0.005, thick))
     half = d("gasket.web") / 2
     low, high = (web_centre() - half, -0.011, 0.0), (web_centre() + half, 0.011, thick)
     shaper.box(body, "wall", low, high, name="gasket_web")
-    shaper.look(body, "gasket", "gasket", solids.surface(solids.gasket(len(world.holes))))
+    shaper.look(body, "gasket", "gasket", solids.surface(solids.gasket(world.screws)))
 
 
 def add_top(shaper: Shaper, world: PumpWorld) -> None:
@@ -39,24 +40,24 @@ def add_top(shaper: Shaper, world: PumpWorld) -> None:
     body = fixture.stand(shaper, "top", x, y, d("top_stand.height"), turn)
     moments = [world.part_mass * value for value in (1e-3, 1.6e-3, 2.3e-3)]
     body_inertia(body, d("top.mass") * world.part_mass, d.all("top.mass_centre"), moments)
-    _add_flange(shaper, body, d, len(world.holes))
+    _add_flange(shaper, body, d, world.drilled("top"))
     hub, across, height = d("top.hub_length") / 2, d("top.hub_flats") / 2, d("top.hub_height")
     shaper.box(body, "wall", (-hub, -across, flange), (hub, across, flange + height), name="hub")
     round_hub = solids.extruded(
         solids.disc(0.036) ^ solids.rectangle(-0.05, -across, 0.05, across), flange, flange + height
     )
-    shaper.look(body, "flange", "top", solids.surface(solids.flange(len(world.holes))))
+    shaper.look(body, "flange", "top", solids.surface(solids.flange(world.screws)))
     shaper.look(body, "hub", "top", solids.surface(round_hub))
     _add_rotor(shaper, body, d)
 
 
-def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, screws: int) -> None:
+def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
     flange = d("top.flange")
     hole = Bore(
         radius=d("top.screw_hole_radius"), outer=0.0095, height=flange,
         above=d("top.chamfer_above"), below=d("top.chamfer_below"),
     )  # fmt: skip
-    for number, (x, y) in enumerate(screw_holes(screws)):
+    for number, (x, y) in enumerate(holes):
         shaper.ring(body, "top_hole", hole, (x, y, 0.0), lambda _: "bore")
         shaper.hole(body, f"top_hole{number}", (x, y, flange), hole.radius)
         shaper.box(body, "seat", (x - 0.007, y - 0.007, 0.0), (x + 0.007, y + 0.007, flange))

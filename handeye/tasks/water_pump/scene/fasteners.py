@@ -55,9 +55,9 @@ def add_screws(shaper: Shaper, world: PumpWorld) -> None:
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
     hole = Bore(radius=0.0034, outer=0.0095, height=0.010, above=0.0015)
     fixture = add_fixture(shaper, world, Station.DISPENSER, (x, y))
-    beyond = (len(world.holes) - 6) * d("dispenser.pitch")
+    beyond = (world.screws - 6) * d("dispenser.pitch")
     low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064 + beyond)
-    places = dispenser_places(len(world.holes))
+    places = dispenser_places(world.screws)
     for number, (px, py) in enumerate(places):
         shaper.ring(fixture.body, "dispenser", hole, (px, py, height - hole.height), lambda _: "bore")
         shaper.box(

@@ -19,7 +19,7 @@ def add_room(shaper: Shaper, world: PumpWorld) -> None:
     """Everything that stands still, apart from the fixtures."""
     _add_table(shaper, world)
     _add_belt(shaper, world)
-    _add_building(shaper, len(world.holes))
+    _add_building(shaper, world.screws)
     _add_computer(shaper)
     _add_tripod(shaper)
     _add_light(shaper.spec, world)

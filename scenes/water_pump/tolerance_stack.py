@@ -1,0 +1,231 @@
+"""Computes how often six screws pass gasket and top, wherever the aligning pins let those lie.
+
+    python scenes/water_pump/tolerance_stack.py [WORLDS]
+
+Sizes are those of dimensions.toml, errors those of the pump's table of worlds. No physics: in each world the tapped
+holes and those of both layers are drilled with errors of their own; two pins stand in tapped holes with play, and
+lean in them; the hand lays each layer down turned and displaced by the errors of its joints, and the layer comes to
+lie nearest to that where both pins are within its holes. A screw stands upright on the axis of its tapped hole and
+meets a layer if that axis is farther from the hole's than their radii differ.
+
+"Worst lie" asks more, in a tenth of the worlds: of all places where the pins let a layer lie, the one whose farthest
+hole is farthest off.
+"As met" adds what pins have in the simulation beyond their drawing (polygons and soft contact).
+"""
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward
+from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.device_errors import ArmErrors
+from handeye.pose import Array, hand
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import screw_holes, standard
+from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS, variation
+from handeye.units import UNITS
+
+WORLDS: Final = 100_000
+SOFT: Final = 5e-5  # m more play of a pin than drawn; measured in the simulation, .03-.05 mm
+SWEEPS: Final = (
+    60  # in which a layer finds its place between two pins; after 30 nothing moves by a micrometre
+)
+DIRECTIONS: Final = 12  # in which each pin pushes a layer, where the worst lie is looked for
+LAYERS: Final = ("gasket", "top")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sizes:
+    """What decides whether screws pass a layer, m."""
+
+    hole: float
+    """Radius of its screw holes."""
+    height: float
+    """Over the base's face, of the upper end of its bores."""
+    nose: float
+    body: float
+    """Radii of a pin."""
+    tap: float
+    """Radius of a tapped hole."""
+    guide: float
+    """Length of a pin's nose that a tapped hole guides."""
+    mouth: float
+    """Depth at which that length begins."""
+    shank: float
+    """Radius of a screw."""
+
+    @classmethod
+    def drawn(cls, layer: str) -> "Sizes":
+        """The sizes of gasket or top as drawn."""
+        d = dimensions()
+        height = d("gasket.thickness")
+        if layer == "top":
+            height += d("top.flange") - d("top.chamfer_above")
+        chamfer = d("base.screw_holes.chamfer")
+        return cls(
+            hole=d(f"{layer}.screw_hole_radius"), height=height,
+            nose=d("pin.nose_radius"), body=d("pin.body_radius"), tap=d("base.screw_holes.radius"),
+            guide=d("pin.nose_length") - d("pin.nose_bevel") - chamfer, mouth=chamfer,
+            shank=d("screw.shank_radius"),
+        )  # fmt: skip
+
+    @property
+    def clearance(self) -> float:
+        """How far the axes of a screw and its hole may be apart."""
+        return self.hole - self.shank
+
+    @property
+    def play(self) -> float:
+        """How far a layer's hole may be off its tapped hole: the pin stands aside, leans, and has play in the layer."""
+        aside = self.tap - self.nose
+        return aside + 2 * aside * (self.height + self.mouth) / self.guide + self.hole - self.body
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stack:
+    """How the worlds came out; of each one figure."""
+
+    clearance: float
+    play: float
+    binds: Array
+    """True where the pins are too far apart for the layer."""
+    laid: Array
+    """Distance of the farthest axes where the hand lays the layer, m."""
+    worst: Array
+    """The same for the worst lie, in a tenth of them."""
+
+
+def stack(sizes: Sizes, layer: str, worlds: int, seed: int = 1973) -> Stack:
+    """Draw worlds, and measure how a layer lies in each."""
+    rng = np.random.default_rng([seed, LAYERS.index(layer)])
+    holes = np.array(screw_holes())
+    wrong = _drilling(layer, worlds, rng) - _drilling("base", worlds, rng)
+    pinned = np.array(dimensions().all("base.screw_holes.pinned"), int)
+    about = holes - holes[pinned].mean(axis=0)
+    place = _between(about[pinned], wrong[:, pinned], sizes.play, _hand(layer, worlds, rng))
+    at_pins = _off(about[pinned], wrong[:, pinned], place)
+    return Stack(
+        clearance=sizes.clearance,
+        play=sizes.play,
+        binds=at_pins.max(axis=1) > sizes.play + 1e-5,
+        laid=_off(about, wrong, place).max(axis=1),
+        worst=_worst(about, wrong[: -(-worlds // 10)], pinned, sizes.play),
+    )
+
+
+def _drawn(name: str, worlds: int, rng: np.random.Generator) -> Array:
+    """Values of a normal quantity in many worlds at once, clipped as its distribution clips them, SI."""
+    quantity = variation(0).quantities[name]
+    sigma = quantity.distribution.spread * quantity.measure.size
+    return np.asarray(sigma * np.clip(rng.standard_normal(worlds), -2.0, 2.0))
+
+
+def _drilling(part: str, worlds: int, rng: np.random.Generator) -> Array:
+    """Errors of the screw holes of a part, shape (worlds, 6, 2)."""
+    names = [[f"holes.{part}.{k}.{axis}" for axis in "xy"] for k in range(1, 7)]
+    return np.stack([np.stack([_drawn(n, worlds, rng) for n in pair], -1) for pair in names], 1)
+
+
+def _hand(layer: str, worlds: int, rng: np.random.Generator) -> Array:
+    """Where the hand lays a layer, against the base: x, y and turn, shape (worlds, 3)."""
+    X_WT = standard() @ hand(*{"gasket": (0.04, 0.0), "top": (0.0, 0.0)}[layer], 0.1, 0.0, np.pi / 2, 0.0)
+    target = solve(STANFORD, X_WT, PARK).q
+    assert target is not None
+    X = forward(STANFORD, _arm(worlds, rng).positions(np.broadcast_to(target, (worlds, 6))))
+    R = X[:, :3, :3] @ X_WT[:3, :3].T
+    turn = np.arctan2(R[:, 1, 0], R[:, 0, 0]) - _drawn("fixtures.blocks.yaw", worlds, rng)
+    return np.column_stack([X[:, :2, 3] - X_WT[:2, 3], turn])
+
+
+def _arm(worlds: int, rng: np.random.Generator) -> ArmErrors:
+    """Arms of many worlds at once."""
+    size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
+    nothing = np.zeros(6)
+
+    def joints(name: str) -> Array:
+        return np.stack([_drawn(f"arm.{name}.{k}", worlds, rng) for k in range(1, 7)], -1)
+
+    wave = [variation(0).quantities[f"arm.wave.{k}"].distribution.spread for k in range(1, 7)]
+    return ArmErrors(
+        offset=joints("offset"), scale=joints("scale"), wave=np.array(wave) * size,
+        period=np.array(ARM_PERIOD) * size, phase=rng.uniform(0.0, 2 * np.pi, (worlds, 6)),
+        centre=np.array(ARM_CENTRE) * size, pot_noise=nothing, tachometer_noise=nothing,
+        link_mass=nothing, friction=nothing,
+    )  # fmt: skip
+
+
+def _moved(about: Array, place: Array) -> Array:
+    """How points of a layer move with it, shape (worlds, points, 2)."""
+    x, y = about.T
+    turn = place[:, 2:]
+    return np.stack([place[:, :1] - turn * y, place[:, 1:2] + turn * x], -1)
+
+
+def _off(about: Array, wrong: Array, place: Array) -> Array:
+    """Distances of a layer's holes from the tapped ones, shape (worlds, points)."""
+    return np.asarray(np.linalg.norm(_moved(about, place) + wrong, axis=-1))
+
+
+def _between(about: Array, wrong: Array, play: float, laid: Array) -> Array:
+    """The place nearest to where a layer is laid that both pins allow: each in turn draws its hole to itself."""
+    place = laid.copy()
+    for _ in range(SWEEPS):
+        for k, (x, y) in enumerate(about):
+            at = _moved(about[k : k + 1], place)[:, 0] + wrong[:, k]
+            way = np.linalg.norm(at, axis=1, keepdims=True)
+            pull = -at * np.maximum(1 - play / np.maximum(way, 1e-12), 0.0) / 2
+            place[:, :2] += pull
+            place[:, 2] += (x * pull[:, 1] - y * pull[:, 0]) / (x * x + y * y)
+    return place
+
+
+def _worst(about: Array, wrong: Array, pinned: Array, play: float) -> Array:
+    """Farthest distance of any hole in the worst place that two pins allow, shape (worlds,)."""
+    worst = np.zeros(len(wrong))
+    for place in _pushed(about[pinned], wrong[:, pinned], play):
+        allowed = _off(about[pinned], wrong[:, pinned], place).max(axis=1) < play + 5e-6
+        worst = np.maximum(worst, np.where(allowed, _off(about, wrong, place).max(axis=1), 0.0))
+    return worst
+
+
+def _pushed(about: Array, wrong: Array, play: float) -> Iterator[Array]:
+    """Places of a layer that each pin pushes in some direction as far as it goes."""
+    along = about[1] - about[0]
+    length = np.hypot(*along)
+    across = np.array([-along[1], along[0]]) / length
+    angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+    directions = play * np.column_stack([np.cos(angles), np.sin(angles)])
+    for first in directions:
+        for second in directions:
+            ends = first - wrong[:, 0], second - wrong[:, 1]
+            yield np.column_stack([(ends[0] + ends[1]) / 2, (ends[1] - ends[0]) @ across / length])
+
+
+def table(worlds: int) -> Iterator[str]:
+    """Lines that tell the stack of both layers, as drawn and as met."""
+    yield f"{worlds:,} worlds: millimetres, and the share of worlds in which"
+    heads = f"{'clear':>7}{'play':>7}{'pins bind':>11}{'a screw meets':>15}{'worst lie meets':>17}"
+    yield f"{'':15}{heads}   farthest axis 50 / 99 / 99.99 / 100 %"
+    for layer in LAYERS:
+        drawn = Sizes.drawn(layer)
+        for what, sizes in (("drawn", drawn), ("met", replace(drawn, body=drawn.body - SOFT))):
+            yield f"{layer + ' as ' + what:15}" + _row(stack(sizes, layer, worlds))
+
+
+def _row(found: Stack) -> str:
+    shares = [found.binds, found.laid > found.clearance, found.worst > found.clearance]
+    binds, meets, worst = (f"{share.mean():.0e}" if share.any() else "0" for share in shares)
+    farthest = " / ".join(f"{value * 1e3:.3f}" for value in np.percentile(found.laid, [50, 99, 99.99, 100]))
+    sizes = f"{found.clearance * 1e3:7.3f}{found.play * 1e3:7.3f}"
+    return f"{sizes}{binds:>11}{meets:>15}{worst:>17}   {farthest}"
+
+
+if __name__ == "__main__":
+    for line in table(int(sys.argv[1]) if len(sys.argv) > 1 else WORLDS):
+        print(line)
