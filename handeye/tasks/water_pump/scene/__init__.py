@@ -1,6 +1,7 @@
 """The water-pump work cell as a MuJoCo model, for a given imperfect world."""
 
 import math
+from typing import Final
 
 import mujoco
 
@@ -19,6 +20,10 @@ from handeye.tasks.water_pump.scene.tool import add_driver
 
 ARM = "stanford/"
 """Prefix of all names of the arm."""
+_METAL: Final = (
+    "solid", "grip", "bore", "face", "hub", "shank", "nose", "head", "base_land", "gasket_land", "top_land",
+)  # fmt: skip
+"""Classes of shapes that rub as the world's parts do."""
 
 
 def specification(world: PumpWorld) -> mujoco.MjSpec:
@@ -30,7 +35,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
     _add_arm(spec, world)  # first: free bodies before it would shift its joints
     shaper = Shaper(spec=spec)
-    for style in ("solid", "bore", "face", "shank", "nose", "head", "base_land", "gasket_land", "top_land"):
+    for style in _METAL:
         friction = shaper.style(style).geom.friction
         friction[0] *= world.friction["part"]  # a contact has the greater friction of the two
     add_room(shaper, world)

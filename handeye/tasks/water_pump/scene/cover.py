@@ -42,12 +42,10 @@ def add_top(shaper: Shaper, world: PumpWorld) -> None:
     body_inertia(body, d("top.mass") * world.part_mass, d.all("top.mass_centre"), moments)
     _add_flange(shaper, body, d, world.drilled("top"))
     hub, across, height = d("top.hub_length") / 2, d("top.hub_flats") / 2, d("top.hub_height")
-    shaper.box(body, "wall", (-hub, -across, flange), (hub, across, flange + height), name="hub")
-    round_hub = solids.extruded(
-        solids.disc(0.036) ^ solids.rectangle(-0.05, -across, 0.05, across), flange, flange + height
-    )
+    shaper.box(body, "hub", (-hub, -across, flange), (hub, across, flange + height), name="hub")
+    block = solids.extruded(solids.rectangle(-hub, -across, hub, across, 0.002), flange, flange + height)
     shaper.look(body, "flange", "top", solids.surface(solids.flange(world.screws)))
-    shaper.look(body, "hub", "top", solids.surface(round_hub))
+    shaper.look(body, "hub", "top", solids.surface(block))
     _add_rotor(shaper, body, d)
 
 

@@ -18,7 +18,7 @@ def add_driver(shaper: Shaper, world: PumpWorld) -> None:
     half, high = d("driver.width") / 2, d("driver.height") / 2
     body = fixture.stand(shaper, "driver", x, y, d("rack.height") + high)
     body_inertia(body, d("driver.mass"), (0.0, 0.0, 0.0), (3e-4, 3e-4, 8e-5))
-    shaper.box(body, "solid", (-half, -half, -high), (half, half, high), "red", "driver").group = 2
+    shaper.box(body, "grip", (-half, -half, -high), (half, half, high), "red", "driver").group = 2
     for z in (-high * 0.93, high * 0.93):
         out = half + 2e-4
         shaper.box(body, "look", (-out, -out, z - 0.002), (out, out, z + 0.002), "black")
@@ -44,6 +44,7 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
         name="socket"
     )  # a body of its own: the magnet holds by the bit's face, not by the ring
     shaper.ring(brass, "socket", ring, (0.0, 0.0, -0.0025), lambda _: "socket")
+    shaper.cylinder(body, "housing", 0.0085, (0, 0, 0.0005), (0, 0, 0.014), name="housing")
     shaper.cylinder(body, "look", 0.006, (0, 0, 0.012), (0, 0, length), "steel")
     shaper.cylinder(body, "look", 0.0085, (0, 0, 0), (0, 0, 0.014), "brass")
 
