@@ -20,8 +20,8 @@ class Bench:
     def __init__(self, world: PumpWorld | None = None) -> None:
         self.model = build(world or PumpWorld.nominal())
         for k in range(6):  # as the runtime does: no thread has a screw in it
-            head = self.model.geom(f"head{k}")
-            head.contype, head.conaffinity = 0, 0
+            for geom in (self.model.geom(f"head{k}"), self.model.geom(f"shank{k}")):
+                geom.contype, geom.conaffinity = 0, 0
         self.data = mujoco.MjData(self.model)
         self.data.qpos[:6] = PARKED
         mujoco.mj_forward(self.model, self.data)

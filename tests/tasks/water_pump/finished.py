@@ -5,11 +5,12 @@ from dataclasses import replace
 from functools import cache
 
 import mujoco
+import numpy as np
 from driving import tick
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
-from handeye.pose import Pose, planar, translated
+from handeye.pose import Pose, planar, pose, translated
 from handeye.runs.exhibit import Exhibit
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.dimensions import dimensions
@@ -58,11 +59,13 @@ def tightening(cell: SimulatedCell, hole: int) -> Iterator[SimulatedCell]:
     """The same a servo period at a time: the cell at the end of each."""
     size, threads, truth = dimensions(), threads_of(cell), cell.truth
     seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
-    threads._take(hole, hole, depth=seated - 1e-4)
+    base, mouth = truth.data.body("base"), truth.model.body(f"carrier{hole}").pos
+    X_WB = pose(base.xmat.reshape(3, 3), base.xpos)
+    threads.take(hole, hole, X_WB @ pose(np.eye(3), mouth - [0.0, 0.0, seated - 1e-4]))
     dof = truth.model.joint(f"thread_turn{hole}").dofadr[0]
     for period in range(30):
         truth.data.qfrc_applied[dof] = -TIGHTENING if period < 20 else 0.0
-        threads._rub(hole)
+        threads.rub(hole)
         tick(cell.devices)
         yield cell
 

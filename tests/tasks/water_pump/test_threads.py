@@ -1,9 +1,14 @@
 """The thread model on a bench of its own."""
 
 from functools import cache
+from math import pi
 
+import mujoco
+import numpy as np
 import pytest
-from thread_bench import Outcome, drive_screw
+from thread_bench import HEAD, LENGTH, MOUTH, SPEED, STOP, Outcome, ThreadBench, drive_screw
+
+from handeye.units import JIFFY
 
 
 @cache
@@ -11,7 +16,7 @@ def outcome(offset: float = 0.0, tilt: float = 0.0) -> Outcome:
     return drive_screw(offset=offset, tilt=tilt)
 
 
-@pytest.mark.parametrize(("offset", "tilt"), [(0.0, 0.0), (0.001, 0.0), (0.0, 0.03)])
+@pytest.mark.parametrize(("offset", "tilt"), [(0.0, 0.0), (0.0005, 0.0), (0.0, 0.045)])
 def test_an_aligned_screw_seats_and_stalls_the_motor(offset: float, tilt: float) -> None:
     end = outcome(offset, tilt)
     assert end.torque > 0.28
@@ -35,11 +40,58 @@ def test_a_screw_that_is_turned_too_slowly_never_engages() -> None:
     assert drive_screw(speed=2.5, seconds=4.0).thread.screw is None
 
 
-def test_a_tilted_screw_crosses_and_jams_high() -> None:
-    end = outcome(tilt=0.07)
-    assert end.thread.crossed
+def test_a_tilted_screw_crosses_stays_tilted_and_jams_high() -> None:
+    end = outcome(tilt=0.055)
+    assert (end.thread.crossed, end.thread.scarred) == (True, True)
+    assert end.tilt > 3.0
     assert end.torque > 0.28
     assert end.height > 0.004
+
+
+def taken(tilt: float) -> ThreadBench:
+    """A bench on which a leaning screw has just been taken by its thread."""
+    bench = ThreadBench(tilt=tilt)
+    bench.drive_until(lambda: bench.thread.screw is not None, speed=SPEED, press=6.0, seconds=4.0)
+    assert bench.thread.screw is not None
+    return bench
+
+
+def test_a_thread_takes_a_screw_where_it_is() -> None:
+    bench = ThreadBench(tilt=0.045)
+    before = bench.screw
+    while bench.thread.screw is None:
+        before = bench.screw
+        bench.tick(SPEED, 6.0)
+    middle = (0.0, 0.0, LENGTH + HEAD / 2, 1.0)
+    assert (
+        np.linalg.norm((bench.screw - before) @ middle) < 3e-4
+    )  # m: no more than it turns and sinks in a tick
+
+
+def test_a_thread_draws_a_leaning_screw_straight_within_a_turn() -> None:
+    bench = taken(0.045)
+    lean = bench.tilt
+    assert lean > 1.0
+    for _ in range(round(2 * pi / SPEED / JIFFY)):
+        bench.tick(SPEED, 6.0)
+    assert bench.tilt < 0.05 * lean
+
+
+def test_a_crossed_screw_can_be_backed_out_and_leaves_a_scar() -> None:
+    bench = taken(0.055)
+    bench.drive_until(lambda: bench.driver.torque() > STOP, speed=SPEED, press=6.0, seconds=2.0)
+    bench.drive_until(lambda: bench.thread.screw is None, speed=-SPEED, press=2.0, seconds=4.0)
+    assert (bench.thread.screw, bench.thread.crossed, bench.thread.scarred) == (None, False, True)
+    depth = MOUTH - bench.screw[2, 3]
+    assert 0.0 < depth < 0.0014  # m: where its thread began
+
+
+def test_the_motor_turns_no_screw_beside_or_over_which_the_bit_stands() -> None:
+    bench = taken(0.0)
+    bench.data.qpos[bench.model.joint("press").qposadr[0]] += 0.0005
+    mujoco.mj_forward(bench.model, bench.data)
+    bench.threads.before(JIFFY)
+    assert bench.model.actuator_gainprm[bench.model.actuator("drive").id, 0] == 0.0
 
 
 @pytest.mark.slow

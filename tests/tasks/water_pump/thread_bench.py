@@ -1,13 +1,14 @@
-"""A bench with one tapped hole, one screw and a driver on a spring-loaded slide: the thread model alone."""
+"""A bench with one tapped hole, one screw and a driver that is pressed down and gives way sideways: threads alone."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import cos, degrees, pi, sin, tan
+from math import acos, cos, degrees, pi, sin, tan
 
 import mujoco
-import numpy as np
 
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.watchdog import Watchdog
+from handeye.pose import Pose, pose
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Thread, Threads
 from handeye.units import JIFFY
@@ -18,6 +19,7 @@ FLANGE = 0.0091  # m, clamped thickness: gasket and flange
 PITCH = 0.00127
 SPEED = 20.0  # rad/s
 STOP = 0.28  # N m
+WEIGHT = 0.51 * 9.81  # N, of the driver
 
 _RING = """
 <option timestep="{step}" integrator="implicitfast" cone="elliptic" impratio="50">
@@ -72,18 +74,22 @@ def scene(offset: float, tilt: float) -> str:
    armature=".02" damping=".5"/><joint name="thread_turn0" axis="0 0 1" armature="1e-3" damping="1e-4"/>
   <inertial pos="0 0 0" mass=".005" diaginertia="1e-7 1e-7 1e-7"/><site name="thread0"/>
   <geom name="head0" class="hard" type="cylinder" size=".0055 {HEAD / 2}" pos="0 0 {top}" mass="0"
-   contype="8" conaffinity="16" condim="4" priority="1"/></body></body>
+   contype="8" conaffinity="16" condim="4" priority="1"/>
+  <geom name="shank0" type="cylinder" size=".00305 .008" pos="0 0 .011" mass="0" contype="0" conaffinity="32"
+   priority="1"/></body></body>
 <body name="screw0" pos="0 {offset} {MOUTH + 0.002}" quat="{lean}"><freejoint name="screw0"/>
  <geom type="cylinder" size=".00305 .008" pos="0 0 .011" contype="8" conaffinity="4" density="7800"/>
  <geom type="cylinder" size=".0022 .0015" pos="0 0 .0015" contype="8" conaffinity="4" density="7800"/>
- <geom type="cylinder" size=".0055 {HEAD / 2}" pos="0 0 {LENGTH + HEAD / 2}" contype="8" conaffinity="0"
-  condim="4" density="7800" priority="1"/></body>
+ <geom name="screw_head0" class="hard" type="cylinder" size=".0055 {HEAD / 2}" pos="0 0 {LENGTH + HEAD / 2}"
+  contype="8" conaffinity="0" condim="4" density="7800" priority="1"/></body>
 <body name="driver" pos="0 {offset} {MOUTH + 0.002}" quat="{lean}">
  <joint name="press" type="slide" axis="0 0 1" damping="100" armature="2"/>
+ <joint type="slide" axis="1 0 0" damping="300" armature="2"/>
+ <joint type="slide" axis="0 1 0" damping="300" armature="2"/>
  <inertial pos="0 0 0" mass=".48" diaginertia="3e-4 3e-4 8e-5"/>
  <body name="bit" pos="0 0 {reach}"><joint name="spindle" axis="0 0 1" armature="2e-4" damping="1e-4"/>
   <inertial pos="0 0 .02" mass=".03" diaginertia="4e-6 4e-6 1e-6"/>
-  <geom type="cylinder" size=".0065 .004" pos="0 0 .004" contype="0" conaffinity="8" condim="4" mass="0"
+  <geom name="bit" type="cylinder" size=".0065 .004" pos="0 0 .004" contype="0" conaffinity="8" condim="4" mass="0"
    friction=".8 .003 .0001" priority="2"/>{sock_geoms}</body><site name="reaction"/></body>
 </worldbody>
 <equality><joint joint1="thread_slide0" joint2="thread_turn0" polycoef="0 {lead} 0 0 0"
@@ -96,6 +102,56 @@ def scene(offset: float, tilt: float) -> str:
  <adhesion name="magnet" body="bit" ctrlrange="0 1" gain="6"/></actuator></mujoco>"""
 
 
+class ThreadBench:
+    """The bench as it runs."""
+
+    def __init__(self, *, offset: float = 0.0, tilt: float = 0.0) -> None:
+        world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6)
+        self.model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
+        self.data = mujoco.MjData(self.model)
+        self.driver = SimulatedScrewdriver(
+            self.model, self.data, ("drive", "spindle"), torque_noise=0.0, noise=world.generator("sensors"),
+            watchdog=Watchdog(JIFFY),
+        )  # fmt: skip
+        self.threads = Threads(self.model, self.data, world, self.driver)
+
+    @property
+    def thread(self) -> Thread:
+        return self.threads.holes[0]
+
+    @property
+    def screw(self) -> Pose:
+        """`X_WS` of the screw, loose or in its thread."""
+        body = self.data.body("screw0" if self.thread.screw is None else "carrier0")
+        return pose(body.xmat.reshape(3, 3).copy(), body.xpos.copy())
+
+    @property
+    def tilt(self) -> float:
+        """Of the screw, deg."""
+        return degrees(acos(min(1.0, self.screw[2, 2])))
+
+    @property
+    def head_gap(self) -> float:
+        """Of the head over where it belongs, m."""
+        return float((self.screw @ (0.0, 0.0, LENGTH, 1.0))[2] - self.data.body("base").xpos[2] - FLANGE)
+
+    def tick(self, speed: float, press: float) -> None:
+        """Turn (rad/s) and press (N) for a servo period."""
+        self.data.qfrc_applied[self.model.joint("press").dofadr[0]] = WEIGHT - press
+        self.driver.drive(speed)
+        self.threads.before(JIFFY)
+        mujoco.mj_step(self.model, self.data, 16)
+        assert not any(w.number for w in self.data.warning)
+        self.driver.after()
+
+    def drive_until(self, done: Callable[[], bool], *, speed: float, press: float, seconds: float) -> None:
+        """Turn and press until something is so, or the time is over."""
+        for _ in range(round(seconds / JIFFY)):
+            self.tick(speed, press)
+            if done():
+                return
+
+
 @dataclass(frozen=True, kw_only=True)
 class Outcome:
     """How the screw ended."""
@@ -104,52 +160,18 @@ class Outcome:
     torque: float
     """Of the motor, N m."""
     height: float
-    """Of the head over where it belongs, m; of the loose screw's head if it never entered."""
-    lean: float
-    """Of the screw at first, deg."""
+    """Of the head over where it belongs, m."""
+    tilt: float
+    """Of the screw, deg."""
 
 
 def drive_screw(
     *, offset: float = 0.0, tilt: float = 0.0, seconds: float = 8.0, press: float = 6.0, speed: float = SPEED
 ) -> Outcome:
     """Press and turn until the motor has to work too hard or the time is over; then switch it off."""
-    world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6)
-    model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
-    data = mujoco.MjData(model)
-    arm = Watchdog(JIFFY)
-    driver = SimulatedScrewdriver(
-        model, data, ("drive", "spindle"), torque_noise=0.0, noise=world.generator("sensors"), watchdog=arm
-    )
-    threads = Threads(model, data, world, driver)
-    weight = 0.51 * 9.81
-    torque = 0.0
-    for _ in range(round(seconds / JIFFY)):
-        data.qfrc_applied[model.joint("press").dofadr[0]] = weight - press
-        driver.drive(speed)
-        threads.before(JIFFY)
-        mujoco.mj_step(model, data, 16)
-        assert not any(w.number for w in data.warning)
-        driver.after()
-        torque = driver.torque()
-        if torque > STOP:
-            break
+    bench = ThreadBench(offset=offset, tilt=tilt)
+    bench.drive_until(lambda: bench.driver.torque() > STOP, speed=speed, press=press, seconds=seconds)
+    torque = bench.driver.torque()
     for _ in range(20):
-        driver.drive(0.0)
-        threads.before(JIFFY)
-        mujoco.mj_step(model, data, 16)
-    head = (
-        data.geom_xpos[model.geom("head0").id]
-        if threads.holes[0].screw is not None
-        else _loose_head(model, data)
-    )
-    return Outcome(
-        thread=threads.holes[0],
-        torque=torque,
-        height=float(head[2] - (data.xpos[model.body("base").id][2] + FLANGE + HEAD / 2)),
-        lean=degrees(tilt),
-    )
-
-
-def _loose_head(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
-    body = model.body("screw0").id
-    return data.xpos[body] + data.xmat[body].reshape(3, 3)[:, 2] * (LENGTH + HEAD / 2)
+        bench.tick(0.0, press)
+    return Outcome(thread=bench.thread, torque=torque, height=bench.head_gap, tilt=bench.tilt)

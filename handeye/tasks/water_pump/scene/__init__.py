@@ -21,7 +21,7 @@ from handeye.tasks.water_pump.scene.tool import add_driver
 ARM = "stanford/"
 """Prefix of all names of the arm."""
 _METAL: Final = (
-    "solid", "grip", "bore", "face", "hub", "shank", "nose", "head", "base_land", "gasket_land", "top_land",
+    "solid", "grip", "bore", "face", "hub", "shank", "threaded", "nose", "head", "base_land", "gasket_land", "top_land",
 )  # fmt: skip
 """Classes of shapes that rub as the world's parts do."""
 

@@ -111,7 +111,7 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
     """The bore, the land the gasket and top rest on, and the thread.
 
     A thread is a carrier with the frame of the screw that is in it, origin at the screw's point: its slide is
-    tied to its turn by the pitch. Its head meets nothing until the cell engages a screw, but is compiled with
+    tied to its turn by the pitch. Head and shank meet nothing until the cell engages a screw, but are compiled with
     the widest contact bits: narrowing them at run time works, widening does not.
     """
     top, depth, (x, y) = base_top(), d("base.screw_holes.depth"), at
@@ -135,6 +135,10 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
         carrier, "head", d("screw.head_radius"), (0, 0, length), (0, 0, length + height), name=f"head{number}"
     )
     head.density = 0.0
+    shaper.cylinder(
+        carrier, "threaded", d("screw.shank_radius"), (0, 0, d("screw.point_length")), (0, 0, length),
+        name=f"shank{number}",
+    )  # fmt: skip
     head.rgba[3] = 0.0  # its looks are other geoms
     for geom in screw_look(shaper, carrier):
         geom.group = LATENT  # until a screw is engaged

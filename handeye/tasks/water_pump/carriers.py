@@ -1,0 +1,137 @@
+"""Carriers of the tapped holes: bodies in the base that stand for the screws in them.
+
+A carrier slides along its axis and turns about it, bound by the pitch. That axis is the tapped hole's, but for a
+screw that came in leaning: its carrier takes the screw's own axis, so that nothing jumps, and the thread draws it
+straight as it is turned. A crossed one stays as it came. Head and shank of a carrier meet other parts only while a
+screw is in its hole, the shank the bores of gasket and top alone.
+"""
+
+from math import exp
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.looks import LATENT, SEEN
+from handeye.pose import Array, Pose, inverse, pose
+
+STRAIGHTENING: Final = (
+    1.33  # rad of turn in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen.
+)
+_STRAIGHT: Final = 1e-6  # rad, m: what is left of a lean is dropped here
+
+
+class Carriers:
+    """The carriers of one scene, in the order of the tapped holes."""
+
+    changes: Final = ("geom_contype", "geom_conaffinity", "geom_group", "body_pos", "body_quat")
+    """Fields of the model that belong to their state."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        """Empty holes."""
+        self._model, self._data = model, data
+        self.count = sum(model.body(i).name.startswith("carrier") for i in range(model.nbody))
+        """How many there are."""
+        holes = range(self.count)
+        self._base = model.body("base").id
+        self._body = np.array([model.body(f"carrier{k}").id for k in holes])
+        self._slide = [model.joint(f"thread_slide{k}").id for k in holes]
+        self._turn = [model.joint(f"thread_turn{k}").id for k in holes]
+        self.head = np.array([model.geom(f"head{k}").id for k in holes])
+        """Their heads, geoms."""
+        self.site = [model.site(f"thread{k}").id for k in holes]
+        """Their frames, sites."""
+        self.mouths: Array = model.body_pos[self._body].copy()
+        """Mouths of the tapped holes in the base's frame, m, shape (n, 3)."""
+        self._lead = float(model.eq_data[_helix(model, self._slide[0], self._turn[0]), 1])  # m per radian
+        self._solid = [np.array([self.head[k], model.geom(f"shank{k}").id]) for k in holes]
+        self._bits = [(model.geom_contype[g].copy(), model.geom_conaffinity[g].copy()) for g in self._solid]
+        self._looks = [
+            np.flatnonzero((model.geom_bodyid == body) & (model.geom_group == LATENT)) for body in self._body
+        ]
+        for hole in holes:
+            self._show(hole, there=False)
+
+    def friction_of(self, hole: int) -> int:
+        """Where the model keeps the friction of a hole's thread: a degree of freedom."""
+        return int(self._model.jnt_dofadr[self._turn[hole]])
+
+    def depth(self, hole: int) -> float:
+        """How deep the point of a screw is under the mouth, along its axis, m."""
+        return -float(self._data.qpos[self._model.jnt_qposadr[self._slide[hole]]])
+
+    def pose(self, hole: int) -> Pose:
+        """`X_WS` of the screw in a hole; its origin is the point."""
+        body = self._body[hole]
+        return pose(self._data.xmat[body].reshape(3, 3).copy(), self._data.xpos[body].copy())
+
+    def velocity(self, hole: int) -> Array:
+        """Rates of turn and of the point of the screw in a hole, in W, shape (6,)."""
+        found = np.zeros(6)
+        kind = mujoco.mjtObj.mjOBJ_XBODY
+        mujoco.mj_objectVelocity(self._model, self._data, kind, int(self._body[hole]), found, 0)
+        return found
+
+    def fill(self, hole: int, X_WS: Pose, rate: float) -> None:
+        """Put the carrier of a hole where a screw is, on the screw's own axis, turning at a rate (rad/s)."""
+        model, data = self._model, self._data
+        X_WB = pose(data.xmat[self._base].reshape(3, 3), data.xpos[self._base])
+        X_BS = inverse(X_WB) @ X_WS
+        axis = X_BS[:3, 2]
+        along = float(axis @ (X_BS[:3, 3] - self.mouths[hole]))
+        model.body_pos[self._body[hole]] = X_BS[:3, 3] - along * axis
+        model.body_quat[self._body[hole]] = _upright_to(axis)
+        self._move(hole, along, rate)
+        self._show(hole, there=True)
+
+    def empty(self, hole: int) -> None:
+        """Take the carrier of a hole away."""
+        body = self._body[hole]
+        self._model.body_pos[body], self._model.body_quat[body] = self.mouths[hole], (1.0, 0.0, 0.0, 0.0)
+        self._move(hole, 0.0, 0.0)
+        self._show(hole, there=False)
+
+    def straighten(self, hole: int, seconds: float) -> None:
+        """Let the thread draw a screw straight as it is turned in during a time (s)."""
+        model, body = self._model, self._body[hole]
+        aside, lean = model.body_pos[body] - self.mouths[hole], model.body_quat[body][1:].copy()
+        if not aside.any() and not lean.any():
+            return
+        rate = -float(self._data.qvel[model.jnt_dofadr[self._turn[hole]]])
+        left = exp(-max(rate, 0.0) * seconds / STRAIGHTENING)
+        if max(np.abs(aside).max(), np.abs(lean).max()) * left < _STRAIGHT:
+            left = 0.0
+        model.body_pos[body] = self.mouths[hole] + left * aside
+        model.body_quat[body, 1:] = left * lean
+        mujoco.mju_normalize4(model.body_quat[body])
+
+    def _move(self, hole: int, along: float, rate: float) -> None:
+        """Put the joints of a carrier where its thread has them, at `along` (m) over the mouth."""
+        model, data = self._model, self._data
+        slide, turn = self._slide[hole], self._turn[hole]
+        data.qpos[model.jnt_qposadr[slide]] = along
+        data.qpos[model.jnt_qposadr[turn]] = along / self._lead
+        data.qvel[model.jnt_dofadr[turn]] = rate
+        data.qvel[model.jnt_dofadr[slide]] = rate * self._lead
+
+    def _show(self, hole: int, *, there: bool) -> None:
+        """Let head and shank meet other parts and be seen, or not."""
+        model, solid = self._model, self._solid[hole]
+        contype, conaffinity = self._bits[hole] if there else (0, 0)
+        model.geom_contype[solid], model.geom_conaffinity[solid] = contype, conaffinity
+        model.geom_group[self._looks[hole]] = SEEN if there else LATENT
+
+
+def _upright_to(axis: Array) -> Array:
+    """Quaternion of the shortest turn of z to an axis."""
+    x, y, z = axis
+    turn = np.array([1.0 + z, -y, x, 0.0])
+    return np.asarray(turn / np.linalg.norm(turn))
+
+
+def _helix(model: mujoco.MjModel, slide: int, turn: int) -> int:
+    """The constraint that binds a slide to a turn by the pitch."""
+    for e in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
+        if (model.eq_obj1id[e], model.eq_obj2id[e]) == (slide, turn):
+            return int(e)
+    raise AssertionError("the scene binds no slide to its turn")
