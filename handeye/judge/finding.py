@@ -54,6 +54,16 @@ def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
     return _finding(value >= limit, value, "at least", limit, unit, subject)
 
 
+def worse(one: Findings, other: Findings) -> Findings:
+    """Of two looks at the same points, the less right finding of each."""
+    return {name: _worse(finding, other[name]) for name, finding in one.items()}
+
+
+def _worse(one: Finding, other: Finding) -> Finding:
+    grows = other.value > one.value
+    return other if grows == (one.relation == "at most") else one
+
+
 def all_right(findings: Findings) -> bool:
     """Every point is right; a referee that looked at nothing has found nothing right."""
     return bool(findings) and all(finding.ok for finding in findings.values())

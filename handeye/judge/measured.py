@@ -1,26 +1,26 @@
 """Measurements on the simulator's state; none of them changes it."""
 
+import copy
+from collections.abc import Sequence
 from math import acos
-from typing import Final
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.cell.truth import Truth
 from handeye.pose import Array, Pose, inverse, pose
 
-_SETTLE: Final = 0.2  # s
-
 
 class Measured:
-    """A settled copy of a cell's state."""
+    """A copy of a cell's state: as it was left, or settled."""
 
-    def __init__(self, truth: Truth) -> None:
-        """Copy the state, wake everything and let it settle for a moment, so that forces are up to date."""
+    def __init__(self, truth: Truth, settle: float = 0.0) -> None:
+        """Copy the state, wake everything and let some time pass (s)."""
         self.model, self.data = truth.copy()
         self._start = mujoco.MjData(truth.model)
         mujoco.mj_kinematics(truth.model, self._start)
-        mujoco.mj_step(self.model, self.data, round(_SETTLE / self.model.opt.timestep))
+        mujoco.mj_step(self.model, self.data, round(settle / self.model.opt.timestep))
 
     def pose(self, body: str) -> Pose:
         """Pose of a body in W."""
@@ -31,11 +31,20 @@ class Measured:
         """Pose of `body` in the frame of `other`."""
         return inverse(self.pose(other)) @ self.pose(body)
 
-    def place(self, body: str, places: tuple[str, ...]) -> tuple[float, float]:
-        """Distance (m) of a body from the nearest of the first places of `places`, and its tilt (rad)."""
-        X = self.pose(body)
-        firsts = [self._start.xpos[self.model.body(name).id] for name in places]
-        return min(float(np.linalg.norm(X[:3, 3] - p)) for p in firsts), tilt(X)
+    def strayed(self, bodies: Sequence[str], places: Sequence[str]) -> float:
+        """How far the farthest of some bodies is from its place, m; the places are where `places` were at first.
+
+        Any body may have any place, but each place takes one only: nearest first.
+        """
+        firsts = self._start.xpos[[self.model.body(name).id for name in places]]
+        now = np.reshape([self.pose(name)[:3, 3] for name in bodies], (-1, 3))
+        away = np.linalg.norm(now[:, None] - firsts, axis=-1)
+        farthest = 0.0
+        for _ in bodies:
+            body, place = np.unravel_index(np.argmin(away), away.shape)
+            farthest = max(farthest, float(away[body, place]))
+            away[body], away[:, place] = np.inf, np.inf
+        return farthest
 
     def gap(self, geom: str, other: str) -> float:
         """Signed distance between two geoms, m; negative when they overlap."""
@@ -43,23 +52,31 @@ class Measured:
         ids = self.model.geom(geom).id, self.model.geom(other).id
         return float(mujoco.mj_geomDistance(self.model, self.data, *ids, 0.5, ends))
 
-    def deepest(self) -> tuple[float, str]:
-        """The deepest overlap of two bodies, m, and what they are."""
-        contact = self.data.contact
-        if not len(contact.dist):
-            return 0.0, "nothing"
-        worst = int(np.argmin(contact.dist))
-        names = [self.model.body(self.model.geom_bodyid[g]).name for g in contact.geom[worst]]
-        return max(0.0, -float(contact.dist[worst])), " and ".join(names)
+    def nearest(self, geoms: NDArray[np.intp], others: NDArray[np.intp], most: float) -> float:
+        """Least distance between two groups of geoms, m; what is farther apart counts as `most`."""
+        model, ends = self.model, np.zeros(6)
+        between = self.data.geom_xpos[geoms][:, None] - self.data.geom_xpos[others]
+        reach = model.geom_rbound[geoms][:, None] + model.geom_rbound[others]
+        close = np.argwhere(np.linalg.norm(between, axis=-1) - reach < most)
+        pairs = ((int(geoms[i]), int(others[j])) for i, j in close)
+        return min(
+            (mujoco.mj_geomDistance(model, self.data, *pair, most, ends) for pair in pairs), default=most
+        )
+
+    def overlaps(self, solid: NDArray[np.bool_]) -> tuple[NDArray[np.int32], Array]:
+        """Pairs of `solid` geoms of different bodies that overlap, whatever contact bits they have, and how deep, m."""
+        model = copy.deepcopy(self.model)
+        for field in (model.geom_contype, model.geom_conaffinity):
+            field[:] = solid
+        model.body_contype[:] = model.body_conaffinity[:] = 1
+        data = mujoco.MjData(model)
+        data.qpos[:] = self.data.qpos
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_collision(model, data)
+        return data.contact.geom.copy(), np.maximum(0.0, -data.contact.dist)
 
 
 def tilt(X: Pose) -> float:
     """Angle between a frame's z and the vertical, rad."""
     return acos(max(-1.0, min(1.0, float(X[2, 2]))))
-
-
-def displacement(X: Pose, points: Array) -> float:
-    """Longest sideways way (m) of `points` (n, 2) when their part lies at `X` in its place."""
-    flat = np.column_stack([points, np.zeros(len(points))])
-    moved = flat @ X[:3, :3].T + X[:3, 3]
-    return float(np.hypot(*(moved - flat)[:, :2].T).max())

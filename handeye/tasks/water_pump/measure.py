@@ -1,14 +1,21 @@
-"""Measurements that only a pump needs: how hard its screws clamp, how easily its rotor turns."""
+"""Measurements that only a pump needs: of its screws in their holes, and of how easily its rotor turns."""
 
-from math import degrees
+from math import cos, pi, radians, sin
 from typing import Final
 
 import mujoco
+import numpy as np
 
-from handeye.judge.measured import Measured
-from handeye.tasks.water_pump.limits import ROTOR_TORQUE, ROTOR_TURN
+from handeye.judge.measured import Measured, tilt
+from handeye.pose import inverse, pose
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top
+from handeye.tasks.water_pump.limits import ROTOR_SWING, ROTOR_TORQUE
 
-_RAMP: Final = 1.0  # s over which the torque on the rotor grows to its limit
+_SWING: Final = 1.5  # s: once to one side, once to the other, and back
+_BEHIND: Final = radians(2.0)  # so far behind its guide, the rotor is turned with its limit
+_GAIN: Final = ROTOR_TORQUE / _BEHIND  # N m/rad
+_DAMPING: Final = 0.07  # N m s/rad: with the rotor's inertia it swings into place without going beyond
 
 
 def head_force(measured: Measured, hole: int) -> float:
@@ -22,16 +29,71 @@ def head_force(measured: Measured, hole: int) -> float:
     return float(data.efc_force[rows].sum())
 
 
+def head_gap(measured: Measured, hole: int) -> float:
+    """Height of a screw's head over the top's flange, m; negative where it is pressed in."""
+    X_WT, size = measured.pose("top"), dimensions()
+    middle = measured.data.geom(f"head{hole}").xpos - X_WT[:3, 3]
+    return float(X_WT[:3, 2] @ middle) - size("top.flange") - size("screw.head_height") / 2
+
+
+def misfit(measured: Measured, layer: str, hole: int) -> float:
+    """Distance of a screw's axis from that of its hole in gasket or top, at the worse end of the hole, m."""
+    axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"{layer}_hole{hole}").xpos
+    down = -thickness(layer) * measured.pose(layer)[:3, 2]
+    ends = np.array([mouth, mouth + down]) - axis.xpos
+    return float(np.hypot(*(ends @ axis.xmat.reshape(3, 3))[:, :2].T).max())
+
+
+def corner_height(measured: Measured, layer: str, holes: int) -> float:
+    """How far the upper face of a layer is off its nominal height over the base, at the worst of its screw holes, m."""
+    X_BW = inverse(measured.pose("base"))
+    corners = np.array([measured.data.site(f"{layer}_hole{k}").xpos for k in range(holes)])
+    heights = corners @ X_BW[2, :3] + X_BW[2, 3]
+    return float(np.abs(heights - under(layer) - thickness(layer)).max())
+
+
+def thickness(layer: str) -> float:
+    """Of gasket or the top's flange, m."""
+    return dimensions()("top.flange" if layer == "top" else "gasket.thickness")
+
+
+def under(layer: str) -> float:
+    """Nominal height of a layer's underside over the base's, m."""
+    return base_top() + (thickness("gasket") if layer == "top" else 0.0)
+
+
+def thread_length(measured: Measured, hole: int) -> float:
+    """Length of a screw's thread that is in its tapped hole, m."""
+    point = inverse(measured.pose("base")) @ measured.pose(f"carrier{hole}")
+    return float(base_top() - point[2, 3] - dimensions()("screw.point_length"))
+
+
+def screw_lean(measured: Measured, hole: int) -> float:
+    """Angle between a screw and the base, rad."""
+    axis = measured.data.site(f"thread{hole}").xmat.reshape(3, 3)
+    return tilt(inverse(measured.pose("base")) @ pose(axis, np.zeros(3)))
+
+
 def rotor_torque(measured: Measured) -> float:
-    """Torque that turns the rotor (N m); infinite if the limit does not. Done on a further copy."""
+    """Greatest torque that it takes to swing the rotor to either side and back, N m.
+
+    Infinite if the limit does not bring it all the way. Done on a further copy.
+    """
     model = measured.model
     data = mujoco.MjData(model)
     mujoco.mj_copyData(data, model, measured.data)
     dof, adr = model.joint("rotor").dofadr[0], model.joint("rotor").qposadr[0]
-    start, steps = float(data.qpos[adr]), round(_RAMP / model.opt.timestep)
+    start, steps = float(data.qpos[adr]), round(_SWING / model.opt.timestep)
+    swing, greatest = radians(ROTOR_SWING), 0.0
     for i in range(1, steps + 1):
-        data.qfrc_applied[dof] = ROTOR_TORQUE * i / steps
+        phase = pi * (1 - cos(pi * i / steps))  # sets off and stops gently
+        rate = pi**2 / _SWING * sin(pi * i / steps)
+        behind = swing * sin(phase) - (data.qpos[adr] - start)
+        slower = swing * cos(phase) * rate - data.qvel[dof]
+        torque = _GAIN * behind + _DAMPING * slower
+        data.qfrc_applied[dof] = np.clip(torque, -ROTOR_TORQUE, ROTOR_TORQUE)
         mujoco.mj_step(model, data)
-        if degrees(abs(data.qpos[adr] - start)) > ROTOR_TURN:
-            return ROTOR_TORQUE * i / steps
-    return float("inf")
+        if abs(behind) > 2 * _BEHIND:
+            return float("inf")
+        greatest = max(greatest, abs(float(data.qfrc_applied[dof])))
+    return greatest

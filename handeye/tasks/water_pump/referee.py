@@ -1,45 +1,53 @@
 """The referee's findings on a finished pump, point by point."""
 
+from collections.abc import Callable, Iterable
 from math import degrees, isfinite
 from typing import Final
 
 import numpy as np
 
 from handeye.cell.truth import Truth
-from handeye.judge.finding import Finding, Findings, at_least, at_most
-from handeye.judge.measured import Measured, displacement, tilt
-from handeye.pose import Pose, translated, yaw
-from handeye.tasks.water_pump import limits
+from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
+from handeye.judge.measured import Measured, tilt
+from handeye.pose import yaw
+from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, screw_holes
-from handeye.tasks.water_pump.measure import head_force, rotor_torque
-from handeye.tasks.water_pump.threads import holes_of
+from handeye.tasks.water_pump.overlap import Overlap, deepest
+from handeye.tasks.water_pump.scene import ARM
+from handeye.tasks.water_pump.threads import Thread, holes_of
 from handeye.units import INCH
 
 _MM: Final = 1e3
 _PINS: Final = ("pin0", "pin1")
-_GASKET: Final = (limits.GASKET_HEIGHT, limits.GASKET_TILT, limits.GASKET_PLACE)
-_TOP: Final = (limits.TOP_HEIGHT, limits.TOP_TILT, limits.TOP_PLACE)
 
 
 def judge(truth: Truth) -> Findings:
     """Measure the pump and its cell.
 
-    Works on copies: the state of the cell is not touched.
+    Places are measured twice, as parts were left and when they have settled, and the worse finding counts: what hangs
+    in the air falls, and what was pressed into something springs out. The state of the cell is not touched.
     """
-    measured = Measured(truth)
+    left, settled = Measured(truth), Measured(truth, limits.SETTLE)
+    holes = holes_of(truth)
     return {
-        **_base(measured),
-        **_layer(measured, "gasket", base_top(), _GASKET),
-        **_layer(measured, "top", base_top() + dimensions()("gasket.thickness"), _TOP),
-        **_screws(measured, truth),
-        **_cell(measured, truth),
-        "rotor": _rotor(measured),
-        "overlap": _overlap(measured),
+        **worse(_places(left, holes), _places(settled, holes)),
+        "screws_clamp": _clamp(settled, holes),
+        "rotor": _rotor(settled),
     }
 
 
-def _base(measured: Measured) -> dict[str, Finding]:
+def _places(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+    return {
+        **_base(measured),
+        **_layer(measured, "gasket", holes),
+        **_layer(measured, "top", holes),
+        **_screws(measured, holes),
+        **_cell(measured, holes),
+        **_overlap(*deepest(measured)),
+    }
+
+
+def _base(measured: Measured) -> Findings:
     turn = degrees(yaw(measured.relative("base", "blocks")) % (2 * np.pi)) - 180
     findings = {
         f"base_{side}": at_most(
@@ -57,75 +65,124 @@ def _base(measured: Measured) -> dict[str, Finding]:
     return findings
 
 
-def _layer(
-    measured: Measured, part: str, height: float, most: tuple[float, float, float]
-) -> dict[str, Finding]:
-    X: Pose = translated(measured.relative(part, "base"), (0.0, 0.0, -height))
-    off = displacement(X, np.array(screw_holes()))
-    return {
-        f"{part}_height": at_most(
-            abs(X[2, 3]) * _MM, most[0], "mm", f"height of the {part} off its nominal {height / INCH:.2f} in"
-        ),
-        f"{part}_tilt": at_most(degrees(tilt(X)), most[1], "deg", f"tilt of the {part} on the base"),
-        f"{part}_place": at_most(
-            off * _MM, most[2], "mm", f"farthest screw hole of the {part} from the base's"
-        ),
-    }
-
-
-def _screws(measured: Measured, truth: Truth) -> dict[str, Finding]:
+def _layer(measured: Measured, layer: str, holes: tuple[Thread, ...]) -> Findings:
+    """Height of gasket or top, and whether every screw passes its hole there without cutting into it."""
     size = dimensions()
-    filled = [k for k, thread in enumerate(holes_of(truth)) if thread.screw is not None]
-    height = size("top.flange") + size("screw.head_height") / 2
-    gaps = []
-    for k in filled:
-        head = measured.model.geom(f"head{k}").id
-        X_WT = measured.pose("top")
-        gaps.append(float(X_WT[:3, 2] @ (measured.data.geom_xpos[head] - X_WT[:3, 3]) - height))
-    forces = [head_force(measured, k) for k in filled]
-    crossed = sum(thread.crossed for thread in holes_of(truth))
-    nothing = float(size("screw.length") * _MM)  # a missing screw counts as one that stands full length high
-    worst = max((abs(gap) * _MM for gap in gaps), default=nothing)
+    off = measure.corner_height(measured, layer, len(holes))
+    clearance = size(f"{layer}.screw_hole_radius") - size("screw.shank_radius")
+    hole, apart = _worst(range(len(holes)), lambda k: measure.misfit(measured, layer, k))
     return {
-        "screws": at_least(len(filled), len(holes_of(truth)), "screws", "screws in their threads"),
-        "screws_depth": at_most(worst, limits.SCREW_GAP, "mm", "greatest gap under a screw's head"),
-        "screws_clamp": at_least(
-            min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw"
+        f"{layer}_height": at_most(
+            off * _MM, limits.LAYER_HEIGHT, "mm",
+            f"farthest corner of the {layer} off its nominal {measure.under(layer) / INCH:.2f} in",
         ),
-        "screws_crossed": at_most(crossed, 0, "screws", "cross-threaded screws"),
+        f"{layer}_place": at_most(
+            apart * _MM, round(clearance * _MM + limits.SOFT, 3), "mm",
+            f"axis of screw hole {hole + 1} of the base from that of the {layer}",
+        ),
+    }  # fmt: skip
+
+
+def _screws(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+    size = dimensions()
+    filled = [k for k, thread in enumerate(holes) if thread.screw is not None]
+    gap = max(
+        (abs(measure.head_gap(measured, k)) for k in filled), default=size("screw.length")
+    )  # no screw is like one that stands full length high
+    lengths = [measure.thread_length(measured, k) for k in filled]
+    lean = max((measure.screw_lean(measured, k) for k in filled), default=0.0)
+    return {
+        "screws": at_least(
+            len({holes[k].screw for k in filled}), len(holes), "screws", "screws in their threads"
+        ),
+        "screws_depth": at_most(gap * _MM, limits.SCREW_GAP, "mm", "greatest gap under a screw's head"),
+        "screws_thread": at_least(
+            min(lengths, default=0.0) * _MM,
+            limits.SCREW_THREAD,
+            "mm",
+            "shortest thread of a screw in the base",
+        ),
+        "screws_lean": at_most(degrees(lean), limits.SCREW_LEAN, "deg", "greatest lean of a screw"),
+        "screws_crossed": at_most(
+            sum(thread.crossed for thread in holes), 0, "screws", "cross-threaded screws"
+        ),
+        "threads_scarred": at_most(
+            sum(thread.scarred for thread in holes), 0, "threads", "threads that a crossed screw has scarred"
+        ),
     }
 
 
-def _cell(measured: Measured, truth: Truth) -> dict[str, Finding]:
-    pins = [measured.place(pin, _PINS) for pin in _PINS]
-    screws = tuple(f"screw{k}" for k in range(len(holes_of(truth))))
-    in_threads = {thread.screw for thread in holes_of(truth)}
+def _worst(holes: Iterable[int], measured: Callable[[int], float]) -> tuple[int, float]:
+    """The hole at which a measured value is greatest, and the value."""
+    return max(((hole, measured(hole)) for hole in holes), key=lambda found: found[1])
+
+
+def _cell(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
+    screws = [f"screw{k}" for k in range(len(holes))]
+    in_threads = {thread.screw for thread in holes}
     loose = [name for k, name in enumerate(screws) if k not in in_threads]
-    strayed = [measured.place(name, screws)[0] for name in loose]
-    away, lean = measured.place("driver", ("driver",))
-    lowest = min(measured.pose(name)[2, 3] for name in ("base", "gasket", "top", *_PINS, "driver", *loose))
+    parts = ("base", "gasket", "top", *_PINS, "driver", *loose)
+    lowest = min(measured.pose(name)[2, 3] for name in parts)
+    pins, dispenser, rack = (
+        measured.strayed(things, places) * _MM
+        for things, places in ((_PINS, _PINS), (loose, screws), (("driver",), ("driver",)))
+    )
+    lean = max(tilt(measured.pose(pin)) for pin in _PINS)
     return {
-        "pins": at_most(
-            max(distance for distance, _ in pins) * _MM, limits.PIN_PLACE, "mm", "farther pin from its holder"
+        "pins": at_most(pins, limits.PIN_PLACE, "mm", "farther pin from its hole in the holder"),
+        "pins_tilt": at_most(degrees(lean), limits.PIN_TILT, "deg", "lean of a pin in its holder"),
+        "rack": at_most(rack, limits.RACK_PLACE, "mm", "screwdriver from its rack"),
+        "rack_tilt": at_most(
+            degrees(tilt(measured.pose("driver"))),
+            limits.RACK_TILT,
+            "deg",
+            "lean of the screwdriver in its rack",
         ),
-        "pins_tilt": at_most(
-            max(degrees(lean) for _, lean in pins), limits.PIN_TILT, "deg", "lean of a pin in its holder"
-        ),
-        "rack": at_most(away * _MM, limits.RACK_PLACE, "mm", "screwdriver from its rack"),
-        "rack_tilt": at_most(degrees(lean), limits.RACK_TILT, "deg", "lean of the screwdriver in its rack"),
-        "dispenser": at_most(
-            max(strayed, default=0.0) * _MM, limits.PIN_PLACE, "mm", "loose screw from the dispenser"
-        ),
+        "dispenser": at_most(dispenser, limits.PIN_PLACE, "mm", "loose screw from the dispenser"),
         "floor": at_least(lowest * _MM, limits.FLOOR, "mm", "lowest part over the table top"),
+        "hand": at_least(
+            _hand_room(measured, parts) * _MM, limits.HAND_CLEAR, "mm", "hand from the nearest part"
+        ),
     }
+
+
+def _hand_room(measured: Measured, parts: Iterable[str]) -> float:
+    """Distance of the hand from the nearest of some parts and what is fixed to them, m; at most twice its limit."""
+    model = measured.model
+    solid = (model.geom_contype | model.geom_conaffinity) != 0
+    tree = model.body_rootid[model.geom_bodyid]
+    arm = np.array([model.body(body).name.startswith(ARM) for body in model.geom_bodyid])
+    mine = np.isin(tree, [model.body(part).id for part in parts])
+    return measured.nearest(
+        np.flatnonzero(arm & solid), np.flatnonzero(mine & solid), 2 * limits.HAND_CLEAR / _MM
+    )
+
+
+def _clamp(measured: Measured, holes: tuple[Thread, ...]) -> Finding:
+    forces = [measure.head_force(measured, k) for k, thread in enumerate(holes) if thread.screw is not None]
+    return at_least(min(forces, default=0.0), limits.SCREW_CLAMP, "N", "weakest clamp of a screw")
 
 
 def _rotor(measured: Measured) -> Finding:
-    torque = rotor_torque(measured)
-    value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn at all
-    return at_most(value, limits.ROTOR_TORQUE, "N m", "torque that turns the rotor")
+    torque = measure.rotor_torque(measured)
+    value = torque if isfinite(torque) else 2 * limits.ROTOR_TORQUE  # did not turn all the way
+    return at_most(
+        value,
+        limits.ROTOR_TORQUE,
+        "N m",
+        f"torque that turns the rotor {limits.ROTOR_SWING:.0f} degrees and back",
+    )
 
 
-def _overlap(measured: Measured) -> Finding:
-    depth, what = measured.deepest()
-    return at_most(depth * _MM, limits.PENETRATION, "mm", f"deepest overlap, of {what}")
+def _overlap(bores: Overlap, others: Overlap) -> Findings:
+    return {
+        "overlap_bores": at_most(
+            bores.depth * _MM,
+            limits.SOFT,
+            "mm",
+            f"deepest cut of a shank or pin into a bore, of {bores.between}",
+        ),
+        "overlap": at_most(
+            others.depth * _MM, limits.PENETRATION, "mm", f"deepest overlap, of {others.between}"
+        ),
+    }

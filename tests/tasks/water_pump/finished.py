@@ -10,8 +10,10 @@ from driving import tick
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
+from handeye.judge.measured import Measured
 from handeye.pose import Pose, planar, pose, translated
 from handeye.runs.exhibit import Exhibit
+from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, standard
@@ -33,10 +35,11 @@ def put(truth: Truth, part: str, X_WP: Pose) -> None:
     mujoco.mj_forward(model, data)
 
 
-def stacked(*, rest: bool = True) -> SimulatedCell:
+def stacked(world: PumpWorld | None = None, *, rest: bool = True) -> SimulatedCell:
     """Base against the blocks, gasket and top on it, nothing screwed."""
-    cell = build_cell(PumpWorld.nominal(), camera="ray", rest=rest)
-    X = translated(standard(), (1e-4, -1e-4, 0.0))
+    cell = build_cell(world or PumpWorld.nominal(), camera="ray", rest=rest)
+    blocks = cell.truth.data.body("blocks")
+    X = pose(blocks.xmat.reshape(3, 3), blocks.xpos) @ translated(standard(), (1e-4, -1e-4, 0.0))
     top = base_top() + dimensions()("gasket.thickness")
     for part, height in (("base", 0.0), ("gasket", base_top()), ("top", top)):
         put(cell.truth, part, X @ planar(0.0, 0.0, height, 0.0))
@@ -71,9 +74,9 @@ def tightening(cell: SimulatedCell, hole: int) -> Iterator[SimulatedCell]:
 
 
 @cache
-def finished_cell() -> SimulatedCell:
-    """The cell with the finished pump in it: look, do not touch."""
-    cell = stacked()
+def finished_cell(seed: int | None = None) -> SimulatedCell:
+    """The cell with the finished pump in it, without errors or of the world of a seed: look, do not touch."""
+    cell = stacked(None if seed is None else PumpWorld.sample(seed))
     for hole in range(6):
         tighten(cell, hole)
     for _ in range(round(0.2 / JIFFY)):
@@ -81,9 +84,24 @@ def finished_cell() -> SimulatedCell:
     return cell
 
 
-def finished() -> Truth:
+@cache
+def _rested(seed: int | None) -> Truth:
+    truth = finished_cell(seed).truth
+    quiet = Measured(truth, limits.SETTLE)
+    return replace(truth, model=quiet.model, data=quiet.data)
+
+
+def finished(seed: int | None = None) -> Truth:
     """A fresh copy of the finished pump."""
-    truth = finished_cell().truth
+    return _copied(finished_cell(seed).truth)
+
+
+def rested(seed: int | None = None) -> Truth:
+    """The same after it has come to rest as the referee lets it, so that its forces are up to date."""
+    return _copied(_rested(seed))
+
+
+def _copied(truth: Truth) -> Truth:
     model, data = truth.copy()
     return replace(truth, model=model, data=data)
 

@@ -13,13 +13,13 @@ import pytest
 from finished import exhibit, finished, finished_cell, put
 
 from handeye.folders import write_folder
-from handeye.judge import measured
 from handeye.pose import Array, planar
 from handeye.report.exported_scene import scene_files
 from handeye.report.exported_solids import exported_solids
 from handeye.runs.exhibit import drawn
+from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.dimensions import dimensions
-from handeye.tasks.water_pump.drawing import base_top, screw_holes
+from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.exported import RENAMED
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.referee import judge
@@ -142,7 +142,7 @@ def test_screws_are_as_far_from_the_holes_of_the_top_as_the_referee_reckons(
     truth = finished()
     X = planar(*truth.data.body("base").xpos, np.pi)
     put(truth, "top", X @ planar(4e-4, -2e-4, base_top() + dimensions()("gasket.thickness"), 3e-3))
-    monkeypatch.setattr(measured, "_SETTLE", 0.0)
+    monkeypatch.setattr(limits, "SETTLE", 0.0)
     write_folder(tmp_path / "off", scene_files(exhibit(truth)))
     off = opened(tmp_path / "off")
     most = max(off.apart(f"top_hole{k}", f"screw{k}") for k in range(6))
@@ -172,9 +172,8 @@ def test_equal_exhibits_give_equal_bytes() -> None:
 
 
 def test_the_holes_of_the_base_are_where_this_world_drilled_them(world: Opened) -> None:
-    errors = PumpWorld.sample(3).holes
-    for k, ((x, y), (dx, dy)) in enumerate(zip(screw_holes(), errors, strict=True)):
-        assert world.model.site(f"base_hole{k}").pos[:2] == pytest.approx((x + dx, y + dy), abs=1e-12)
+    for k, hole in enumerate(PumpWorld.sample(3).drilled("base")):
+        assert world.model.site(f"base_hole{k}").pos[:2] == pytest.approx(hole, abs=1e-12)
 
 
 def test_a_world_as_drawn_has_its_screws_loose_in_the_dispenser(world: Opened) -> None:

@@ -11,9 +11,9 @@ from manifold3d import Manifold
 
 from handeye.cell.solid_scene import SolidScene, Weighed
 from handeye.errors import InvalidInput
-from handeye.judge import measured
 from handeye.pose import Array, planar
 from handeye.report.exported_solids import ExportedSolids, agrees, checks, exported_solids
+from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.exported import exported
@@ -99,7 +99,7 @@ def test_screws_are_as_far_from_the_holes_of_the_top_as_the_referee_reckons(
     truth = finished()
     X = planar(*truth.data.body("base").xpos, np.pi)
     put(truth, "top", X @ planar(4e-4, -2e-4, base_top() + dimensions()("gasket.thickness"), 3e-3))
-    monkeypatch.setattr(measured, "_SETTLE", 0.0)
+    monkeypatch.setattr(limits, "SETTLE", 0.0)
     off = read(exported_solids(exhibit(truth), "pump"))
     most = max(apart(off, f"top_hole{k}", f"screw{k}") for k in range(6))
     assert most == pytest.approx(judge(truth)["top_place"].value, abs=AGREEMENT)
@@ -135,8 +135,8 @@ def test_bodies_that_weigh_otherwise_than_their_volume_says_are_named(made: Expo
     assert list(checks(made)) == [
         "16 solids, all closed",
         "by volume and density 3.07 kg, and 2.4 kg in the model: base",
-        "by volume and density 0.0128 kg, and 0.05 kg in the model: gasket",
-        "by volume and density 1.1 kg, and 0.9 kg in the model: top",
+        "by volume and density 0.0127 kg, and 0.05 kg in the model: gasket",
+        "by volume and density 0.851 kg, and 0.9 kg in the model: top",
         "by volume and density 0.086 kg, and 0.12 kg in the model: rotor",
         "by volume and density 0.00605 kg, and 0.00698 kg in the model: screw0, screw1, screw2, screw3, screw4, screw5",
     ]

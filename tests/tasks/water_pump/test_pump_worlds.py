@@ -11,6 +11,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import Array, hand
 from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, variation
 from handeye.units import DEGREE, INCH
 from handeye.variation import Overrides, WorldSpec
@@ -119,3 +120,9 @@ def test_every_quantity_says_where_its_figures_come_from() -> None:
     assert [
         name for name, q in variation(SEVENTH).quantities.items() if not q.source.endswith((".", '".'))
     ] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [910033, 910118, 910152])
+def test_a_flat_link_of_any_mass_makes_a_scene(seed: int) -> None:
+    assert build(PumpWorld.sample(seed)).nv > 0

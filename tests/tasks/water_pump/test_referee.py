@@ -64,15 +64,15 @@ def high_screw(truth: Truth) -> Truth:
 
 
 def fallen_pin(truth: Truth) -> Truth:
-    put(truth, "pin0", pose(rotation_x(np.pi / 2), (0.3, 0.3, 0.003)))
+    put(truth, "pin0", pose(rotation_x(np.pi / 2), (0.3, 0.3, 0.0037)))
     return truth
 
 
 CHANGES: dict[str, tuple[Callable[[Truth], Truth], set[str]]] = {
     "a pin that lies on the table": (fallen_pin, {"pins", "pins_tilt"}),
-    "a driver beside its rack": (moved("driver", 0.06, 0.0, -0.06), {"rack"}),
+    "a driver that falls beside its rack": (moved("driver", 0.1, 0.0, 0.0), {"rack", "overlap"}),
     "a crossed screw": (crossed, {"screws_crossed"}),
-    "a screw that stands high": (high_screw, {"screws_depth", "screws_clamp"}),
+    "a screw that stands high": (high_screw, {"screws_depth", "screws_thread", "screws_clamp"}),
     "a jammed rotor": (jammed, {"rotor"}),
     "a missing screw": (missing_screw, {"screws", "dispenser", "floor"}),
 }

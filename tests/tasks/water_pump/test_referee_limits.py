@@ -6,21 +6,20 @@ quantity that it measures has a given value. The referee looks at once, so that 
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import partial
 from typing import Final
 
 import msgspec
 import mujoco
 import numpy as np
 import pytest
-from finished import finished, put
+from finished import put, rested
 
 from handeye.cell.truth import Truth
-from handeye.judge import measured
 from handeye.judge.finding import Findings
 from handeye.judge.measured import Measured
 from handeye.pose import Array, Pose, inverse, planar, pose, rotation_x, translated
-from handeye.tasks.water_pump import referee
+from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.measure import head_force
@@ -36,26 +35,18 @@ NEAR: Final = 0.02
 """How near to its limit a quantity is brought on both sides, as a share of the limit."""
 
 
-@cache
-def _settled() -> Truth:
-    truth = finished()
-    quiet = Measured(truth)
-    return replace(truth, model=quiet.model, data=quiet.data)
-
-
 @pytest.fixture
 def pump() -> Truth:
     """A finished pump that has come to rest."""
-    model, data = _settled().copy()
-    return replace(_settled(), model=model, data=data)
+    return rested()
 
 
 @pytest.fixture
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The referee lets no time pass, neither for parts to come to rest nor for the rotor to turn."""
-    _settled()
-    monkeypatch.setattr(measured, "_SETTLE", 0.0)
-    monkeypatch.setattr(referee, "rotor_torque", lambda _: 0.0)
+    rested()
+    monkeypatch.setattr(limits, "SETTLE", 0.0)
+    monkeypatch.setattr(measure, "rotor_torque", lambda _: 0.0)
 
 
 def wrong(findings: Findings) -> set[str]:
@@ -134,14 +125,11 @@ def layer_height(truth: Truth, value: float, *, part: str) -> None:
 
 
 def layer_place(truth: Truth, value: float, *, part: str) -> None:
+    """Aside, towards an edge between two wedges of its bores, where a shank cuts in least."""
     X_WB = lie(truth, "base")
     height = (inverse(X_WB) @ lie(truth, part))[2, 3]
-    put(truth, part, X_WB @ planar(value * MM, 0.0, height, 0.0))
-
-
-def layer_tilt(truth: Truth, value: float, *, part: str) -> None:
-    layer_height(truth, 0.0, part=part)
-    leaning(truth, value, part=part)
+    edge = np.pi / 12
+    put(truth, part, X_WB @ planar(value * MM * np.cos(edge), value * MM * np.sin(edge), height, 0.0))
 
 
 def over_its_place(truth: Truth, value: float, *, part: str) -> None:
@@ -166,6 +154,32 @@ def stray_screw(truth: Truth, value: float) -> Truth:
 def screw_height(truth: Truth, value: float) -> None:
     draw_screw(truth, 2, 0.15 * MM)  # farther than any head is pressed in
     draw_screw(truth, 2, (value - judge(truth)["screws_depth"].value) * MM)
+
+
+def screw_thread(truth: Truth, value: float) -> None:
+    draw_screw(truth, 2, measure.thread_length(Measured(truth), 2) - value * MM)
+
+
+def screw_lean(truth: Truth, value: float) -> None:
+    """Leaning, and drawn out until the head's lower edge is where it was."""
+    draw_screw(truth, 2, dimensions()("screw.head_radius") * value * DEGREE)
+    carrier = truth.model.body("carrier2").id
+    mujoco.mju_mat2Quat(truth.model.body_quat[carrier], rotation_x(value * DEGREE).ravel())
+    mujoco.mj_forward(truth.model, truth.data)
+
+
+def pin_in_wall(truth: Truth, value: float) -> None:
+    """Drawn up out of the chamfer, and pushed into the side of the holder's bore."""
+    play = dimensions()("pin_holder.hole_radius") - dimensions()("pin.nose_radius")
+    put(truth, "pin0", translated(pose(np.eye(3), first(truth, "pin0")), (play + value * MM, 0.0, 0.001)))
+
+
+def under_the_hand(truth: Truth, value: float) -> None:
+    """A pin that stands in the air."""
+    tool = truth.data.site("stanford/tool").xpos
+    put(truth, "pin0", pose(np.eye(3), tool - [0.0, 0.0, 0.07]))
+    for _ in range(5):  # the fingers are beside the line on which it moves
+        shift(truth, ("pin0",), 0.0, 0.0, (judge(truth)["hand"].value - value) * MM)
 
 
 def clamp(truth: Truth, value: float) -> None:
@@ -211,22 +225,26 @@ SPOILT: Final = {
     "base_height": Spoiling(limit=0.5, by=base_height),
     "base_tilt": Spoiling(limit=0.3, by=base_tilt),
     "gasket_height": Spoiling(limit=0.3, by=partial(layer_height, part="gasket"), also=PRESSED_IN),
-    "gasket_tilt": Spoiling(limit=0.5, by=partial(layer_tilt, part="gasket"), also=PRESSED_IN),
-    "gasket_place": Spoiling(limit=0.75, by=partial(layer_place, part="gasket"), also=PRESSED),
+    "gasket_place": Spoiling(limit=0.949, by=partial(layer_place, part="gasket")),
     "top_height": Spoiling(limit=0.3, by=partial(layer_height, part="top"), also=PRESSED_IN | {"screws_depth"}),
-    "top_tilt": Spoiling(limit=0.5, by=partial(layer_tilt, part="top"), also=PRESSED_IN | {"screws_depth"}),
-    "top_place": Spoiling(limit=0.57, by=partial(layer_place, part="top"), also=PRESSED),
+    "top_place": Spoiling(limit=0.752, by=partial(layer_place, part="top")),
     "screws_depth": Spoiling(limit=0.2, by=screw_height, also=PRESSED),
+    "screws_thread": Spoiling(limit=6.35, by=screw_thread, also=PRESSED | {"screws_depth"}, sign=-1),
+    "screws_lean": Spoiling(limit=1.0, by=screw_lean),
     "screws_clamp": Spoiling(limit=40.0, by=clamp, sign=-1),
     "pins": Spoiling(limit=3.0, by=partial(over_its_place, part="pin0")),
-    "pins_tilt": Spoiling(limit=10.0, by=partial(leaning, part="pin0"), also=frozenset({"overlap"})),
+    "pins_tilt": Spoiling(limit=10.0, by=partial(leaning, part="pin0"), also=frozenset({"overlap_bores"})),
     "rack": Spoiling(limit=3.0, by=partial(over_its_place, part="driver")),
     "rack_tilt": Spoiling(limit=5.0, by=partial(leaning, part="driver"), also=frozenset({"overlap"})),
     "dispenser": Spoiling(limit=3.0, by=stray_screw, also=frozenset({"screws"})),
     "floor": Spoiling(limit=-5.0, by=beneath, also=frozenset({"pins"}), sign=-1),
-    "overlap": Spoiling(limit=0.15, by=lambda truth, value: base_height(truth, -value), also=PRESSED),
+    "hand": Spoiling(limit=25.0, by=under_the_hand, also=frozenset({"pins"}), sign=-1),
+    "overlap_bores": Spoiling(limit=0.03, by=pin_in_wall),
+    "overlap": Spoiling(limit=0.15, by=lambda truth, value: base_height(truth, -value)),
 }  # fmt: skip
-COUNTED: Final = {"screws": {"screw": None}, "screws_crossed": {"crossed": True}}
+COUNTED: Final = {
+    "screws": {"screw": None}, "screws_crossed": {"crossed": True}, "threads_scarred": {"scarred": True},
+}  # fmt: skip
 """Findings that are counts: how the first of six threads is made wrong."""
 
 
@@ -247,7 +265,7 @@ def test_a_finding_fails_just_over_its_limit_and_not_just_under_it(pump: Truth, 
 def test_one_wrong_screw_of_six_is_found(pump: Truth, name: str) -> None:
     findings = judge(thread(pump, **COUNTED[name]))
     assert name in wrong(findings)
-    assert findings[name].value == {"screws": 5, "screws_crossed": 1}[name]
+    assert findings[name].value == {"screws": 5, "screws_crossed": 1, "threads_scarred": 1}[name]
 
 
 @pytest.mark.parametrize(("friction", "right"), [(0.3, True), (0.36, False)])

@@ -4,9 +4,10 @@ import math
 from typing import Final
 
 import mujoco
+import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import yaw
+from handeye.pose import Array, yaw
 from handeye.resources import scenes
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.base import add_base
@@ -63,7 +64,7 @@ def _add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
     for number, (mass, friction) in enumerate(zip(world.arm.link_mass, world.arm.friction, strict=True), 1):
         link = arm.body(f"link{number}")
         link.mass *= mass
-        link.inertia *= mass
+        link.inertia = _possible(link.inertia * mass)
         arm.joint(f"j{number}").frictionloss = friction
     for pad in (arm.geom("pad_a"), arm.geom("pad_b")):
         pad.friction[0] *= world.friction["pad"]
@@ -72,3 +73,10 @@ def _add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
         pos=STANFORD.X_WB[:3, 3].tolist(), quat=[math.cos(turn / 2), 0.0, 0.0, math.sin(turn / 2)]
     )
     spec.attach(arm, frame=frame, prefix=ARM)
+
+
+def _possible(moments: Array) -> Array:
+    """Principal moments, the greatest no more than the others together, where rounding makes it so of a flat body."""
+    greatest = int(np.argmax(moments))
+    moments[greatest] = min(moments[greatest], np.delete(moments, greatest).sum())
+    return moments

@@ -47,7 +47,7 @@ def _add_plate(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions) -> None:
 
 
 def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequence[Point]) -> None:
-    """Walls of solid metal around the large holes; wedges with a tapped hole in them stop only the hand."""
+    """Walls of solid metal around the large holes; wedges with a tapped hole in them stop only hand and driver."""
     floor, top = d("base.plate.thickness"), base_top()
     bores = (
         ("wall_1", 0.0, d("base.large_hole_1.diameter"), d("base.casting.chamber_diameter")),
@@ -63,7 +63,7 @@ def _add_casting(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Seq
         wall = Bore(radius=inner / 2, outer=outer / 2, height=top - floor, sectors=_WEDGES)
 
         def style(angle: float, x: float = x) -> str:
-            return "wall" if any(_in_wedge(angle, hx - x, hy, reach) for hx, hy in holes) else "face"
+            return "pierced" if any(_in_wedge(angle, hx - x, hy, reach) for hx, hy in holes) else "face"
 
         shaper.ring(body, mesh, wall, (x, 0.0, floor), style)
     depth = top - d("base.large_hole_1.depth")

@@ -61,8 +61,8 @@ def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequ
         shaper.box(body, "seat", (x - 0.007, y - 0.007, 0.0), (x + 0.007, y + 0.007, flange))
         shaper.box(body, "top_land", (x - 0.008, y - 0.008, 0.0), (x + 0.008, y + 0.008, 0.006))
     x2 = d("base.large_hole_2.x")
-    shaper.cylinder(body, "wall", d("base.casting.chamber_diameter") / 2, (0, 0, 0), (0, 0, flange))
-    shaper.cylinder(body, "wall", d("base.casting.inlet_diameter") / 2, (x2, 0, 0), (x2, 0, flange))
+    shaper.cylinder(body, "pierced", d("base.casting.chamber_diameter") / 2, (0, 0, 0), (0, 0, flange))
+    shaper.cylinder(body, "pierced", d("base.casting.inlet_diameter") / 2, (x2, 0, 0), (x2, 0, flange))
 
 
 def _add_rotor(shaper: Shaper, top: mujoco.MjsBody, d: Dimensions) -> None:

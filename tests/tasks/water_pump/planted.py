@@ -1,0 +1,313 @@
+"""Pumps planted for the referee: wrong ones, each wrong in one way, and right ones as different as they may be.
+
+A finished pump is changed in the simulator's state; no run is needed.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import msgspec
+import mujoco
+import numpy as np
+from finished import put
+
+from handeye.arm.ik import solve
+from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.truth import Truth
+from handeye.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import screw_holes, standard
+from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.threads import ThreadsState, holes_of
+from handeye.units import DEGREE
+
+MM = 1e-3
+PUMP = ("base", "gasket", "top")
+Planting = Callable[[Truth], Truth]
+
+
+def lie(truth: Truth, body: str) -> Pose:
+    """`X_WP` of a part."""
+    found = truth.data.body(body)
+    return pose(found.xmat.reshape(3, 3).copy(), found.xpos.copy())
+
+
+def clearance(layer: str) -> float:
+    """Of a screw in its hole in a layer, m."""
+    return dimensions()(f"{layer}.screw_hole_radius") - dimensions()("screw.shank_radius")
+
+
+# -- one change a function: everything in m and rad ------------------------------------------------
+
+
+def shifted(*parts: str, by: tuple[float, float, float]) -> Planting:
+    def change(truth: Truth) -> Truth:
+        for part in parts:
+            put(truth, part, translated(lie(truth, part), by))
+        return truth
+
+    return change
+
+
+def turned(*parts: str, by: np.ndarray, lift: float = 0.0) -> Planting:
+    """Parts turned as one about the origin of the first."""
+
+    def change(truth: Truth) -> Truth:
+        about = pose(np.eye(3), lie(truth, parts[0])[:3, 3])
+        turn = translated(about, (0.0, 0.0, lift)) @ pose(by, (0.0, 0.0, 0.0)) @ inverse(about)
+        for part in parts:
+            put(truth, part, turn @ lie(truth, part))
+        return truth
+
+    return change
+
+
+def laid(layer: str, *, x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> Planting:
+    """A layer at its height on the base, off its nominal place."""
+
+    def change(truth: Truth) -> Truth:
+        X_WB = lie(truth, "base")
+        height = (inverse(X_WB) @ lie(truth, layer))[2, 3]
+        put(truth, layer, X_WB @ planar(x, y, height, turn))
+        return truth
+
+    return change
+
+
+def stood(part: str, X_WP: Pose) -> Planting:
+    def change(truth: Truth) -> Truth:
+        put(truth, part, X_WP)
+        return truth
+
+    return change
+
+
+def hole_off(layer: str, hole: int, way: float) -> Planting:
+    """One hole of a layer drilled aside, in a direction in which two wedges of the bore meet."""
+
+    def change(truth: Truth) -> Truth:
+        site = truth.model.site(f"{layer}_hole{hole}")
+        site.pos += [way * np.cos(np.pi / 12), way * np.sin(np.pi / 12), 0.0]
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def thread(hole: int, **changed: object) -> Planting:
+    def change(truth: Truth) -> Truth:
+        holes = list(holes_of(truth))
+        holes[hole] = msgspec.structs.replace(holes[hole], **changed)
+        return replace(truth, states={**truth.states, "threads": ThreadsState(holes=tuple(holes), driven=0)})
+
+    return change
+
+
+def drawn(hole: int, way: float) -> Planting:
+    """A screw turned out, its thread stiff so that it stays there."""
+
+    def change(truth: Truth) -> Truth:
+        model, data = truth.model, truth.data
+        slide, turn = (model.joint(f"thread_{kind}{hole}") for kind in ("slide", "turn"))
+        data.qpos[slide.qposadr[0]] += way
+        data.qpos[turn.qposadr[0]] += way * 2 * np.pi / dimensions()("screw.pitch")
+        model.dof_frictionloss[turn.dofadr[0]] = 5.0
+        mujoco.mj_forward(model, data)
+        return truth
+
+    return change
+
+
+def leant(hole: int, angle: float) -> Planting:
+    def change(truth: Truth) -> Truth:
+        body = truth.model.body(f"carrier{hole}").id
+        mujoco.mju_mat2Quat(truth.model.body_quat[body], rotation_x(angle).ravel())
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def rotor(**fields: object) -> Planting:
+    """Something about the rotor's joint: its friction (N m), range or place (rad)."""
+
+    def change(truth: Truth) -> Truth:
+        joint = truth.model.joint("rotor")
+        if "friction" in fields:
+            truth.model.dof_frictionloss[joint.dofadr[0]] = fields["friction"]
+        if "stops" in fields:
+            truth.model.jnt_limited[joint.id], truth.model.jnt_range[joint.id] = 1, fields["stops"]
+        if "at" in fields:
+            truth.data.qpos[joint.qposadr[0]] = fields["at"]
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def reaching(x: float, y: float, z: float) -> Planting:
+    """The hand at a place of the table frame."""
+
+    def change(truth: Truth) -> Truth:
+        q = solve(STANFORD, hand(x, y, z, np.pi / 2, np.pi / 2, 0.0), PARK).q
+        truth.data.qpos[:6] = q
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def both(*changes: Planting) -> Planting:
+    def change(truth: Truth) -> Truth:
+        for one in changes:
+            truth = one(truth)
+        return truth
+
+    return change
+
+
+def beside(part: str, other: str, way: tuple[float, float, float]) -> Planting:
+    """A part put where another is, and a way on."""
+
+    def change(truth: Truth) -> Truth:
+        put(truth, part, translated(lie(truth, other), way))
+        return truth
+
+    return change
+
+
+def held(truth: Truth) -> Truth:
+    """A pin between the fingers."""
+    tool = truth.data.site("stanford/tool").xpos
+    put(truth, "pin0", pose(np.eye(3), tool - [0.0, 0.0, 0.03]))
+    return truth
+
+
+# -- wrong pumps ------------------------------------------------------------------------------------
+
+
+def wrong() -> Iterator[tuple[str, str, Planting]]:
+    """What is wrong, a finding that must tell of it, and how it is planted."""
+    for layer in ("gasket", "top"):
+        for hole in range(6):
+            name = f"screw {hole + 1} cuts .05 mm into the {layer}"
+            yield name, f"{layer}_place", hole_off(layer, hole, clearance(layer) + 0.05 * MM)
+    yield from _layers()
+    yield from _bases()
+    yield from _screws()
+    yield from _rotors()
+    yield from _around()
+
+
+def _layers() -> Iterator[tuple[str, str, Planting]]:
+    cut = clearance("top") + 0.35 * MM
+    for name, direction in (("x", 0.0), ("y", 90.0), ("-x", 180.0), ("aslant", 225.0)):
+        x, y = cut * np.cos(direction * DEGREE), cut * np.sin(direction * DEGREE)
+        what = f"top {cut / MM:.2f} mm off along {name}, all shanks in metal"
+        yield what, "top_place", laid("top", x=float(x), y=float(y))
+    yield "top .05 mm into all shanks", "top_place", laid("top", y=clearance("top") + 0.05 * MM)
+    yield "top turned until four shanks cut", "top_place", laid("top", turn=1.2 * DEGREE)
+    yield "gasket 1.28 mm off", "gasket_place", laid("gasket", x=clearance("gasket") + 0.36 * MM)
+    yield "gasket turned", "gasket_place", laid("gasket", turn=1.5 * DEGREE)
+    yield "gasket on its stand", "gasket_place", stood("gasket", planar(0.4, 1.1, 0.0445, 0.0))
+    yield "top on its stand", "top_place", stood("top", planar(0.8, 1.1, 0.0445, 0.0))
+    thick = dimensions()("gasket.thickness")
+    raised = [drawn(hole, thick) for hole in range(6)]
+    yield "doubled gasket", "top_height", both(shifted("top", by=(0.0, 0.0, thick)), *raised)
+    raised = [drawn(hole, 0.5 * MM) for hole in range(6)]
+    yield "chip under the top", "top_height", both(shifted("top", by=(0.0, 0.0, 0.5 * MM)), *raised)
+    yield "top .5 mm into the gasket", "top_height", shifted("top", by=(0.0, 0.0, -0.5 * MM))
+    yield "top with one edge up", "top_height", turned("top", by=rotation_x(0.7 * DEGREE), lift=0.2 * MM)
+    yield (
+        "gasket bent up to an edge",
+        "gasket_height",
+        turned("gasket", by=rotation(np.array([0.0, 0.5 * DEGREE, 0.0]))),
+    )
+
+
+def _bases() -> Iterator[tuple[str, str, Planting]]:
+    yield "base 1.5 mm from the far block", "base_far", shifted(*PUMP, by=(0.0, -1.5 * MM, 0.0))
+    yield "base 1.5 mm from the left block", "base_left", shifted(*PUMP, by=(1.5 * MM, 0.0, 0.0))
+    yield "base .5 mm into a block", "overlap", shifted(*PUMP, by=(0.0, 0.6 * MM, 0.0))
+    yield "base in the air", "base_height", shifted(*PUMP, by=(0.0, 0.0, 1.0 * MM))
+    yield "base on an edge", "base_tilt", turned(*PUMP, by=rotation_x(0.4 * DEGREE), lift=0.4 * MM)
+    yield "base turned", "base_yaw", turned(*PUMP, by=planar(0, 0, 0, 1.2 * DEGREE)[:3, :3])
+    yield "base reversed", "base_yaw", turned(*PUMP, by=planar(0, 0, 0, np.pi)[:3, :3])
+
+
+def _screws() -> Iterator[tuple[str, str, Planting]]:
+    for hole in (0, 5):
+        yield f"screw {hole + 1} missing", "screws", thread(hole, screw=None)
+    yield "one screw counted twice", "screws", thread(0, screw=1)
+    for way in (0.35, 0.8, 3.0, -0.3):
+        yield f"screw {way} mm high", "screws_depth", drawn(2, way * MM)
+    yield "screw loose at its depth", "screws_clamp", drawn(3, 0.15 * MM)
+    yield "screw crossed and leaning", "screws_lean", both(thread(1, crossed=True), leant(1, 3.5 * DEGREE))
+    yield "screw leaning 1.2 degrees", "screws_lean", leant(4, 1.2 * DEGREE)
+    yield "screw crossed", "screws_crossed", thread(1, crossed=True)
+    yield "thread scarred", "threads_scarred", thread(1, scarred=True)
+    yield "screw short of its thread", "screws_thread", drawn(2, 1.0 * MM)
+
+
+def _rotors() -> Iterator[tuple[str, str, Planting]]:
+    yield "rotor jammed", "rotor", rotor(friction=5.0)
+    yield "rotor stiff", "rotor", rotor(friction=0.4)
+    yield "rotor that moves 6 degrees and jams", "rotor", rotor(stops=(-6 * DEGREE, 6 * DEGREE))
+    yield "rotor that jams after 50 degrees one way", "rotor", rotor(stops=(-50 * DEGREE, 180 * DEGREE))
+
+
+def _around() -> Iterator[tuple[str, str, Planting]]:
+    yield "both pins in one hole of the holder", "pins", beside("pin0", "pin1", (1.0 * MM, 0.0, 0.0))
+    yield "pin in the pump", "pins", beside("pin0", "carrier1", (0.0, 0.0, 0.03))
+    yield "pin on the table", "pins", stood("pin0", pose(rotation_x(np.pi / 2), (0.3, 0.3, 0.0037)))
+    yield "pin that leans", "pins_tilt", turned("pin1", by=rotation_x(12 * DEGREE))
+    yield (
+        "pin .05 mm in the side of its hole",
+        "overlap_bores",
+        shifted("pin0", by=(0.35 * MM, 0.0, 1.0 * MM)),
+    )
+    yield "driver beside its rack", "rack", shifted("driver", by=(0.1, 0.0, 0.0))
+    yield "driver on the floor", "floor", shifted("driver", by=(0.0, -1.0, -0.7))
+    yield "driver upside down", "rack_tilt", turned("driver", by=rotation_x(np.pi))
+    yield "driver in a guide of its rack", "overlap", shifted("driver", by=(0.8 * MM, 0.0, 0.0))
+    yield (
+        "screw on the table",
+        "dispenser",
+        both(thread(0, screw=None), stood("screw0", planar(0.3, 0.3, 0.03, 0))),
+    )
+    yield "hand holding a pin", "hand", held
+    x, y = standard()[:2, 3]
+    yield "hand on the pump", "hand", reaching(x, y, 0.09)
+
+
+# -- right pumps -----------------------------------------------------------------------------------
+
+
+def right() -> Iterator[tuple[str, int | None, Planting]]:
+    """What it is like, the world it stands in (none: one without errors), and how it is planted."""
+    for number, direction in enumerate(range(0, 360, 45)):
+        x, y = 0.9 * np.cos(direction * DEGREE), 0.9 * np.sin(direction * DEGREE)
+        top, other = clearance("top"), clearance("gasket") * (-1) ** number
+        yield (
+            f"layers at {direction} degrees as far off as screws let them", None,
+            both(laid("top", x=x * top, y=y * top), laid("gasket", x=x * other, y=y * other)),
+        )  # fmt: skip
+    farthest = max(float(np.hypot(*hole)) for hole in screw_holes())
+    for sign in (-1, 1):
+        turn = sign * 0.9 * clearance("top") / farthest
+        yield f"top turned as far as screws let it, {sign:+d}", None, laid("top", turn=turn)
+    for at in (60.0, -60.0, 200.0):
+        yield f"rotor at {at:.0f} degrees", None, rotor(at=at * DEGREE)
+    yield "rotor stiff, but not too stiff", None, rotor(friction=0.25)
+    yield "base off its blocks", None, shifted(*PUMP, by=(1.0 * MM, -1.0 * MM, 0.0))
+    yield "pins changed about", None, _pins_changed
+    yield "driver askew in its guides", None, turned("driver", by=planar(0, 0, 0, 1 * DEGREE)[:3, :3])
+    for seed in (910031, 910032, 910033):
+        yield f"as drawn, seed {seed}", seed, lambda truth: truth
+
+
+def _pins_changed(truth: Truth) -> Truth:
+    first, second = lie(truth, "pin0"), lie(truth, "pin1")
+    put(truth, "pin0", second)
+    put(truth, "pin1", first)
+    return truth
