@@ -302,6 +302,7 @@ def right() -> Iterator[tuple[str, int | None, Planting]]:
     yield "base off its blocks", None, shifted(*PUMP, by=(1.0 * MM, -1.0 * MM, 0.0))
     yield "pins changed about", None, _pins_changed
     yield "driver askew in its guides", None, turned("driver", by=planar(0, 0, 0, 1 * DEGREE)[:3, :3])
+    yield "driver at the end of its play", None, shifted("driver", by=(0.45 * MM, -0.45 * MM, 0.0))
     for seed in (910031, 910032, 910033):
         yield f"as drawn, seed {seed}", seed, lambda truth: truth
 

@@ -54,7 +54,9 @@ def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
     d = dimensions()
     (x, y), height = d.all("rack.place"), d("rack.height")
     for side in (-1, 1):
-        low, high = sorted((y + side * 0.0090, y + side * 0.0134))
+        low, high = sorted(
+            (y + side * 0.0102, y + side * 0.0134)
+        )  # the socket hangs between, 9.2 wide, with play
         shaper.box(
             fixture.body, "solid", (x - 0.02, low, 0.006), (x + 0.02, high, height), "enamel"
         ).group = 2
