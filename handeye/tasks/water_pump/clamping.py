@@ -6,23 +6,25 @@ sleep, which would keep the driver awake, and the base too, since the driver's m
 carriers in it. Here they may sleep: the motor turns a carrier only while the bit is on its head, and that
 contact wakes the base; a driver whose motor is switched on is woken by hand.
 
-*Clamping.* Two seated screws press gasket and top on the base with a friction that nothing in the cell can
-overcome. From then on welds hold them where they are, and the contacts between them, most of the cost of the
-stack, are left out. Fewer than two, and the contacts are back.
+*Clamping.* Two seated screws press gasket and top on the base, and friction holds them there. From then on welds do,
+and the contacts between them, most of the cost of the stack, are left out. Where a hand, a shank or anything else
+pushes on a layer by more than that friction, or pulls by more than the clamp, and with fewer than two screws, the
+contacts are back.
 """
 
 from typing import Final
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.cell.mechanism import Mechanism
-from handeye.pose import inverse, pose
+from handeye.pose import Array, inverse, pose
 from handeye.record import Record
 from handeye.tasks.water_pump.threads import Threads
 
 SCREWS: Final = 2
-CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways and no hand lifts them. Chosen.
+CLAMP: Final = 40.0  # N, each: with friction .2 the two hold 16 N sideways. Chosen.
 
 _MOTORED: Final = ("base", "driver")
 _LAYERS: Final = ("gasket", "top")
@@ -51,6 +53,12 @@ class Clamping(Mechanism[ClampingState]):
         self._layers = [model.body(name).id for name in _LAYERS]
         self._welds = [model.equality(f"merge_{name}").id for name in _LAYERS]
         self._lands = np.flatnonzero(np.isin(model.geom_contype, _LANDS))
+        self._friction = float(model.geom_friction[self._lands, 0].max())
+        root = model.body_rootid[model.geom_bodyid]
+        self._of_layer = [root == layer for layer in self._layers]
+        shanks = [model.geom(f"shank{k}").id for k in range(len(threads.holes))]
+        self._foreign = ~np.isin(root, [self._base, *self._layers])
+        self._foreign[shanks] = True
         self._bits = model.geom_contype[self._lands].copy(), model.geom_conaffinity[self._lands].copy()
         self._clamped = False
         if allowed:
@@ -61,7 +69,12 @@ class Clamping(Mechanism[ClampingState]):
 
     def before(self, seconds: float) -> None:
         """Join or part the layers as the screws press now."""
-        clamped = self._allowed and sum(hole.clamp > CLAMP for hole in self._threads.holes) >= SCREWS
+        clamps = [hole.clamp for hole in self._threads.holes]
+        clamped = (
+            self._allowed
+            and sum(clamp > CLAMP for clamp in clamps) >= SCREWS
+            and not self._slips(sum(clamps))
+        )
         if clamped and not self._clamped:
             self._join()
         elif self._clamped and not clamped:
@@ -73,6 +86,25 @@ class Clamping(Mechanism[ClampingState]):
 
     def restore(self, state: ClampingState) -> None:
         self._clamped = state.clamped
+
+    def _slips(self, clamp: float) -> bool:
+        """True if something pushes on a layer by more than friction holds under a clamp (N), or lifts it off."""
+        for layer in self._of_layer:
+            x, y, z = self._pushed(layer)
+            if np.hypot(x, y) > self._friction * clamp or z > clamp:
+                return True
+        return False
+
+    def _pushed(self, layer: NDArray[np.bool_]) -> Array:
+        """Force in W of all that touches a layer and is no part of the stack, N, shape (3,)."""
+        model, data, total, found = self._model, self._data, np.zeros(3), np.zeros(6)
+        first, second = data.contact.geom.T
+        for into, sign in ((second, 1.0), (first, -1.0)):  # a contact's force is that on its second geom
+            other = first if into is second else second
+            for contact in np.flatnonzero(layer[into] & self._foreign[other]):
+                mujoco.mj_contactForce(model, data, int(contact), found)
+                total += sign * found[:3] @ data.contact.frame[contact].reshape(3, 3)
+        return total
 
     def _join(self) -> None:
         model, data = self._model, self._data

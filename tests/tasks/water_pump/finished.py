@@ -52,6 +52,15 @@ def threads_of(cell: SimulatedCell) -> Threads:
     return threads
 
 
+def enter(cell: SimulatedCell, screw: int, hole: int, short: float, aside: float = 0.0) -> None:
+    """Let a screw take its thread upright, short of its seat and beside the axis by so much (m)."""
+    size, base = dimensions(), cell.truth.data.body("base")
+    depth = size("screw.length") - size("top.flange") - size("gasket.thickness") - short
+    X_WB, mouth = pose(base.xmat.reshape(3, 3), base.xpos), cell.truth.model.body(f"carrier{hole}").pos
+    X_BS = translated(pose(np.eye(3), mouth), (aside, 0.0, -depth))
+    threads_of(cell).take(screw, hole, X_WB @ X_BS)
+
+
 def tighten(cell: SimulatedCell, hole: int) -> None:
     """Let a screw take its thread just under its head's full depth, and turn it home with a wrench."""
     for _ in tightening(cell, hole):
@@ -60,11 +69,8 @@ def tighten(cell: SimulatedCell, hole: int) -> None:
 
 def tightening(cell: SimulatedCell, hole: int) -> Iterator[SimulatedCell]:
     """The same a servo period at a time: the cell at the end of each."""
-    size, threads, truth = dimensions(), threads_of(cell), cell.truth
-    seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
-    base, mouth = truth.data.body("base"), truth.model.body(f"carrier{hole}").pos
-    X_WB = pose(base.xmat.reshape(3, 3), base.xpos)
-    threads.take(hole, hole, X_WB @ pose(np.eye(3), mouth - [0.0, 0.0, seated - 1e-4]))
+    threads, truth = threads_of(cell), cell.truth
+    enter(cell, hole, hole, 1e-4)
     dof = truth.model.joint(f"thread_turn{hole}").dofadr[0]
     for period in range(30):
         truth.data.qfrc_applied[dof] = -TIGHTENING if period < 20 else 0.0

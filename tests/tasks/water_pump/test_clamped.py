@@ -5,9 +5,10 @@ from functools import cache
 import numpy as np
 import pytest
 from driving import tick
-from finished import stacked, tighten
+from finished import enter, stacked, tighten
 
 from handeye.cell.simulated import SimulatedCell
+from handeye.tasks.water_pump.dimensions import dimensions
 
 PARTS = ("base", "gasket", "top")
 
@@ -43,6 +44,22 @@ def test_an_unclamped_stack_is_not_bonded() -> None:
     cell = stacked()
     tighten(cell, 0)
     assert not bonded(cell)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("into", "held"), [(-0.05e-3, True), (0.15e-3, False)])
+def test_a_shank_that_presses_harder_than_friction_parts_the_bond(into: float, held: bool) -> None:
+    cell = stacked()
+    for hole in (0, 3):
+        tighten(cell, hole)
+    assert bonded(cell)
+    play = dimensions()("top.screw_hole_radius") - dimensions()("screw.shank_radius")
+    enter(cell, 4, 4, 0.002, aside=play + into)
+    still = []
+    for _ in range(3):
+        tick(cell.devices)
+        still.append(bonded(cell))
+    assert all(still) == held
 
 
 @pytest.mark.slow

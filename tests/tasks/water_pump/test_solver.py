@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 import pytest
 from driving import Drive, tick
-from finished import put, stacked, threads_of, tightening
+from finished import enter, put, stacked, tightening
 from pump_bench import stacked as pinned_stack
 from solver_paths import CG, Solved, solved
 
@@ -171,8 +171,7 @@ def _base_in_hand() -> Iterator[SimulatedCell]:
 def _screw() -> Iterator[SimulatedCell]:
     """The driver in the hand turns a screw home; then a wrench turns another."""
     cell, size = stacked(), dimensions()
-    seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
-    threads_of(cell)._take(0, HOLE, depth=seated - 0.0008)
+    enter(cell, 0, HOLE, 0.0008)
     head = cell.truth.data.geom(f"head{HOLE}").xpos
     high = size("screw.head_height") / 2 + size("driver.bit") + size("driver.height") / 2
     put(cell.truth, "driver", planar(*head[:2], head[2] + high, 0.0))
