@@ -77,7 +77,9 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         SAVE    E1
         OPEN    .5
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
-        OPEN    1
+        OPEN    .5
+        CENTER  .1
+        SAVE    Y1              ;where its hole is, across the line of centres
         OPEN    1
         MOVE    P2
         CENTER  .1
@@ -98,6 +100,9 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         SAVE    E2
         OPEN    .5
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
+        OPEN    .5
+        CENTER  .1
+        SAVE    X2              ;where its hole is, along the line of centres
         OPEN    1
 
         STAGE   "put on the gasket"
@@ -147,12 +152,22 @@ LT:     MOVE    TOPON
         MOVE    D
         CENTER  .5
         SAVE    DRV             ;where the driver really is across the fingers
+        OPEN    2
+        MOVE    DX
+        RESTORE DRV
+        CENTER  .5
+        SAVE    DRX             ;and the other way
+        OPEN    2
+        MOVE    D
+        RESTORE DRX
+        RESTORE DRV
         CLOSE   .9 1.1
         CHANGE  [0 0 1] 2
         LOAD    15
         SEARCH  .05
 M1:     MOVE    S1
-        RESTORE DRV LEVEL
+        RESTORE DRX
+        RESTORE DRV
         RESTORE DS LEVEL
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
@@ -160,12 +175,18 @@ M1:     MOVE    S1
         TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M1
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
         CHANGE  [0 0 1] 1.5
-        SEARCH  .07
+        SEARCH  .05
+        ASSIGN  N 4
 K1:     MOVE    H0
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         STOP    [0 0 -30]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K1
@@ -182,10 +203,19 @@ K1:     MOVE    H0
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
-        CHANGE  [0 0 1] 1
+        SKIPE   8
+        JUMP    N1
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SOJG    N K1            ;and once more
+        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+N1:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M2:     MOVE    S2
-        RESTORE DRV LEVEL
+        RESTORE DRX
+        RESTORE DRV
         RESTORE DS LEVEL
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
@@ -193,13 +223,19 @@ M2:     MOVE    S2
         TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M2
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
         CHANGE  [0 0 1] 1.5
-        SEARCH  .07
+        SEARCH  .05
+        ASSIGN  N 4
 K2:     MOVE    H2
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K2
@@ -216,11 +252,21 @@ K2:     MOVE    H2
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
-        CHANGE  [0 0 1] 1
+        SKIPE   8
+        JUMP    N2
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SOJG    N K2            ;and once more
+        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+N2:     CHANGE  [0 0 1] 1
         SEARCH  .07
 D1:     MOVE    DUP
+        RESTORE DRX
         RESTORE DRV
-        STOP    [0 0 -20]
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the guides guide it
         CHANGE  [0 0 -1] .8     ;into the rack until it stands
         TRAVEL  .4 .65          ;on the guides it would stand higher
         SKIPN   8
@@ -238,7 +284,8 @@ D1:     MOVE    DUP
         SEARCH  .05
 R1:     MOVE    P1UP
         RESTORE C1 LEVEL
-        STOP    [0 0 -20]
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the hole guide the pin
         CHANGE  [0 0 -1] 1.2
         TRAVEL  .7 1.1          ;home, or on top of the holder?
         SKIPN   8
@@ -252,7 +299,8 @@ R1:     MOVE    P1UP
         SEARCH  .05
 R2:     MOVE    P2UP
         RESTORE C2 LEVEL
-        STOP    [0 0 -20]
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the hole guide the pin
         CHANGE  [0 0 -1] 1.2
         TRAVEL  .7 1.1          ;home, or on top of the holder?
         SKIPN   8
@@ -264,12 +312,22 @@ R2:     MOVE    P2UP
         MOVE    D
         CENTER  .5
         SAVE    DRV             ;where the driver really is across the fingers
+        OPEN    2
+        MOVE    DX
+        RESTORE DRV
+        CENTER  .5
+        SAVE    DRX             ;and the other way
+        OPEN    2
+        MOVE    D
+        RESTORE DRX
+        RESTORE DRV
         CLOSE   .9 1.1
         CHANGE  [0 0 1] 2
         LOAD    15
         SEARCH  .05
 M3:     MOVE    S3
-        RESTORE DRV LEVEL
+        RESTORE DRX
+        RESTORE DRV
         RESTORE DS LEVEL
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
@@ -277,13 +335,19 @@ M3:     MOVE    S3
         TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M3
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
         CHANGE  [0 0 1] 1.5
-        SEARCH  .07
+        SEARCH  .05
+        ASSIGN  N 4
 K3:     MOVE    H5
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K3
@@ -300,10 +364,19 @@ K3:     MOVE    H5
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
-        CHANGE  [0 0 1] 1
+        SKIPE   8
+        JUMP    N3
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SOJG    N K3            ;and once more
+        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+N3:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M4:     MOVE    S4
-        RESTORE DRV LEVEL
+        RESTORE DRX
+        RESTORE DRV
         RESTORE DS LEVEL
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
@@ -311,13 +384,19 @@ M4:     MOVE    S4
         TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M4
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
         CHANGE  [0 0 1] 1.5
-        SEARCH  .07
+        SEARCH  .05
+        ASSIGN  N 4
 K4:     MOVE    H1
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K4
@@ -334,10 +413,19 @@ K4:     MOVE    H1
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
-        CHANGE  [0 0 1] 1
+        SKIPE   8
+        JUMP    N4
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SOJG    N K4            ;and once more
+        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+N4:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M5:     MOVE    S5
-        RESTORE DRV LEVEL
+        RESTORE DRX
+        RESTORE DRV
         RESTORE DS LEVEL
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
@@ -345,13 +433,19 @@ M5:     MOVE    S5
         TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M5
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
         CHANGE  [0 0 1] 1.5
-        SEARCH  .07
+        SEARCH  .05
+        ASSIGN  N 4
 K5:     MOVE    H4
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K5
@@ -368,10 +462,19 @@ K5:     MOVE    H4
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
-        CHANGE  [0 0 1] 1
+        SKIPE   8
+        JUMP    N5
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SOJG    N K5            ;and once more
+        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+N5:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M6:     MOVE    S6
-        RESTORE DRV LEVEL
+        RESTORE DRX
+        RESTORE DRV
         RESTORE DS LEVEL
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
@@ -379,13 +482,19 @@ M6:     MOVE    S6
         TRAVEL  .22 .35         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M6
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
         CHANGE  [0 0 1] 1.5
-        SEARCH  .07
+        SEARCH  .05
+        ASSIGN  N 4
 K6:     MOVE    H3
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
+        FREE    [1 1 0]
         CHANGE  [0 0 -1] .45
         SKIPE   23              ;no resistance: the tip is in the hole
         AOJ     K6
@@ -402,11 +511,21 @@ K6:     MOVE    H3
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
         TOOL    0
         TRAVEL  .15 .35         ;a crossed thread stops high
-        CHANGE  [0 0 1] 1
+        SKIPE   8
+        JUMP    N6
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SOJG    N K6            ;and once more
+        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+N6:     CHANGE  [0 0 1] 1
         SEARCH  .07
 D2:     MOVE    DUP
+        RESTORE DRX
         RESTORE DRV
-        STOP    [0 0 -20]
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the guides guide it
         CHANGE  [0 0 -1] .8     ;into the rack until it stands
         TRAVEL  .4 .65          ;on the guides it would stand higher
         SKIPN   8
@@ -418,7 +537,8 @@ D2:     MOVE    DUP
         STAGE   "turn the rotor"
         OPEN    .9
         MOVE    CRANK
-        RESTORE E1 LEVEL
+        RESTORE Y1
+        RESTORE X2
         CENTER  .3
         OPEN    .44             ;an open fork: it pushes and does not pinch
         STOP    40

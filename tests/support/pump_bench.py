@@ -92,8 +92,8 @@ def world_of(seed: int | None) -> PumpWorld:
     return PumpWorld.nominal() if seed is None else PumpWorld.sample(seed)
 
 
-SEATED: Final = 1.7309
-"""Height (in) of a seated pin's shoulder over the underside of the base: in the chamfer of its hole."""
+SEATED: Final = 1.75
+"""Height (in) of a seated pin's shoulder over the underside of the base: on the mouth of its hole."""
 
 
 @dataclass(slots=True, kw_only=True)

@@ -88,4 +88,4 @@ def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position)
 
 
 def test_worlds_below_the_later_make_have_six_screws() -> None:
-    assert [len(PumpWorld.sample(seed).holes) for seed in (0, SEVENTH - 1, SEVENTH)] == [6, 6, 7]
+    assert [PumpWorld.sample(seed).screws for seed in (0, SEVENTH - 1, SEVENTH)] == [6, 6, 7]
