@@ -10,7 +10,9 @@ from finished import finished, put
 
 from handeye.cell.truth import Truth
 from handeye.judge.finding import all_right
+from handeye.judge.measured import Measured
 from handeye.pose import planar, pose, rotation_x, translated
+from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.referee import judge
 from handeye.tasks.water_pump.threads import Thread, ThreadsState, holes_of
@@ -104,6 +106,14 @@ def test_a_base_two_millimetres_off_its_blocks_is_found() -> None:
     for part in ("base", "gasket", "top"):
         put(truth, part, translated(X(truth, part), (0.002, -0.002, 0.0)))
     assert wrong(truth) == {"base_far", "base_left"}
+
+
+def test_what_hangs_in_the_air_is_found_though_it_falls_home() -> None:
+    truth = finished()
+    for part in ("base", "gasket", "top"):
+        put(truth, part, translated(X(truth, part), (0.0, 0.0, 0.001)))
+    assert "base_height" in wrong(truth)
+    assert abs(Measured(truth, limits.SETTLE).pose("base")[2, 3]) < 1e-3 * limits.BASE_HEIGHT
 
 
 def test_a_gasket_left_on_its_stand_is_found() -> None:
