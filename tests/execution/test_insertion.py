@@ -193,8 +193,8 @@ def test_row_22_one_hole_found_helps_to_find_the_next(off: tuple[float, float]) 
 
 
 def test_a_search_that_finds_no_hole_ends_with_the_operator() -> None:
-    """The hole is half an inch away, beyond the spiral's reach."""
-    run = hole_off(0.0, 0.5)
+    """The hole is half an inch away along the casting, beyond the spiral's reach."""
+    run = hole_off(0.35, 0.35)
     run.go(lambda: run.tries > 2)
     assert run.run.state.search is not None
     run.run.state.search.limit = 5  # the rest of the 49 places would be no different
