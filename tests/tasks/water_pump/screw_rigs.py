@@ -6,7 +6,7 @@ from math import hypot, pi
 
 import numpy as np
 from driving import tick
-from finished import stacked, threads_of
+from finished import enter, stacked, threads_of
 from static_rigs import Force
 
 from handeye.tasks.water_pump.dimensions import dimensions
@@ -18,15 +18,14 @@ PERIODS, HELD, MEAN = 60, 20, 10
 
 def clamp(torque: float, hole: int) -> float:
     """Force (N) of the head of a screw that was turned by a slowly rising torque (N m)."""
-    size, cell = dimensions(), stacked()
+    cell = stacked()
     threads, truth = threads_of(cell), cell.truth
-    seated = size("screw.length") - size("top.flange") - size("gasket.thickness")
-    threads._take(hole, hole, depth=seated)
+    enter(cell, hole, hole, short=0.0)
     dof = truth.model.joint(f"thread_turn{hole}").dofadr[0]
     forces = []
     for period in range(PERIODS + HELD):
         truth.data.qfrc_applied[dof] = -torque * min(1.0, (period + 1) / PERIODS)
-        threads._rub(hole)
+        threads.rub(hole)
         tick(cell.devices)
         forces.append(threads.head_force(hole))
     return float(np.mean(forces[-MEAN:]))
