@@ -235,10 +235,16 @@ class ServoLoop:
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
 
         def feel(after: Sensed) -> None:
-            felt = felt_wrench(here.M, here.bias, here.J, tau, before.qd, after.qd, self.period)
+            there = self._given_way(here, q, (before.q + after.q) / 2)
+            felt = felt_wrench(there.M, there.bias, there.J, tau, before.qd, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
         yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
+
+    def _given_way(self, here: Dynamics, q: Array, q_is: Array) -> Dynamics:
+        """Dynamics at a set-point `q` with gravity and Jacobian of where the arm is: under a force it gives way."""
+        is_so, set_so = gravity(self.arm, np.stack((q_is, q)))
+        return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=jacobian(self.arm, q_is))
 
     def _wait(
         self,

@@ -89,6 +89,10 @@ def test_the_hand_feels_what_it_presses_with(seed: int | None) -> None:
     assert [force for force in felt(seed) if misfelt(force) > stated[force.unit]] == []
 
 
+def test_without_errors_of_the_arm_the_hand_feels_to_half_a_percent() -> None:
+    assert [force for force in felt(None) if misfelt(force) > (0.005 - CLOSE) * force.reckoned] == []
+
+
 def test_the_page_is_what_the_rigs_show() -> None:
     there = (DOCS / "figures.md").read_text(encoding="utf-8")
     made = maker().tables(weights(), screws(), felt(None), felt(maker().SEED))
