@@ -17,7 +17,7 @@ place = "        TRANS   S7 [6 43.8 6.37 90 90 0]\n"
 # The text of the sixth screw once more, with other names, before the screwdriver goes back into its rack.
 sixth = re.search(r"        SEARCH  \.05\nM6:.*?(?=        SEARCH  \.07\nD2:)", script, re.DOTALL)
 seventh = sixth[0]
-for old, new in {"M6": "M7", "K6": "K7", "S6": "S7", "H3": "H6"}.items():
+for old, new in {"M6": "M7", "K6": "K7", "N6": "N7", "S6": "S7", "H3": "H6"}.items():
     seventh = re.sub(rf"\b{old}\b", new, seventh)
 text = place + script[: sixth.end()] + seventh + script[sixth.end() :]
 
