@@ -67,9 +67,9 @@ GROUPS: Final = {
         "Moment": "trace.replay.Moment",
     },
     "Tasks": {
-        "handeye.Task": "tasks.task.Task",
-        "handeye.tasks.task": "tasks:task",
-        "handeye.tasks.register": "tasks:register",
+        "handeye.Task": "tasks.interface.Task",
+        "handeye.tasks.task": "tasks.task",
+        "handeye.tasks.register": "tasks.register",
     },
     "Errors": {
         "handeye.HandeyeError": "errors.HandeyeError",
@@ -77,8 +77,7 @@ GROUPS: Final = {
         "handeye.ScriptError": "door.diagnostic.ScriptError",
     },
 }
-"""Names by what they are for, and where each is defined; those without `handeye.` are records that others hold. A
-colon: in the folder's own file, where a module bears the same name."""
+"""Names by what they are for, and where each is defined; those without `handeye.` are records that others hold."""
 
 
 def reference() -> str:
@@ -121,22 +120,9 @@ HIDDEN: Final = {"attend", "reach", "of"}
 """Methods for handeye's own use."""
 
 
-def found(place: str) -> griffe.Object:
-    """What is defined in a place of the package."""
-    folder, colon, name = place.partition(":")
-    if not colon:
-        return PACKAGE[place]
-    file = ROOT / "handeye" / folder / "__init__.py"
-    module = griffe.visit(
-        f"handeye.{folder}", filepath=file, code=file.read_text(encoding="utf-8"), docstring_parser="google",
-        docstring_options=OPTIONS,
-    )  # fmt: skip
-    return module.members[name]
-
-
 def described(name: str, place: str) -> Iterator[str]:
     """The section of a name."""
-    named = found(place)
+    named = PACKAGE[place]
     yield from (f"### {name}", "")
     if named.is_function:
         yield from (*signature(name, named), *told(named))

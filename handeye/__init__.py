@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from handeye.errors import HandeyeError, InvalidInput
     from handeye.judge.finding import Finding, at_least, at_most
     from handeye.report.result import Result
-    from handeye.tasks.task import Task
+    from handeye.tasks.interface import Task
     from handeye.trace.trace import Trace
 
     __version__: str
@@ -64,7 +64,7 @@ _HOMES = {
     "Run": "handeye.door.run",
     "ScriptError": "handeye.door.diagnostic",
     "State": "handeye.door.state",
-    "Task": "handeye.tasks.task",
+    "Task": "handeye.tasks.interface",
     "Trace": "handeye.trace.trace",
     "World": "handeye.door.worlds",
     "assemble": "handeye.door.begin",

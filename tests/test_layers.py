@@ -121,7 +121,7 @@ def called(module: str) -> set[str]:
         ("if TYPE_CHECKING:\n    from handeye.cell.arm import SimulatedArm", "cell.arm"),
         ("try:\n    import handeye.judge.measured as m\nexcept ImportError:\n    pass", "judge.measured"),
         ("from handeye import cell", "cell.__init__"),
-        ("from handeye.tasks import task", "tasks.task"),
+        ("from handeye.tasks import interface", "tasks.interface"),
         ("from handeye.tasks import register", "tasks.__init__"),
         ("from ..cell import arm", "cell.arm"),
         ("from .. import judge", "judge.__init__"),
@@ -175,9 +175,7 @@ def test_planner_and_executor_know_no_language(module: str) -> None:
     assert {o for o in own(module) if o.split(".")[0] == "al"} == set()
 
 
-@pytest.mark.parametrize(
-    "module", [m for m in MODULES if m.split(".")[0] not in {"cell", "judge", "tasks", "door"}]
-)
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"cell", "judge", "tasks"}])
 def test_only_the_cell_and_the_referee_know_mujoco(module: str) -> None:
     assert "mujoco" not in outside(module)
 
@@ -203,7 +201,7 @@ def test_the_referee_speaks_only_to_reports() -> None:
     assert {
         m
         for m in listeners
-        if m.split(".")[0] not in {"judge", "tasks", "report", "trials", "cli", "door", "__init__"}
+        if m.split(".")[0] not in {"judge", "tasks", "report", "trials", "cli", "__init__"}
     } == set()
 
 
@@ -223,7 +221,7 @@ def test_the_cell_knows_nothing_of_seeing_but_how_a_camera_is_built(module: str)
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] != "tasks"])
 def test_nobody_knows_a_task_but_by_its_name(module: str) -> None:
-    assert {o for o in own(module) if o.split(".")[0] == "tasks"} <= {"tasks.__init__", "tasks.task"}
+    assert {o for o in own(module) if o.split(".")[0] == "tasks"} <= {"tasks.__init__", "tasks.interface"}
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"arm", "tasks"}])

@@ -4,6 +4,7 @@ import os
 from collections.abc import Iterable
 from operator import index
 from pathlib import Path
+from typing import SupportsIndex
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
@@ -57,10 +58,7 @@ def given_count(given: object, what: str) -> int:
     Raises:
         InvalidInput: it is none.
     """
-    try:
-        count = 0 if isinstance(given, bool) else index(given)  # type: ignore[arg-type]
-    except TypeError:
-        count = 0
+    count = index(given) if isinstance(given, SupportsIndex) and not isinstance(given, bool) else 0
     if count < 1:
         raise InvalidInput(f"{what} are a whole number from 1 up, not {given!r}")
     return count

@@ -1,43 +1,23 @@
 """Replaceable parts as people give them: checked, and wrapped so that what they give back is checked as well."""
 
 from collections.abc import Callable, Mapping
-from copy import copy
 from functools import cache
-from typing import Any, Final, Protocol, TypeVar
+from typing import Any, Final, TypeVar
 
-import mujoco
 import numpy as np
-from numpy.typing import ArrayLike
 
-from handeye.cell.rendering import RendererMaker, SceneRenderer
-from handeye.cell.vidicon import Luminance
+from handeye.cell.rendering import RendererMaker
+from handeye.cell.replaced_camera import CameraMaker, ReplacedCamera
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
-from handeye.judge.finding import Finding, Findings
-from handeye.ports.camera import COLUMNS, ROWS, Renderer
-from handeye.report.judging import Limits, Referee, checked_limits
+from handeye.report.judging import Limits, Referee, checked_findings, checked_limits
 from handeye.runs.parts import Parts, name_of
 from handeye.touch.spiral import SearchPattern
-from handeye.vision.camera_model import View
 
-_SHOWN: Final = 60
-"""Characters of what is no picture: it may be long."""
 CAMERAS: Final = ("auto", "gl", "ray")
 
 
-class PictureMaker(Protocol):
-    """Works out how much light falls on the target of the television camera."""
-
-    def render(self, data: mujoco.MjData, view: View, /) -> ArrayLike:
-        """Light on the target, shape (256, 333), 1 for a white surface in full light.
-
-        Args:
-            data: the scene as it is, a copy.
-            view: the camera: lens, and where it stands and looks.
-        """
-
-
-Camera = str | Callable[[mujoco.MjModel], PictureMaker]
+Camera = str | CameraMaker
 """`auto`, `gl` (OpenGL), `ray` (ray casting), or what makes a maker of pictures for a scene: a class will do."""
 
 Code = TypeVar("Code", bound=Callable[..., Any])
@@ -81,7 +61,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
             f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"
         )
     name = name_of(given)
-    return _named(lambda truth: _checked_findings(name, given(truth)), given)
+    return _named(lambda truth: checked_findings(name, given(truth)), given)
 
 
 def _checked_search(search: SearchPattern) -> SearchPattern:
@@ -112,51 +92,11 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
     return x, y
 
 
-def _checked_camera(camera: Callable[[mujoco.MjModel], PictureMaker]) -> RendererMaker:
+def _checked_camera(camera: CameraMaker) -> RendererMaker:
     if not callable(camera):
         raise InvalidInput(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
-    return _named(lambda model: _Replaced(camera, model), camera)
-
-
-def _checked_findings(name: str, findings: object) -> Findings:
-    if not isinstance(findings, Mapping) or not all(
-        isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
-    ):
-        raise InvalidInput(f"the referee `{name}` must give findings by their names, not {findings!r}")
-    return findings
-
-
-class _Replaced(SceneRenderer):
-    """A maker of pictures that somebody brought; it sees copies, so that nothing it does changes the run."""
-
-    def __init__(self, camera: Callable[[mujoco.MjModel], PictureMaker], model: mujoco.MjModel) -> None:
-        self.identity = Renderer(method="replaced", platform=name_of(camera))
-        self._scene = copy(model)
-        self._maker = camera(self._scene)
-        if not callable(getattr(self._maker, "render", None)):
-            raise InvalidInput(
-                f"the camera `{self.identity.platform}` must give an object that has `render`, not {self._maker!r}"
-            )
-        self._model, self._data = model, mujoco.MjData(self._scene)
-
-    def render(self, data: mujoco.MjData, view: View) -> Luminance:
-        mujoco.mj_copyData(self._data, self._model, data)
-        given = self._maker.render(self._data, view)
-        try:
-            light = np.asarray(given, dtype=np.float32)
-        except (TypeError, ValueError):
-            raise self._no_picture(repr(given)) from None
-        if light.shape != (ROWS, COLUMNS):
-            raise self._no_picture(f"of shape {light.shape}")
-        if not np.isfinite(light).all():
-            raise self._no_picture("with some that are not finite")
-        return light
-
-    def _no_picture(self, what: str) -> InvalidInput:
-        name = self.identity.platform
-        return InvalidInput(
-            f"the camera `{name}` must give a picture of {ROWS} by {COLUMNS} finite numbers, not {what[:_SHOWN]}"
-        )
+    name = name_of(camera)
+    return _named(lambda model: ReplacedCamera(name, camera, model), camera)
 
 
 def _named(wrapped: Code, code: Any) -> Code:

@@ -6,7 +6,7 @@ from math import isfinite
 from handeye.cell.truth import Truth
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
-from handeye.judge.finding import Findings
+from handeye.judge.finding import Finding, Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 
@@ -22,6 +22,19 @@ def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Fi
         return {}
     truth = runner.cell.truth
     return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
+
+
+def checked_findings(referee: str, findings: object) -> Findings:
+    """Findings that a referee of somebody's own gave; the referee is told by its name.
+
+    Raises:
+        InvalidInput: they are none.
+    """
+    if not isinstance(findings, Mapping) or not all(
+        isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
+    ):
+        raise InvalidInput(f"the referee `{referee}` must give findings by their names, not {findings!r}")
+    return findings
 
 
 def checked_limits(limits: Limits) -> dict[str, float]:

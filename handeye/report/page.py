@@ -10,7 +10,7 @@ from rich.text import Text
 from handeye.diagnostics import visible
 from handeye.report.result import Result, Timing
 from handeye.tasks import known
-from handeye.tasks.task import Period, Words
+from handeye.tasks.interface import Period, Words
 
 _NEUTRAL = Words(done="The referee found everything right.", product="the work")
 """Of a task that only the program knew that began the run."""

@@ -22,7 +22,7 @@ from handeye.runs.setup import Setup, plan_of
 from handeye.runs.system import Settable, Surroundings, System, SystemKind
 from handeye.system_state import SystemState
 from handeye.tasks import task
-from handeye.tasks.task import Eye
+from handeye.tasks.interface import Eye
 from handeye.touch.spiral import spiral
 from handeye.units import DEGREE, INCH
 from handeye.versions import versions

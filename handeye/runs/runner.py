@@ -33,7 +33,7 @@ from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
 from handeye.runs.system import StepFacts, Surroundings, System
 from handeye.runs.systems import kind_of, listing_of
 from handeye.tasks import task
-from handeye.tasks.task import Task
+from handeye.tasks.interface import Task
 
 RECENT: Final = 400
 """Steps whose states are kept in memory; of older ones those at the beginning of stages."""

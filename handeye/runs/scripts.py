@@ -13,7 +13,7 @@ from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.source import Source, read_source
 from handeye.tasks import task
-from handeye.tasks.task import Task
+from handeye.tasks.interface import Task
 
 if TYPE_CHECKING:
     from handeye.planning.scripts import PlannedScript

@@ -8,7 +8,7 @@ import numpy as np
 from handeye.arm import robots
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
-from handeye.tasks.task import Task
+from handeye.tasks.interface import Task
 
 DEFAULT: Final = "water_pump"
 """The task that is meant where none is named."""

@@ -24,7 +24,7 @@ from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.source import Source
 from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
-from handeye.tasks.task import Task
+from handeye.tasks.interface import Task
 from handeye.teaching.functions import TYPED, planned
 from handeye.variation import WorldSpec
 

@@ -6,7 +6,7 @@ import pytest
 
 from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
 from handeye.tasks import task
-from handeye.tasks.task import Eye
+from handeye.tasks.interface import Eye
 from handeye.variation import WorldSpec
 
 OUT_OF_REACH = (9.0, 9.0, 9.0)

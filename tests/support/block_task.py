@@ -25,7 +25,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.source import Source, read_source
-from handeye.tasks.task import Task, Words
+from handeye.tasks.interface import Task, Words
 from handeye.units import INCH, OUNCE_FORCE
 from handeye.variation import Overrides, Quantity, Variation, World, WorldSpec
 

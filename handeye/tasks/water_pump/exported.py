@@ -14,7 +14,7 @@ from handeye.cell.keyframe import add_keyframe, body_pose
 from handeye.cell.truth import Truth
 from handeye.pose import Pose, inverse
 from handeye.resources import scenes
-from handeye.tasks.task import ExportedScene
+from handeye.tasks.interface import ExportedScene
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import specification

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from handeye.arm.robots.stanford import STANFORD
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture
-from handeye.tasks.task import Count, ExportedScene, Eye, Period, Task, Words
+from handeye.tasks.interface import Count, ExportedScene, Eye, Period, Task, Words
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld

@@ -13,7 +13,7 @@ from handeye.ports.camera import CLOSE_UP, LENSES, WIDE, Picture, TvCamera
 from handeye.pose import Array, planar, translated, yaw
 from handeye.program.cause_text import cause_sentence
 from handeye.program.program import Hole, Part
-from handeye.tasks.task import Count
+from handeye.tasks.interface import Count
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.eye import DRAWING

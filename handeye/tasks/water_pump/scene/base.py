@@ -83,7 +83,7 @@ def _add_looks(shaper: Shaper, body: mujoco.MjsBody, screws: int) -> None:
         solids.casting(screws), partial(_colour, screw_holes(screws))
     ).items():
         shaper.look(body, f"casting_{colour}", colour, surface)
-    shaper.look(body, "base_plate", "plate", solids.surface(solids.plate()))
+    shaper.look(body, "base_plate", "plate", solids.plate())
     d = dimensions()  # the floor of the through hole is as oily as its wall
     x, radius, floor = (
         d("base.large_hole_2.x"),

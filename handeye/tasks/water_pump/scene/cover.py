@@ -29,7 +29,7 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     half = d("gasket.web") / 2
     low, high = (web_centre() - half, -0.011, 0.0), (web_centre() + half, 0.011, thick)
     shaper.box(body, "wall", low, high, name="gasket_web")
-    shaper.look(body, "gasket", "gasket", solids.surface(solids.gasket(world.screws)))
+    shaper.look(body, "gasket", "gasket", solids.gasket(world.screws))
 
 
 def add_top(shaper: Shaper, world: PumpWorld) -> None:
@@ -44,7 +44,7 @@ def add_top(shaper: Shaper, world: PumpWorld) -> None:
     hub, across, height = d("top.hub_length") / 2, d("top.hub_flats") / 2, d("top.hub_height")
     shaper.box(body, "hub", (-hub, -across, flange), (hub, across, flange + height), name="hub")
     block = solids.extruded(solids.rectangle(-hub, -across, hub, across, 0.002), flange, flange + height)
-    shaper.look(body, "flange", "top", solids.surface(solids.flange(world.screws)))
+    shaper.look(body, "flange", "top", solids.flange(world.screws))
     shaper.look(body, "hub", "top", solids.surface(block))
     _add_rotor(shaper, body, d)
 

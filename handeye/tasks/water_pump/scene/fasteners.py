@@ -33,7 +33,7 @@ def add_pins(shaper: Shaper, world: PumpWorld) -> None:
     low, high = (x0 - 0.02, y0 - 0.02), (x1 + 0.02, y1 + 0.02)
     shaper.box(fixture.body, "solid", (*low, 0.0), (*high, height - hole.height - 0.0005))
     block = solids.drilled((*low, *high), height, places, radius, hole.height, chamfer)
-    shaper.look(fixture.body, "pin_holder", "enamel", solids.surface(block))
+    shaper.look(fixture.body, "pin_holder", "enamel", block)
 
 
 def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
@@ -66,7 +66,7 @@ def add_screws(shaper: Shaper, world: PumpWorld) -> None:
         _add_screw(shaper, fixture.stand(shaper, f"screw{number}", px, py, height - length), number)
     shaper.box(fixture.body, "solid", (*low, 0.0), (*high, height - length - 0.002))
     block = solids.drilled((*low, *high), height, places, hole.radius, 0.02, hole.above)
-    shaper.look(fixture.body, "screw_dispenser", "enamel", solids.surface(block))
+    shaper.look(fixture.body, "screw_dispenser", "enamel", block)
 
 
 def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
@@ -93,7 +93,7 @@ def _screw_surfaces() -> dict[str, solids.Surface]:
         slot = (abs(middles[:, 1]) < 0.00071) & (abs(middles[:, 2] - top + 0.0006) < 0.00061)
         return np.where(slot, "slot", "screw")
 
-    return solids.painted(_screw(), colour)
+    return solids.painted(solids.surface(_screw()), colour)
 
 
 def _screw() -> Manifold:

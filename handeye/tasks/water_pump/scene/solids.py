@@ -1,7 +1,7 @@
 """Exact solids of the pump's parts, for looks and for clearances: manifold3d, from the dimensions.
 
-A solid is a value. It is carved when its surface is first asked for, which takes longer than compiling the whole
-scene: what has no figure of its own in a world is kept for the next one.
+A solid is a value. Carving one takes longer than compiling the whole scene: the surface of what has no figure of its
+own in a world is kept for the next one.
 """
 
 import math
@@ -67,8 +67,8 @@ def outline() -> CrossSection:
 
 
 @cache
-def casting(screws: int) -> Manifold:
-    """The base's casting, over its plate, with so many screw holes."""
+def casting(screws: int) -> Surface:
+    """Surface of the base's casting, over its plate, with so many screw holes."""
     d = dimensions()
     top, floor = base_top(), d("base.plate.thickness")
     solid = extruded(outline().offset(-0.0012), floor, top) + extruded(outline(), floor, top - 0.0016)
@@ -79,21 +79,21 @@ def casting(screws: int) -> Manifold:
     tap = bore(radius, top - d("base.screw_holes.depth"), top, above=chamfer)
     for x, y in screw_holes(screws):
         solid -= tap.translate((x, y, 0.0))
-    return solid
+    return surface(solid)
 
 
 @cache
-def plate() -> Manifold:
-    """The base's plate."""
+def plate() -> Surface:
+    """Surface of the base's plate."""
     d = dimensions()
     x, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
     box = rectangle(x - length / 2, -width / 2, x + length / 2, width / 2, 0.004)
-    return extruded(box, 0.0, d("base.plate.thickness"))
+    return surface(extruded(box, 0.0, d("base.plate.thickness")))
 
 
 @cache
-def gasket(screws: int) -> Manifold:
-    """The gasket: large holes a little wider than the base's, with flats for the fingers that carry it."""
+def gasket(screws: int) -> Surface:
+    """Surface of the gasket: large holes a little wider than the base's, with flats for the fingers that carry it."""
     d = dimensions()
     over, half = d("gasket.hole_oversize") / 2, d("gasket.web") / 2
     first = disc(d("base.large_hole_1.diameter") / 2 + over)
@@ -102,12 +102,12 @@ def gasket(screws: int) -> Manifold:
     section = outline() - (first + second - web)
     for x, y in screw_holes(screws):
         section -= disc(d("gasket.screw_hole_radius"), x, y, 32)
-    return extruded(section, 0.0, d("gasket.thickness"))
+    return surface(extruded(section, 0.0, d("gasket.thickness")))
 
 
 @cache
-def flange(screws: int) -> Manifold:
-    """The top's flange with so many clearance holes."""
+def flange(screws: int) -> Surface:
+    """Surface of the top's flange with so many clearance holes."""
     d = dimensions()
     thick = d("top.flange")
     solid = extruded(outline().offset(-0.0008), 0.0, thick) + extruded(outline(), 0.0, thick - 0.001)
@@ -115,19 +115,19 @@ def flange(screws: int) -> Manifold:
     hole = bore(d("top.screw_hole_radius"), 0.0, thick, above=above, below=below)
     for x, y in screw_holes(screws):
         solid -= hole.translate((x, y, 0.0))
-    return solid
+    return surface(solid)
 
 
 @cache
 def drilled(
     edges: tuple[float, float, float, float], height: float, places: tuple[Point, ...],
     radius: float, depth: float, chamfer: float,
-) -> Manifold:  # fmt: skip
-    """An upright block between edges (x0, y0, x1, y1), with a hole from above at each place, m."""
+) -> Surface:  # fmt: skip
+    """Surface of an upright block between edges (x0, y0, x1, y1), with a hole from above at each place, m."""
     block = extruded(rectangle(*edges, 0.004), 0.0, height)
     for x, y in places:
         block -= bore(radius, height - depth, height, above=chamfer).translate((x, y, 0.0))
-    return block
+    return surface(block)
 
 
 def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold:
@@ -141,13 +141,13 @@ def surface(solid: Manifold) -> Surface:
     return np.asarray(mesh.vert_properties, np.float64)[:, :3], np.asarray(mesh.tri_verts, np.int32)
 
 
-def painted(solid: Manifold, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
-    """The surface of a solid, parted by colour.
+def painted(whole: Surface, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
+    """A surface, parted by colour.
 
     Args:
         colour: names of colours, shape (m,), from the triangles' middles and unit normals, shape (m, 3).
     """
-    vertices, triangles = surface(solid)
+    vertices, triangles = whole
     corners = vertices[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-18)
