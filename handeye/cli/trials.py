@@ -53,9 +53,11 @@ def assembly_trials(
     for result in assemble_many(compiled(default_script()), worlds, camera=camera, jobs=jobs):
         results.append(result)
         word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
-        detail = "" if result.exit_code == 0 else f"{result.stopped_at or ''}: {result.message}"
+        detail = f"{result.stopped_at or ''}: {result.message}"
+        if result.exit_code == 0:
+            detail = "; ".join(f"caution: {sentence}" for sentence in result.cautions)
         if result.exit_code == 3:
-            detail = "; ".join(f"{c.sentence}: {c.value:.3g}" for c in result.referee.values() if not c.ok)
+            detail = "; ".join(check.told for check in result.referee.values() if check.refuses)
         speed = f"{result.timing.real_time_factor:4.1f}x"
         say(f"seed {result.seed:4}  {word:10}  {speed}  {detail}")
     done = sum(result.exit_code == 0 for result in results)

@@ -5,7 +5,7 @@ from typing import Final
 from handeye.door.html import Markup, heading, inked, line, page, picture, table
 from handeye.door.state import State
 from handeye.report.page import verdict
-from handeye.report.result import Result
+from handeye.report.result import Check, Result
 
 _INKS: Final = {
     "done": "good",
@@ -61,10 +61,16 @@ def _stages(result: Result) -> Markup:
     return table(("", "stage", "status", "arm time, s"), rows)
 
 
+def _mark(check: Check) -> Markup:
+    if check.ok:
+        return inked("✓", "good")
+    return inked("✗", "bad") if check.refuses else inked("!", "doubtful")
+
+
 def _findings(result: Result) -> Markup:
     rows = [
         (
-            inked("✓", "good") if each.ok else inked("✗", "bad"),
+            _mark(each),
             name,
             each.subject,
             f"{each.value:.3g}",

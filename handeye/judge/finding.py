@@ -25,24 +25,36 @@ class Finding:
     """How the value must stand to its limit; it may reach it."""
     limit: float
     unit: str
+    caution: bool = False
+    """If it is not `ok`, people are told, and the work may be right all the same."""
+
+    @property
+    def refuses(self) -> bool:
+        """The work is not right for it."""
+        return not self.ok and not self.caution
 
     def limited(self, limit: float) -> "Finding":
-        """The same measurement against another limit, in the same unit."""
+        """The same measurement against another limit, in the same unit; what does not keep to that one refuses."""
         ok = self.value <= limit if self.relation == "at most" else self.value >= limit
-        return replace(self, limit=limit, ok=ok)
+        return replace(self, limit=limit, ok=ok, caution=False)
+
+    @property
+    def beyond(self) -> float:
+        """How far the value is on the wrong side of its limit, in `unit`; negative on the right one."""
+        return self.value - self.limit if self.relation == "at most" else self.limit - self.value
 
 
 Findings = Mapping[str, Finding]
 """By the names of the points."""
 
 
-def at_most(value: float, limit: float, unit: str, subject: str) -> Finding:
-    """A finding that is right up to `limit`.
+def at_most(value: float, limit: float, unit: str, subject: str, *, caution: bool = False) -> Finding:
+    """A finding that is right up to `limit`; beyond it, a `caution` is told and refuses nothing.
 
     >>> handeye.at_most(0.1, 0.2, "mm", "gap under the head").ok
     True
     """
-    return _finding(value <= limit, value, "at most", limit, unit, subject)
+    return replace(_finding(value <= limit, value, "at most", limit, unit, subject), caution=caution)
 
 
 def at_least(value: float, limit: float, unit: str, subject: str) -> Finding:
@@ -60,13 +72,12 @@ def worse(one: Findings, other: Findings) -> Findings:
 
 
 def _worse(one: Finding, other: Finding) -> Finding:
-    grows = other.value > one.value
-    return other if grows == (one.relation == "at most") else one
+    return max(one, other, key=lambda finding: (not finding.ok, finding.beyond))
 
 
 def all_right(findings: Findings) -> bool:
-    """Every point is right; a referee that looked at nothing has found nothing right."""
-    return bool(findings) and all(finding.ok for finding in findings.values())
+    """No point refuses the work; a referee that looked at nothing has found nothing right."""
+    return bool(findings) and not any(finding.refuses for finding in findings.values())
 
 
 def _finding(ok: bool, value: float, relation: Relation, limit: float, unit: str, subject: str) -> Finding:

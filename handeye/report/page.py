@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from handeye.diagnostics import visible
-from handeye.report.result import Result, Timing
+from handeye.report.result import Check, Result, Timing
 from handeye.tasks import known
 from handeye.tasks.interface import Period, Words
 
@@ -132,11 +132,17 @@ def referee(result: Result) -> Table:
     table.add_column("limit", justify="right")
     table.add_column("unit")
     for check in result.referee.values():
-        mark = Text("✓", "green") if check.ok else Text("✗", "red")
+        mark = _mark(check)
         sign = ">=" if check.relation == "at least" else "<="
         figures = f"{check.value:.3g}", f"{sign} {check.limit:.3g}"
         table.add_row(mark, Text(check.subject), *figures, Text(check.unit))
     return table
+
+
+def _mark(check: Check) -> Text:
+    if check.ok:
+        return Text("✓", "green")
+    return Text("✗", "red") if check.refuses else Text("!", "yellow")
 
 
 def verdict(result: Result) -> Text:
@@ -152,8 +158,11 @@ def verdict(result: Result) -> Text:
     task = known(result.task)
     words = _NEUTRAL if task is None else task.words
     if result.assembled:
-        return Text(words.done, "bold green")
-    wrong = [check.sentence for check in result.referee.values() if not check.ok]
+        doubt = "; ".join(result.cautions)
+        return (
+            Text(f"{words.done} Caution: {doubt}", "bold yellow") if doubt else Text(words.done, "bold green")
+        )
+    wrong = [check.sentence for check in result.referee.values() if check.refuses]
     return Text(
         f"The program reported success, but {words.product} is not right: {'; '.join(wrong)}", "bold red"
     )

@@ -61,6 +61,8 @@ class Check(Record, frozen=True, kw_only=True):
     unit: str
     sentence: str
     """All of it for people, but the value."""
+    caution: bool = False
+    """If it is not `ok`, that is told, and the work may be right all the same."""
 
     @classmethod
     def of(cls, found: Finding) -> "Check":
@@ -73,10 +75,21 @@ class Check(Record, frozen=True, kw_only=True):
             limit=float(found.limit),
             unit=found.unit,
             sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
+            caution=found.caution,
         )
 
+    @property
+    def refuses(self) -> bool:
+        """The work is not right for it."""
+        return not self.ok and not self.caution
+
+    @property
+    def told(self) -> str:
+        """All of it for people."""
+        return f"{self.sentence}: {self.value:.3g}"
+
     def limited(self, limit: float) -> "Check":
-        """The same measurement against another limit, in the same unit."""
+        """The same measurement against another limit, in the same unit; what does not keep to that one refuses."""
         facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
         return Check.of(Finding(**facts).limited(limit))
 
@@ -122,6 +135,11 @@ class Result(Record, frozen=True, kw_only=True):
     """Limits that somebody put in the place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code of whoever began the run took the place of, with the names of that code."""
+
+    @property
+    def cautions(self) -> tuple[str, ...]:
+        """What the referee found that is not as it should be and does not make the work wrong, a sentence each."""
+        return tuple(check.told for check in self.referee.values() if not check.ok and check.caution)
 
     @property
     def exit_code(self) -> int:

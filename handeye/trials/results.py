@@ -93,7 +93,7 @@ def why(result: Result) -> str:
     """Why a result is not as it should be, the first findings of many; empty if it is."""
     if not result.completed:
         return f"{result.stopped_at or ''}: {result.message}"
-    wrong = [f"{each.sentence}: {each.value:.3g}" for each in result.referee.values() if not each.ok]
+    wrong = [each.told for each in result.referee.values() if each.refuses]
     more = len(wrong) - _TOLD
     return "; ".join(wrong if more < 2 else [*wrong[:_TOLD], f"and {more} more"])
 

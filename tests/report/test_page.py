@@ -1,13 +1,18 @@
 """What a person reads at the end of a run."""
 
 import io
+import json
+from typing import cast
 
 import msgspec
 import pytest
 from rich.console import Console
 
+from handeye.door.run_page import run_page
+from handeye.door.state import State
+from handeye.judge.finding import at_most
 from handeye.report.page import clock, page, referee, timing, verdict
-from handeye.report.result import CameraReport, Check, Result, Timing
+from handeye.report.result import CameraReport, Check, Result, Timing, to_json
 from handeye.variation import WorldSpec
 
 GAP = Check(
@@ -129,6 +134,33 @@ def test_a_silent_failure_says_what_the_referee_found() -> None:
     assert (
         said == "The program reported success, but the pump is not right: gap under a head (at most 0.2 mm)"
     )
+
+
+SCAR = Check.of(at_most(1, 0, "threads", "scarred threads", caution=True))
+
+
+def test_a_caution_stands_in_the_verdict_on_right_work() -> None:
+    made = result(completed=True, assembled=True, checks={"scar": SCAR})
+    said = verdict(made)
+    assert said.plain == "The pump is assembled. Caution: scarred threads (at most 0 threads): 1"
+    assert (said.style, made.exit_code) == ("bold yellow", 0)
+
+
+def test_a_caution_has_a_mark_of_its_own_on_every_page() -> None:
+    made = result(completed=True, assembled=True, checks={"scar": SCAR})
+    assert [str(cell) for cell in referee(made).columns[0].cells] == ["!"]
+    assert "Caution: scarred threads" in run_page(made, cast(State, None), None, None)
+
+
+def test_a_caution_stands_in_the_record() -> None:
+    made = result(completed=True, assembled=True, checks={"scar": SCAR})
+    kept = json.loads(to_json(made))["referee"]["scar"]
+    assert (kept["ok"], kept["caution"], kept["value"]) == (False, True, 1)
+
+
+def test_a_caution_is_no_reason_why_work_is_wrong() -> None:
+    said = verdict(result(completed=True, assembled=False, checks={"gap": GAP, "scar": SCAR})).plain
+    assert "scarred" not in said
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,13 @@ SCREW_GAP: Final = 0.2
 SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 70-200 N
 SCREW_THREAD: Final = 6.35
 """mm in the base: one diameter of 1/4 in, the rule for steel. A seated screw has 6.93."""
+SCREW_PLACE: Final = 0.12
+"""mm: the loosest fit of a 1/4-20 thread of class 2, pitch diameters .2127 in and .2224 in; ASME B1.1."""
 SCREW_LEAN: Final = 1.0  # deg: a head 11 mm wide that leans farther gapes by SCREW_GAP
+SCARS: Final = 0
+"""Threads; a caution. What a scar does to a pump is judged by itself: a screw that was backed out and driven straight
+holds as any other if it clamps (SCREW_CLAMP), stands straight (SCREW_LEAN) and has its length of thread (SCREW_THREAD).
+But whoever takes the pump apart has to know: a thread that was cut twice strips sooner."""
 SOFT: Final = 0.03
 """mm over the clearance of a shank or pin in its hole. Contacts are soft: a shank that was pressed on a bore with 4 to
 32 N went .02 mm into it, with 64 N .033. One that cuts metal goes farther."""

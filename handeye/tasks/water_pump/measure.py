@@ -44,6 +44,12 @@ def misfit(measured: Measured, layer: str, hole: int) -> float:
     return float(np.hypot(*(ends @ axis.xmat.reshape(3, 3))[:, :2].T).max())
 
 
+def clearance(measured: Measured, layer: str, hole: int) -> float:
+    """What a screw's shank leaves of the radius of its hole in gasket or top, m."""
+    model = measured.model
+    return float(model.site(f"{layer}_hole{hole}").size[0] - model.geom(f"shank{hole}").size[0])
+
+
 def corner_height(measured: Measured, layer: str, holes: int) -> float:
     """How far the upper face of a layer is off its nominal height over the base, at the worst of its screw holes, m."""
     X_BW = inverse(measured.pose("base"))
@@ -66,6 +72,12 @@ def thread_length(measured: Measured, hole: int) -> float:
     """Length of a screw's thread that is in its tapped hole, m."""
     point = inverse(measured.pose("base")) @ measured.pose(f"carrier{hole}")
     return float(base_top() - point[2, 3] - dimensions()("screw.point_length"))
+
+
+def thread_offset(measured: Measured, hole: int) -> float:
+    """Distance of a screw's axis from the mouth of its tapped hole, m."""
+    axis, mouth = measured.data.site(f"thread{hole}"), measured.data.site(f"base_hole{hole}")
+    return float(np.hypot(*((mouth.xpos - axis.xpos) @ axis.xmat.reshape(3, 3))[:2]))
 
 
 def screw_lean(measured: Measured, hole: int) -> float:

@@ -1,6 +1,6 @@
 """The referee's findings on a finished pump, point by point."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from math import degrees, isfinite
 from typing import Final
 
@@ -67,17 +67,17 @@ def _base(measured: Measured) -> Findings:
 
 def _layer(measured: Measured, layer: str, holes: tuple[Thread, ...]) -> Findings:
     """Height of gasket or top, and whether every screw passes its hole there without cutting into it."""
-    size = dimensions()
     off = measure.corner_height(measured, layer, len(holes))
-    clearance = size(f"{layer}.screw_hole_radius") - size("screw.shank_radius")
-    hole, apart = _worst(range(len(holes)), lambda k: measure.misfit(measured, layer, k))
+    room = [measure.clearance(measured, layer, k) for k in range(len(holes))]
+    apart = [measure.misfit(measured, layer, k) for k in range(len(holes))]
+    hole = max(range(len(holes)), key=lambda k: apart[k] - room[k])
     return {
         f"{layer}_height": at_most(
             off * _MM, limits.LAYER_HEIGHT, "mm",
             f"farthest corner of the {layer} off its nominal {measure.under(layer) / INCH:.2f} in",
         ),
         f"{layer}_place": at_most(
-            apart * _MM, round(clearance * _MM + limits.SOFT, 3), "mm",
+            apart[hole] * _MM, round(room[hole] * _MM + limits.SOFT, 3), "mm",
             f"axis of screw hole {hole + 1} of the base from that of the {layer}",
         ),
     }  # fmt: skip
@@ -89,6 +89,7 @@ def _screws(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
     gap = max(
         (abs(measure.head_gap(measured, k)) for k in filled), default=size("screw.length")
     )  # no screw is like one that stands full length high
+    aside = max((measure.thread_offset(measured, k) for k in filled), default=0.0)
     lengths = [measure.thread_length(measured, k) for k in filled]
     lean = max((measure.screw_lean(measured, k) for k in filled), default=0.0)
     return {
@@ -102,19 +103,18 @@ def _screws(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
             "mm",
             "shortest thread of a screw in the base",
         ),
+        "screws_place": at_most(
+            aside * _MM, limits.SCREW_PLACE, "mm", "farthest axis of a screw from that of its tapped hole"
+        ),
         "screws_lean": at_most(degrees(lean), limits.SCREW_LEAN, "deg", "greatest lean of a screw"),
         "screws_crossed": at_most(
             sum(thread.crossed for thread in holes), 0, "screws", "cross-threaded screws"
         ),
         "threads_scarred": at_most(
-            sum(thread.scarred for thread in holes), 0, "threads", "threads that a crossed screw has scarred"
+            sum(thread.scarred for thread in holes), limits.SCARS, "threads",
+            "threads that a crossed screw has scarred", caution=True,
         ),
-    }
-
-
-def _worst(holes: Iterable[int], measured: Callable[[int], float]) -> tuple[int, float]:
-    """The hole at which a measured value is greatest, and the value."""
-    return max(((hole, measured(hole)) for hole in holes), key=lambda found: found[1])
+    }  # fmt: skip
 
 
 def _cell(measured: Measured, holes: tuple[Thread, ...]) -> Findings:

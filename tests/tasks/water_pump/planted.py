@@ -118,6 +118,27 @@ def drawn(hole: int, way: float) -> Planting:
     return change
 
 
+def cut_aside(hole: int, way: float) -> Planting:
+    """A screw in a thread that was cut beside its hole."""
+
+    def change(truth: Truth) -> Truth:
+        truth.model.body(f"carrier{hole}").pos[0] += way
+        mujoco.mj_forward(truth.model, truth.data)
+        return truth
+
+    return change
+
+
+def narrow(layer: str, hole: int, radius: float) -> Planting:
+    """A hole of a layer bored so wide, and no wider."""
+
+    def change(truth: Truth) -> Truth:
+        truth.model.site(f"{layer}_hole{hole}").size[0] = radius
+        return truth
+
+    return change
+
+
 def leant(hole: int, angle: float) -> Planting:
     def change(truth: Truth) -> Truth:
         body = truth.model.body(f"carrier{hole}").id
@@ -200,7 +221,7 @@ def wrong() -> Iterator[tuple[str, str, Planting]]:
 
 
 def _layers() -> Iterator[tuple[str, str, Planting]]:
-    cut = clearance("top") + 0.35 * MM
+    cut, thickness = clearance("top") + 0.35 * MM, dimensions()("gasket.thickness")
     for name, direction in (("x", 0.0), ("y", 90.0), ("-x", 180.0), ("aslant", 225.0)):
         x, y = cut * np.cos(direction * DEGREE), cut * np.sin(direction * DEGREE)
         what = f"top {cut / MM:.2f} mm off along {name}, all shanks in metal"
@@ -209,13 +230,18 @@ def _layers() -> Iterator[tuple[str, str, Planting]]:
     yield "top turned until four shanks cut", "top_place", laid("top", turn=1.2 * DEGREE)
     yield "gasket 1.28 mm off", "gasket_place", laid("gasket", x=clearance("gasket") + 0.36 * MM)
     yield "gasket turned", "gasket_place", laid("gasket", turn=1.5 * DEGREE)
+    yield "gasket upside down", "gasket_height", turned("gasket", by=rotation_x(np.pi), lift=thickness)
+    yield "top end for end", "top_place", turned("top", by=planar(0, 0, 0, np.pi)[:3, :3])
+    bored = both(laid("top", x=0.5 * MM), narrow("top", 3, dimensions()("screw.shank_radius") + 0.45 * MM))
+    yield "shank .05 mm in a hole of the top that was bored narrow", "top_place", bored
     yield "gasket on its stand", "gasket_place", stood("gasket", planar(0.4, 1.1, 0.0445, 0.0))
     yield "top on its stand", "top_place", stood("top", planar(0.8, 1.1, 0.0445, 0.0))
-    thick = dimensions()("gasket.thickness")
-    raised = [drawn(hole, thick) for hole in range(6)]
-    yield "doubled gasket", "top_height", both(shifted("top", by=(0.0, 0.0, thick)), *raised)
+    raised = [drawn(hole, thickness) for hole in range(6)]
+    yield "doubled gasket", "top_height", both(shifted("top", by=(0.0, 0.0, thickness)), *raised)
     raised = [drawn(hole, 0.5 * MM) for hole in range(6)]
     yield "chip under the top", "top_height", both(shifted("top", by=(0.0, 0.0, 0.5 * MM)), *raised)
+    yield "top .2 mm into the gasket", "overlap", shifted("top", by=(0.0, 0.0, -0.2 * MM))
+    yield "gasket .2 mm into the casting", "overlap", shifted("gasket", by=(0.0, 0.0, -0.2 * MM))
     yield "top .5 mm into the gasket", "top_height", shifted("top", by=(0.0, 0.0, -0.5 * MM))
     yield "top with one edge up", "top_height", turned("top", by=rotation_x(0.7 * DEGREE), lift=0.2 * MM)
     yield (
@@ -245,7 +271,7 @@ def _screws() -> Iterator[tuple[str, str, Planting]]:
     yield "screw crossed and leaning", "screws_lean", both(thread(1, crossed=True), leant(1, 3.5 * DEGREE))
     yield "screw leaning 1.2 degrees", "screws_lean", leant(4, 1.2 * DEGREE)
     yield "screw crossed", "screws_crossed", thread(1, crossed=True)
-    yield "thread scarred", "threads_scarred", thread(1, scarred=True)
+    yield "screw .2 mm beside its tapped hole", "screws_place", cut_aside(3, 0.2 * MM)
     yield "screw short of its thread", "screws_thread", drawn(2, 1.0 * MM)
 
 
@@ -300,6 +326,9 @@ def right() -> Iterator[tuple[str, int | None, Planting]]:
         yield f"rotor at {at:.0f} degrees", None, rotor(at=at * DEGREE)
     yield "rotor stiff, but not too stiff", None, rotor(friction=0.25)
     yield "base off its blocks", None, shifted(*PUMP, by=(1.0 * MM, -1.0 * MM, 0.0))
+    yield "thread scarred, its screw backed out and driven home", None, thread(1, scarred=True)
+    bored = narrow("top", 3, dimensions()("screw.shank_radius") + 0.55 * MM)
+    yield "top aside, one hole bored narrow", None, both(laid("top", x=0.5 * MM), bored)
     yield "pins changed about", None, _pins_changed
     yield "driver askew in its guides", None, turned("driver", by=planar(0, 0, 0, 1 * DEGREE)[:3, :3])
     yield "driver at the end of its play", None, shifted("driver", by=(0.45 * MM, -0.45 * MM, 0.0))

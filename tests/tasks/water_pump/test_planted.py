@@ -28,7 +28,7 @@ def free_rotor(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def found(truth: Truth) -> set[str]:
-    return {name for name, finding in judge(truth).items() if not finding.ok}
+    return {name for name, finding in judge(truth).items() if finding.refuses}
 
 
 def test_there_are_enough_of_both() -> None:

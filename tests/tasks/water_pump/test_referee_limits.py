@@ -168,6 +168,12 @@ def screw_lean(truth: Truth, value: float) -> None:
     mujoco.mj_forward(truth.model, truth.data)
 
 
+def screw_aside(truth: Truth, value: float) -> None:
+    """In a thread that was cut beside its hole."""
+    truth.model.body("carrier2").pos[0] += value * MM
+    mujoco.mj_forward(truth.model, truth.data)
+
+
 def pin_in_wall(truth: Truth, value: float) -> None:
     """Drawn up out of the chamfer, and pushed into the side of the holder's bore."""
     play = dimensions()("pin_holder.hole_radius") - dimensions()("pin.nose_radius")
@@ -230,6 +236,7 @@ SPOILT: Final = {
     "top_place": Spoiling(limit=0.752, by=partial(layer_place, part="top")),
     "screws_depth": Spoiling(limit=0.2, by=screw_height, also=PRESSED),
     "screws_thread": Spoiling(limit=6.35, by=screw_thread, also=PRESSED | {"screws_depth"}, sign=-1),
+    "screws_place": Spoiling(limit=0.12, by=screw_aside),
     "screws_lean": Spoiling(limit=1.0, by=screw_lean),
     "screws_clamp": Spoiling(limit=40.0, by=clamp, sign=-1),
     "pins": Spoiling(limit=3.0, by=partial(over_its_place, part="pin0")),
