@@ -18,6 +18,7 @@ import numpy as np
 from handeye.diagnostics import quoted, suggestion
 from handeye.distributions import Distribution
 from handeye.errors import InvalidInput
+from handeye.faults import Fault
 from handeye.record import Record
 from handeye.units import UNITS, Unit
 
@@ -80,6 +81,8 @@ class WorldSpec(Record, frozen=True, kw_only=True):
     seed: Annotated[int, msgspec.Meta(ge=0)]
     level: Level = "nominal"
     overrides: Overrides = Overrides()
+    faults: tuple[Fault, ...] = ()
+    """What is broken in it, in the order of their names."""
     drawing: int = DRAWING
     """How it is drawn: that of the handeye that drew it first."""
 
@@ -87,7 +90,8 @@ class WorldSpec(Record, frozen=True, kw_only=True):
         level = "" if self.level == "nominal" else f"level {self.level}"
         without = f"without {', '.join(self.overrides.without)}" if self.overrides.without else ""
         changed = f"{', '.join(self.overrides.set)} set" if self.overrides.set else ""
-        return ", ".join(filter(None, (f"seed {self.seed}", level, without, changed)))
+        broken = ", ".join(map(str, self.faults))
+        return ", ".join(filter(None, (f"seed {self.seed}", level, without, changed, broken)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

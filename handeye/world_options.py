@@ -1,13 +1,34 @@
 """Parsing of world options from the words typed."""
 
 from collections.abc import Iterable
+from typing import Protocol
 
 import numpy as np
 
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
 from handeye.units import UNITS, Unit, split_value, unit_named
-from handeye.variation import Overrides, Quantity, Variation, within
+from handeye.variation import Overrides, Variation, within
+
+
+class Measured(Protocol):
+    """Something with a name whose value can be written with a unit."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def unit(self) -> str:
+        """The name of its own unit."""
+
+    @property
+    def measure(self) -> Unit:
+        """That unit, with its size."""
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Its least and its greatest value, in its own unit."""
 
 
 def overrides(variation: Variation, without: Iterable[str], settings: Iterable[str]) -> Overrides:
@@ -38,7 +59,7 @@ def _setting(variation: Variation, text: str) -> dict[str, float]:
     return {quantity.name: value_of(quantity, value) for quantity in variation.select(name)}
 
 
-def value_of(quantity: Quantity, text: str) -> float:
+def value_of(quantity: Measured, text: str) -> float:
     """A value of a quantity as written, SI; without a unit it is in the quantity's own.
 
     Raises:
@@ -55,7 +76,7 @@ def value_of(quantity: Quantity, text: str) -> float:
     return value
 
 
-def _unit(quantity: Quantity, word: str) -> Unit:
+def _unit(quantity: Measured, word: str) -> Unit:
     """The unit of a word behind a number. Raises InvalidInput if the quantity is not measured in it."""
     unit, wanted = unit_named(word), quantity.measure.dimension
     if unit is None or unit.dimension != wanted:
@@ -65,7 +86,7 @@ def _unit(quantity: Quantity, word: str) -> Unit:
     return unit
 
 
-def _limits(quantity: Quantity) -> str:
+def _limits(quantity: Measured) -> str:
     """The least and the greatest value of a quantity, as the end of a sentence."""
     (low, high), unit = quantity.limits, quantity.unit and f" {quantity.unit}"
     if np.isinf(high):

@@ -25,6 +25,7 @@ SCRIPT = """        STAGE   "insert the aligning pins"
 """
 CHEAP = {
     "assemble": "assemble --set ✓",
+    "faults": "faults",
     "run": "run job.plan.json --stage pins",
     "resume": "resume ✓",
     "do": "do PARK --set ✓",

@@ -18,6 +18,7 @@ SPEC = {
     "seed": 3,
     "level": "high",
     "overrides": {"without": ["base.x", "camera"], "set": {"part_mass": 0.05}},
+    "faults": [],
     "drawing": DRAWING,
 }
 CHOOSING = [

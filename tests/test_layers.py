@@ -26,6 +26,8 @@ FOUNDATIONS = {
     "variation",
     "distributions",
     "world_options",
+    "faults",
+    "fault_options",
     "versions",
     "mutable_records",
     "plain_text",

@@ -5,8 +5,10 @@ from typing import Final
 import mujoco
 import numpy as np
 
+from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.cell.device_errors import ArmErrors
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import figures, finite
 from handeye.cell.watchdog import Watchdog
@@ -50,6 +52,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         posture: Array,
         errors: ArmErrors,
         noise: np.random.Generator,
+        lines: Lines = SOUND,
     ) -> None:
         """An arm that stands at a posture with its brakes set.
 
@@ -57,6 +60,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             arm: how it was built; its servo period is what the watchdog waits for a new torque.
             posture: shape (n,), rad or m.
             noise: of the sensors.
+            lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`; and `force.x`, `force.y`, `force.z`, on
+                which the drives are put off zero by what a force at the hand (N, world axes) is to each.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -71,6 +76,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._limits = model.actuator_ctrlrange[self._motors, 1].copy()
         self._friction = model.dof_frictionloss[self.dofs].copy()
         self._brake, self._errors, self._noise = constants(arm).brake, errors, noise
+        self._arm, self._lines = arm, lines
         self._model, self._data = model, data
         model.dof_solref[self.dofs] = _BRAKE_STIFFNESS[0]
         model.dof_solimp[self.dofs] = _BRAKE_STIFFNESS[1]
@@ -104,16 +110,29 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def _put(self, torque: Array | None) -> None:
         """Hold a torque, shape (n,), or the brakes from now on."""
         self._braked = torque is None
-        self._model.dof_frictionloss[self.dofs] = self._brake if torque is None else self._friction
+        brake = self._lines.carried_each("brake", self._brake)
+        self._model.dof_frictionloss[self.dofs] = brake if torque is None else self._friction
         limits = self._limits
-        self._data.ctrl[self._motors] = 0.0 if torque is None else np.clip(torque, -limits, limits)
+        self._data.ctrl[self._motors] = (
+            0.0 if torque is None else np.clip(self._driven(torque), -limits, limits)
+        )
+
+    def _driven(self, torque: Array) -> Array:
+        """What the drives make of a torque, shape (n,)."""
+        torque = self._lines.carried_each("drive", torque)
+        force = np.array([self._lines.carried(f"force.{axis}", 0.0) for axis in "xyz"])
+        return (
+            torque + jacobian(self._arm, self._data.qpos[self.qpos])[:3].T @ force if force.any() else torque
+        )
 
     def after(self) -> None:
         errors, data, count = self._errors, self._data, len(self.dofs)
         noise = self._noise.standard_normal(2 * count)
+        q = errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count]
+        qd = np.asarray(data.qvel[self.dofs] + errors.tachometer_noise * noise[count:])
         self._read(
-            errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count],
-            np.asarray(data.qvel[self.dofs] + errors.tachometer_noise * noise[count:]),
+            self._lines.carried_each("potentiometer", q),
+            self._lines.carried_each("tachometer", qd),
             braked=self._braked,
         )
 

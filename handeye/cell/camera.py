@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.device_errors import CameraErrors
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
@@ -52,12 +53,14 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         rng: np.random.Generator,
         renderer: SceneRenderer,
         drawing: CameraModel,
+        lines: Lines = SOUND,
     ) -> None:
         """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
 
-        `rng`: noise of the tube and of the mount.
+        `rng`: noise of the tube and of the mount; `lines`: `picture`.
         """
         self._data = data
+        self._lines = lines
         self._rng = rng
         self._renderer = renderer
         self._pot_noise = errors.pot_noise
@@ -102,7 +105,8 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         view = self.true_view()
         light = self._renderer.render(self._data, view)
         disc = blur_disc(self._lens, self._focus, self._sight(view))
-        return self._vidicon.expose(light, disc=disc, hold_target=hold_target), DIGITISE
+        picture = self._vidicon.expose(light, disc=disc, hold_target=hold_target)
+        return self._lines.carried_picture(picture), DIGITISE
 
     @property
     def renderer(self) -> Renderer:

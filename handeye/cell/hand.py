@@ -7,6 +7,7 @@ import numpy as np
 
 from handeye.arm.hand import HandModel
 from handeye.cell.device_errors import HandErrors
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import finite
 from handeye.ports.hand import HandPort, HandReading
@@ -42,16 +43,18 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         hand: HandModel,
         errors: HandErrors,
         noise: np.random.Generator,
+        lines: Lines = SOUND,
     ) -> None:
         """A hand at rest.
 
         Args:
             hand: how it was built.
             noise: of the sensors.
+            lines: `gap_potentiometer`, `finger_motor`, `finger_switch.plus_y`, `finger_switch.minus_y`.
         """
         self.name = f"{prefix}hand"
         self._model, self._data = model, data
-        self._hand, self._errors, self._noise = hand, errors, noise
+        self._hand, self._errors, self._noise, self._lines = hand, errors, noise, lines
         self._motor = model.actuator(f"{prefix}grip").id
         fingers = [model.joint(f"{prefix}finger_{side}").id for side in "ab"]
         self._fingers = model.jnt_qposadr[fingers]
@@ -89,7 +92,8 @@ class SimulatedHand(Mechanism[HandState], HandPort):
             start = here
         moved = min(max(goal - start, -step), step)
         self._set_point = start + moved
-        self._press(min(max(grip, 0.0), self._hand.grip), ahead=moved * max(0.0, _LAG / seconds - 0.5))
+        grip = self._lines.carried("finger_motor", min(max(grip, 0.0), self._hand.grip))
+        self._press(grip, ahead=moved * max(0.0, _LAG / seconds - 0.5))
 
     def _press(self, grip: float, ahead: float) -> None:
         """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.
@@ -104,9 +108,16 @@ class SimulatedHand(Mechanism[HandState], HandPort):
 
     def after(self) -> None:
         errors, noise = self._errors, self._noise.standard_normal()
-        first, second = self._data.sensordata[self._switches] > errors.switch_force
+        closed = self._data.sensordata[self._switches] > errors.switch_force
         gap = self.gap * (1 + errors.gap_scale) + errors.gap_offset + errors.gap_noise * noise
-        self._reading = HandReading(gap=float(gap), touch=(bool(first), bool(second)))
+        self._reading = HandReading(
+            gap=self._lines.carried("gap_potentiometer", float(gap)),
+            touch=(self._told("plus_y", closed[0]), self._told("minus_y", closed[1])),
+        )
+
+    def _told(self, finger: str, closed: bool) -> bool:
+        """What the switch of a finger tells."""
+        return bool(self._lines.carried(f"finger_switch.{finger}", float(closed)))
 
     def state(self) -> HandState:
         read = self._reading

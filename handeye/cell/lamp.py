@@ -4,6 +4,7 @@ from typing import Final
 
 import mujoco
 
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.ports.lamp import LampPort
 from handeye.record import Record
@@ -23,8 +24,10 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
 
     _LIT: Final = ((1.0, 0.96, 0.85, 1.0), 1.0)
 
-    def __init__(self, model: mujoco.MjModel, material: str) -> None:
+    def __init__(self, model: mujoco.MjModel, material: str, lines: Lines = SOUND) -> None:
+        """A lamp that is off; its line is `lamp`."""
         self.name = material
+        self._lines = lines
         self._model = model
         self._material = model.material(material).id
         self._dark = (tuple(model.mat_rgba[self._material]), 0.0)
@@ -34,7 +37,7 @@ class SimulatedLamp(Mechanism[LampState], LampPort):
         self._lit = lit
 
     def before(self, seconds: float) -> None:
-        rgba, emission = self._LIT if self._lit else self._dark
+        rgba, emission = self._LIT if self._lines.carried("lamp", float(self._lit)) else self._dark
         self._model.mat_rgba[self._material] = rgba
         self._model.mat_emission[self._material] = emission
 

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import finite
 from handeye.cell.watchdog import Watchdog
@@ -35,6 +36,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         torque_noise: float,
         noise: np.random.Generator,
         watchdog: Watchdog,
+        lines: Lines = SOUND,
     ) -> None:
         """A screwdriver that is off.
 
@@ -42,8 +44,9 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
             motors: actuators whose torques about the spindle, counter-clockwise, add up to its own.
             torque_noise: sigma, N m.
             watchdog: of the arm that carries it: it cuts this motor, too.
+            lines: `screwdriver.current`, by which its torque is told, and `screwdriver.motor`.
         """
-        self._data, self._watchdog = data, watchdog
+        self._data, self._watchdog, self._lines = data, watchdog, lines
         self._motors = [model.actuator(name).id for name in motors]
         self._torque_noise, self._noise = torque_noise, noise
         self._command = self._torque = 0.0
@@ -51,7 +54,7 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
     @property
     def speed(self) -> float:
         """The speed its motor is to turn with now, rad/s, positive drives a screw in."""
-        return 0.0 if self._watchdog.tripped else self._command
+        return 0.0 if self._watchdog.tripped else self._lines.carried("screwdriver.motor", self._command)
 
     def torque(self) -> float:
         return self._torque
@@ -66,7 +69,8 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
 
     def after(self) -> None:
         true = -float(sum(self._data.actuator_force[motor] for motor in self._motors))
-        self._torque = float(true + self._torque_noise * self._noise.standard_normal())
+        told = float(true + self._torque_noise * self._noise.standard_normal())
+        self._torque = self._lines.carried("screwdriver.current", told)
 
     def state(self) -> ScrewdriverState:
         return ScrewdriverState(torque=self._torque, command=self._command)

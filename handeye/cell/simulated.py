@@ -11,6 +11,7 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.lamp import SimulatedLamp
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
@@ -47,12 +48,14 @@ class SimulatedCell(Clock):
         lamp: SimulatedLamp | None = None,
         camera: SimulatedCamera | None = None,
         mechanisms: Sequence[Mechanism[Any]] = (),
+        lines: Lines = SOUND,
         noise: np.random.Generator,
     ) -> None:
         """Switch a cell on; its devices are read for the first time.
 
         Args:
             mechanisms: whatever else acts on the model, in the order in which it does: threads, more arms.
+            lines: those that its devices were given.
             noise: the generator that all sensors but the camera draw from.
 
         Raises:
@@ -61,9 +64,12 @@ class SimulatedCell(Clock):
         self._model, self._data, self._noise = model, data, noise
         self.arm = arm
         """For the experimenter, who may push it."""
+        self.lines = lines
+        """Lines of its devices, and what is broken on them; for who carries out a program, who knows its stages."""
         self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
         devices = (arm, hand, screwdriver, lamp)
         self._mechanisms: tuple[Mechanism[Any], ...] = (
+            *((lines,) if lines.defects else ()),
             *(device for device in devices if device is not None),
             *mechanisms,
             *(() if camera is None else (camera,)),

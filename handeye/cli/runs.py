@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, note
-from handeye.cli.world_options import ANY_WORLD, WorldOptions
+from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.errors import InvalidInput
 from handeye.plain_text import counted
 from handeye.planfile.store import read_plan
@@ -50,6 +50,7 @@ def register(app: App) -> None:
 def assemble(
     *,
     world: WorldOptions = ANY_WORLD,
+    fault: Faults = None,
     json: Json = False,
     out: Out = None,
     overwrite: Overwrite = False,
@@ -69,7 +70,7 @@ def assemble(
     started = time.process_time()
     plan = compiled(default_script())
     planning = time.process_time() - started
-    setup = Setup(plan=plan, world=spec, camera=camera, judged=True)
+    setup = Setup(plan=plan, world=broken(spec, fault, plan.program), camera=camera, judged=True)
     return work(
         Job(
             start=Checkpoint(setup=setup),
@@ -88,6 +89,7 @@ def run(
     /,
     *,
     world: WorldOptions = ANY_WORLD,
+    fault: Faults = None,
     judge: Annotated[bool, Parameter(help="Let the referee judge the result.")] = False,
     json: Json = False,
     out: Out = None,
@@ -123,7 +125,8 @@ def run(
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage excludes --from and --to")
-    start = Checkpoint(setup=Setup(plan=plan, world=world.spec, camera=camera, judged=judge))
+    spec = broken(world.spec, fault, plan.program)
+    start = Checkpoint(setup=Setup(plan=plan, world=spec, camera=camera, judged=judge))
     stops = _stops(plan.program, to=to if stage is None else stage, until=until, breaks=breaks or [])
     _check_order(plan.program, first, to)
     kept = _checkpoint_folder(checkpoints, out)

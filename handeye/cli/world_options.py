@@ -1,17 +1,33 @@
 """Options that choose a world, the same on every command that builds one."""
 
 from dataclasses import dataclass
-from typing import Annotated, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
 
+import msgspec
 from cyclopts import Group, Parameter
 
 from handeye.cli.common import whole
 from handeye.errors import InvalidInput
+from handeye.fault_options import StageNumber, faults, from_start_only
 from handeye.tasks import task
 from handeye.variation import WorldSpec, checked_seed
 from handeye.world_options import overrides
 
+if TYPE_CHECKING:
+    from handeye.runs.system import Listing
+
 _GROUP: Final = Group("World", sort_key=1)
+
+Faults = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--fault",
+        group=_GROUP,
+        consume_multiple=False,
+        help="NAME, NAME=VALUE, or either with @STAGE behind it: something that is broken, from the beginning or from "
+        "a stage on; `handeye faults` lists them. May be repeated.",
+    ),
+]
 
 
 @Parameter(name="*", group=_GROUP)
@@ -88,6 +104,28 @@ class WorldOptions:
     def words(self) -> list[str]:
         """The options as they would be typed."""
         return ["--seed", str(self.seed or 0), *self.errors.words()]
+
+
+def broken(world: WorldSpec, options: list[str] | None, listing: "Listing | None" = None) -> WorldSpec:
+    """A world with faults.
+
+    Args:
+        listing: tells the stages with which they may set in; None: there are none.
+
+    Raises:
+        InvalidInput: no such fault, value or stage.
+    """
+    if not options:
+        return world
+    stage = from_start_only if listing is None else _stage_of(listing)
+    found = faults(task().faults(world.seed), options, stage)
+    return msgspec.structs.replace(world, faults=found)
+
+
+def _stage_of(listing: "Listing") -> StageNumber:
+    from handeye.debugger.breakpoints import stage_number
+
+    return lambda text: stage_number(text, listing) + 1
 
 
 ANY_WORLD: Final = WorldOptions()

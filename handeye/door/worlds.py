@@ -4,10 +4,11 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from types import MappingProxyType
 
-from handeye import tasks
+from handeye import fault_options, tasks
 from handeye.door.arguments import given_names
 from handeye.door.html import heading, page, table
 from handeye.errors import InvalidInput
+from handeye.fault_options import by_number
 from handeye.report.world_page import QuantityReport, report
 from handeye.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.world_options import overrides
@@ -32,6 +33,7 @@ class World:
         level: Level = "nominal",
         without: Iterable[str] = (),
         set: Mapping[str, float | str] | None = None,
+        faults: Iterable[str] = (),
         task: str = tasks.DEFAULT,
     ) -> None:
         """Choose a world.
@@ -43,10 +45,12 @@ class World:
             set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
                 unit, as `".3 in"`. The quantities of a group may differ in their units: a number for `arm.friction` is
                 N m at joints that turn, and N at the one that slides.
+            faults: what is broken, as `handeye faults` lists it: `NAME`, `NAME=VALUE`, or either with `@N` behind it,
+                where it sets in with stage N of the program.
             task: name of the task whose cell it is.
 
         Raises:
-            InvalidInput: there is no such seed, level, quantity, unit or value; the nearest name is told.
+            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the nearest name is told.
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:
@@ -54,10 +58,14 @@ class World:
         if not isinstance(set, Mapping | None):
             raise InvalidInput(f"`set` is a table of values by the names of quantities, not {set!r}")
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
+        self._faults = given_names(faults, "`faults`")
         self._table, self._task = tasks.task(task).variation(number), task
         settings = [f"{name}={value}" for name, value in self._set.items()]
         self._spec = WorldSpec(
-            seed=number, level=level, overrides=overrides(self._table, self._without, settings)
+            seed=number,
+            level=level,
+            overrides=overrides(self._table, self._without, settings),
+            faults=fault_options.faults(tasks.task(task).faults(number), self._faults, by_number),
         )
 
     @property
@@ -123,5 +131,6 @@ class World:
         said += [f"level={self.spec.level!r}"] if self.spec.level != "nominal" else []
         said += [f"without={list(self._without)}"] if self._without else []
         said += [f"set={self._set}"] if self._set else []
+        said += [f"faults={list(self._faults)}"] if self._faults else []
         said += [f"task={self._task!r}"] if self._task != tasks.DEFAULT else []
         return f"World({', '.join(said)})"

@@ -33,10 +33,18 @@ def page(result: Result) -> RenderableType:
         parts += [Text(), camera(result)]
     if result.referee:
         parts += [Text(), referee(result)]
+    parts += [Text(f"broken: {told}", "yellow") for told in told_faults(result)]
     limits = (result.limits or {}).items()
     parts += [Text(f"limit of {name} set by the caller: {limit:g}", "yellow") for name, limit in limits]
     parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
     return Group(*parts, Text(), verdict(result))
+
+
+def told_faults(result: Result) -> Iterator[str]:
+    """The faults that a run was given, each as it would be typed."""
+    task = known(result.task)
+    for fault in result.world.faults:
+        yield str(fault) if task is None else task.faults(result.seed).told(fault)
 
 
 def printable(result: Result) -> Result:

@@ -7,6 +7,7 @@ import numpy as np
 from msgspec import UNSET
 
 from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import Choice, RunStarted
 from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
@@ -15,6 +16,7 @@ from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
 from handeye.execution.state import DriveState, ExecutionState
 from handeye.mutable_records import put_back
+from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
 from handeye.program.program import Position
@@ -91,6 +93,8 @@ class ProgramSystem(System):
         )
 
     def step(self) -> None:
+        assert self.state.at is not None
+        self._cell.lines.begin_stage(self.plan.program.steps[self.state.at].stage + 1)
         self.executor.step()
 
     def answer(self, choice: Choice) -> None:
@@ -181,13 +185,22 @@ def context_of(system: System) -> ExecutionContext:
 
 
 def check(setup: Setup) -> None:
-    """See that a plan was made for the arm of its task, and that its world can be drawn.
+    """See that a plan was made for the arm of its task, and that its world can be had.
 
     Raises:
-        InvalidInput: it was made for another one, the world was drawn in another way, or there is no such task.
+        InvalidInput: it was made for another one, the world was drawn in another way, there is no such task, or no
+            such fault.
     """
-    task(setup.task).check_arm(plan_of(setup))
-    task(setup.task).variation(setup.world.seed).check(setup.world)
+    world, plan = setup.world, plan_of(setup)
+    task(setup.task).check_arm(plan)
+    task(setup.task).variation(world.seed).check(world)
+    task(setup.task).faults(world.seed).check(world.faults)
+    stages = len(plan.program.stages)
+    late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
+    if late is not None:
+        raise InvalidInput(
+            f"the fault {quoted(late.name)} sets in with stage {late.stage}; the program has {counted(stages, 'stage')}"
+        )
 
 
 PROGRAM: Final = SystemKind(

@@ -12,6 +12,7 @@ from handeye.arm.model import ArmModel, digest
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.execution.calibration_look import CalibrationLook
+from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
 from handeye.pose import Array
@@ -109,6 +110,10 @@ class Task(ABC):
     @abstractmethod
     def variation(self, seed: int) -> Variation:
         """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
+
+    def faults(self, seed: int) -> Catalogue:
+        """What can be broken in the world of a seed; by default nothing."""
+        return Catalogue()
 
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:

@@ -7,11 +7,13 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.lamp import SimulatedLamp
+from handeye.cell.lines import Lines
 from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import RendererMaker
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.water_pump.clamping import Clamping
+from handeye.tasks.water_pump.device_faults import defects
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
@@ -31,24 +33,27 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
     """
     model = build(world)
     data = mujoco.MjData(model)
-    noise = world.generator("sensors")
-    arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
-    hand = SimulatedHand(model, data, ARM, hand=STANFORD.hand, errors=world.hand, noise=noise)
+    noise, lines = world.generator("sensors"), Lines(defects(world.drawn.spec.faults))
+    arm = SimulatedArm(
+        model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise, lines=lines
+    )
+    hand = SimulatedHand(model, data, ARM, hand=STANFORD.hand, errors=world.hand, noise=noise, lines=lines)
     driver = SimulatedScrewdriver(
         model, data, ("drive", "spindle"), torque_noise=world.hand.torque_noise, noise=noise,
-        watchdog=arm.watchdog,
+        watchdog=arm.watchdog, lines=lines,
     )  # fmt: skip
-    threads = Threads(model, data, world, driver)
+    threads = Threads(model, data, world, driver, lines)
     return SimulatedCell(
         model,
         data,
         arm=arm,
         hand=hand,
         screwdriver=driver,
-        lamp=SimulatedLamp(model, f"{ARM}lamp"),
+        lamp=SimulatedLamp(model, f"{ARM}lamp", lines),
         camera=SimulatedCamera(
-            data, world.camera, world.generator("camera"), make_renderer(camera, model), DRAWING
+            data, world.camera, world.generator("camera"), make_renderer(camera, model), DRAWING, lines
         ),
         mechanisms=(threads, Clamping(model, data, threads, allowed=rest)),
+        lines=lines,
         noise=noise,
     )

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
+from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture
 from handeye.tasks.interface import Count, ExportedScene, Eye, Period, Task, Words
@@ -51,6 +52,11 @@ class WaterPump(Task):
 
     def variation(self, seed: int) -> Variation:
         return variation(seed)
+
+    def faults(self, seed: int) -> Catalogue:
+        from handeye.tasks.water_pump.catalogue import catalogue
+
+        return catalogue(seed)
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
         from handeye.tasks.water_pump.scene import build

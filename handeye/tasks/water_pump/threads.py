@@ -16,6 +16,7 @@ import msgspec
 import mujoco
 import numpy as np
 
+from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import finite
@@ -79,9 +80,15 @@ class Threads(Mechanism[ThreadsState]):
     changes = ("dof_frictionloss", "actuator_gainprm", "actuator_biasprm", *Carriers.changes)
 
     def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, world: PumpWorld, driver: SimulatedScrewdriver
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        world: PumpWorld,
+        driver: SimulatedScrewdriver,
+        lines: Lines = SOUND,
     ) -> None:
-        self._model, self._data, self._driver = model, data, driver
+        """Empty holes; `lines`: `magnet`, the force of the bit's."""
+        self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers = Carriers(model, data)
         holes = range(self._carriers.count)
         self.holes: tuple[Thread, ...] = tuple(Thread() for _ in holes)
@@ -95,7 +102,8 @@ class Threads(Mechanism[ThreadsState]):
         self._driver_geoms = np.flatnonzero(root[model.geom_bodyid] == root[bit])
         self._drive, self._spindle = model.actuator("drive").id, model.actuator("spindle").id
         self._spin = int(model.joint("spindle").dofadr[0])
-        data.ctrl[model.actuator("magnet").id] = 1.0  # permanent
+        self._magnet = model.actuator("magnet").id
+        self._attract()
 
     @property
     def driven(self) -> int:
@@ -110,6 +118,7 @@ class Threads(Mechanism[ThreadsState]):
         """Turn the spindle with the speed of the driver's motor, and let screws into their threads and out of them."""
         data, speed = self._data, self._driver.speed
         data.ctrl[self._spindle] = -speed
+        self._attract()
         if speed != 0 and data.qvel[self._spin] == 0.0:
             data.qvel[self._spin] = _NUDGE
         for hole, thread in enumerate(self.holes):
@@ -120,6 +129,10 @@ class Threads(Mechanism[ThreadsState]):
         if speed < 0:
             self._disengage()
         self._couple(speed)
+
+    def _attract(self) -> None:
+        """Let the bit's permanent magnet pull."""
+        self._data.ctrl[self._magnet] = self._lines.carried("magnet", 1.0)
 
     def state(self) -> ThreadsState:
         return ThreadsState(holes=self.holes, driven=self.driven)

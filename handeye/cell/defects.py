@@ -1,0 +1,83 @@
+"""Defects of the lines between the devices of a cell and its controller, as values."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+Values = NDArray[Any]
+"""Numbers, or the points of a picture."""
+
+PICTURE: Final = "picture"
+"""The line of the camera's pictures."""
+
+
+class Effect(ABC):
+    """What a defect does to what a line carries: a number, or the points of a picture."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        """What arrives in the place of some values, SI.
+
+        Args:
+            first: what the line carried when the defect set in.
+            seconds: since then.
+        """
+
+
+@dataclass(frozen=True, slots=True)
+class Stuck(Effect):
+    """The line keeps what it carried when the defect set in, or a value."""
+
+    at: float | None = None
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return first if self.at is None else np.full_like(values, self.at)
+
+
+@dataclass(frozen=True, slots=True)
+class Shifted(Effect):
+    """Something is added."""
+
+    by: float
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return np.asarray(values + self.by)
+
+
+@dataclass(frozen=True, slots=True)
+class Drifting(Effect):
+    """More and more is added, `rate` a second."""
+
+    rate: float
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return np.asarray(values + self.rate * seconds)
+
+
+@dataclass(frozen=True, slots=True)
+class Scaled(Effect):
+    """Only a share arrives."""
+
+    by: float
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return np.asarray(values * self.by)
+
+
+DEAD: Final = Scaled(0.0)
+"""Nothing arrives."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Defect:
+    """Something broken on a line."""
+
+    line: str
+    effect: Effect
+    stage: int | None = None
+    """Number of the stage with which it sets in, from 1; None: it is there when the cell is switched on."""

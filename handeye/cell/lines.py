@@ -1,0 +1,112 @@
+"""Lines between the devices of a cell and its controller: whatever is broken is broken there, and not in physics.
+
+A device passes all that it senses, and all that it puts out, over lines with names: `potentiometer.3`, `drive.1`,
+`lamp`. A defect on a line changes what it carries, from the moment it sets in.
+"""
+
+from collections.abc import Sequence
+from typing import Final
+
+import msgspec
+import numpy as np
+
+from handeye.cell.defects import PICTURE, Defect, Values
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.state import finite
+from handeye.ports.camera import COLUMNS, ROWS, Picture
+from handeye.pose import Array
+from handeye.record import Record
+
+_NUMBER: Final = 8
+"""Bytes of a number."""
+
+
+class DefectState(Record, frozen=True, kw_only=True):
+    """State of a defect."""
+
+    seconds: float | None = None
+    """Since it set in; None: it has not."""
+    first: bytes | None = None
+    """What its line carried then, a number or the points of a picture; None: nothing yet."""
+
+
+class LinesState(Record, frozen=True, kw_only=True):
+    """States of all defects, in their order."""
+
+    defects: tuple[DefectState, ...]
+
+
+class Lines(Mechanism[LinesState]):
+    """The lines of a cell; defects on one act one after the other."""
+
+    name = "lines"
+    kind = LinesState
+
+    def __init__(self, defects: Sequence[Defect] = ()) -> None:
+        self.defects = tuple(defects)
+        starts = (DefectState(seconds=0.0 if defect.stage is None else None) for defect in self.defects)
+        self._states = list(starts)
+
+    def begin_stage(self, number: int) -> None:
+        """Let those defects set in that do with this stage, or that would have with one that was passed over."""
+        for place, defect in enumerate(self.defects):
+            if self._states[place].seconds is None and defect.stage is not None and defect.stage <= number:
+                self._states[place] = DefectState(seconds=0.0)
+
+    def before(self, seconds: float) -> None:
+        for place, state in enumerate(self._states):
+            if state.seconds is not None:
+                self._states[place] = DefectState(seconds=state.seconds + seconds, first=state.first)
+
+    def carried(self, line: str, value: float) -> float:
+        """What arrives of a number, SI."""
+        return float(self._arriving(line, np.array(value, dtype=float))) if self.defects else value
+
+    def carried_each(self, line: str, values: Array) -> Array:
+        """What arrives on `line.1`, `line.2` and so on, shape (n,)."""
+        if not self.defects:
+            return values
+        return np.array([self.carried(f"{line}.{number}", value) for number, value in enumerate(values, 1)])
+
+    def carried_picture(self, picture: Picture) -> Picture:
+        """What arrives of a picture."""
+        return np.asarray(self._arriving(PICTURE, picture), dtype=picture.dtype)
+
+    def _arriving(self, line: str, values: Values) -> Values:
+        for place, defect in enumerate(self.defects):
+            seconds = self._states[place].seconds
+            if defect.line == line and seconds is not None:
+                values = defect.effect.on(values, self._first(place, values), seconds)
+        return values
+
+    def _first(self, place: int, values: Values) -> Values:
+        """What the line of a defect carried when it set in, if that was not now."""
+        state = self._states[place]
+        if state.first is None:
+            self._states[place] = msgspec.structs.replace(state, first=values.tobytes())
+            return values
+        return np.frombuffer(state.first, values.dtype).reshape(values.shape)
+
+    # -- state ----------------------------------------------------------------------------------------
+
+    def state(self) -> LinesState:
+        return LinesState(defects=tuple(self._states))
+
+    def check(self, state: LinesState) -> None:
+        if len(state.defects) != len(self.defects):
+            raise ValueError("it has other defects")
+        for defect, own in zip(self.defects, state.defects, strict=True):
+            first, pictured = own.first or b"", defect.line == PICTURE
+            if len(first) not in (0, ROWS * COLUMNS if pictured else _NUMBER):
+                raise ValueError(f"what the line {defect.line} carried is of another size")
+            if not pictured:
+                finite(np.frombuffer(first), f"the line {defect.line}")
+            if not 0 <= (own.seconds or 0.0) < np.inf:
+                raise ValueError(f"the defect of the line {defect.line} set in when it cannot have")
+
+    def restore(self, state: LinesState) -> None:
+        self._states = list(state.defects)
+
+
+SOUND: Final = Lines()
+"""Lines on which nothing is broken."""

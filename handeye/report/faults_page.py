@@ -1,0 +1,71 @@
+"""The faults of a task, as a page for the terminal or as one JSON object."""
+
+from itertools import groupby
+from textwrap import fill
+
+import msgspec
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from handeye.faults import Catalogue, Expected, FaultKind, Size
+
+
+class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
+    """A fault of a catalogue."""
+
+    name: str
+    meaning: str
+    size: Size | None
+    """None: it has no value."""
+    from_start: bool
+    """It can be there only from the beginning."""
+    expected: Expected
+
+
+class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
+    """All faults of a catalogue."""
+
+    faults: tuple[FaultReport, ...]
+
+
+def report(catalogue: Catalogue) -> FaultsReport:
+    """The faults of a catalogue, in their order."""
+    return FaultsReport(faults=tuple(_reported(kind) for kind in catalogue.kinds.values()))
+
+
+def faults_json(catalogue: Catalogue) -> bytes:
+    """The faults of a catalogue as one JSON object."""
+    return msgspec.json.format(msgspec.json.encode(report(catalogue)), indent=1) + b"\n"
+
+
+def faults_page(catalogue: Catalogue, columns: int) -> RenderableType:
+    """The faults of a catalogue, for a terminal of so many columns."""
+    found = report(catalogue).faults
+    parts: list[RenderableType] = []
+    for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):
+        parts += [Text(), Text(device, "bold")] if parts else [Text(device, "bold")]
+        for fault in faults:
+            told = fill(fault.meaning, columns, initial_indent="    ", subsequent_indent="    ")
+            parts += [_head(fault), Text(told, "dim")]
+    return Group(*parts)
+
+
+def _reported(kind: FaultKind) -> FaultReport:
+    return FaultReport(
+        name=kind.name,
+        meaning=kind.meaning,
+        size=kind.size,
+        from_start=kind.from_start,
+        expected=kind.expected,
+    )
+
+
+def _head(fault: FaultReport) -> Text:
+    """The name of a fault, and what values it can have."""
+    row = Text(f"  {fault.name}")
+    if fault.size is not None:
+        low, high = fault.size.limits
+        row.append(f"={fault.size.usual:g}{fault.size.unit.replace(' ', '')}", "cyan").append(
+            f"  ({low:g} to {high:g})", "dim"
+        )
+    return row.append("  from the beginning only", "dim") if fault.from_start else row

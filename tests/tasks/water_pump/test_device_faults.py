@@ -1,0 +1,43 @@
+"""Every fault of a device breaks a line by which that device of the pump's cell is read or driven."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from driving import Drive, tick
+
+from handeye.cell.lines import LinesState
+from handeye.faults import Fault
+from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.device_faults import defects, device_faults
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.task import WATER_PUMP
+from handeye.variation import WorldSpec
+
+FAULTS: tuple[Fault, ...] = tuple(fault.kind.usual() for fault in device_faults())
+
+
+@cache
+def carried() -> list[tuple[str, bool]]:
+    """Lines that all faults together break, and whether each has carried something when every device has worked."""
+    cell = build_cell(PumpWorld.draw(WorldSpec(seed=3, faults=FAULTS)), camera="ray")
+    tick(cell.devices, Drive(torque=np.zeros(6), gap=0.03, grip=10.0))
+    assert cell.devices.camera is not None
+    cell.devices.camera.digitise()
+    state = cell.truth.states["lines"]
+    assert isinstance(state, LinesState)
+    broken = zip(defects(FAULTS), state.defects, strict=True)
+    return [(defect.line, own.first is not None) for defect, own in broken]
+
+
+@pytest.mark.slow
+def test_every_line_that_a_fault_breaks_is_one_that_a_device_uses() -> None:
+    assert [line for line, used in carried() if not used] == []
+
+
+def test_the_catalogue_has_every_fault_of_a_device() -> None:
+    assert {fault.kind.name for fault in device_faults()} <= WATER_PUMP.faults(0).kinds.keys()
+
+
+def test_a_fault_at_its_usual_size_is_one_that_can_be_had() -> None:
+    WATER_PUMP.faults(0).check(FAULTS)
