@@ -20,7 +20,6 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
-from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.pose import Array, Pose, planar, pose, translated
 from handeye.program.cause_text import call_sentence
@@ -206,12 +205,10 @@ def bench(
     parts: dict[str, Part] | None = None,
     lay: dict[str, Pose] | None = None,
     camera: str = "ray",
-    edited: Callable[[Plan], Plan] = lambda plan: plan,
 ) -> Bench:
     """A cell with a script compiled for it, ready to go.
 
     Args:
-        edited: what somebody has done to the plan by hand.
         positions: taught positions besides those of the water-pump program.
         parts: parts as the program believes them, instead of the water pump's.
         lay: where the experimenter lays free bodies (`X_WP`) before the run begins.
@@ -228,9 +225,7 @@ def bench(
         put(cell, part, X_WP)
     settle(cell)
     events: list[Event] = []
-    run = ExecutionContext(
-        plan=edited(plan), arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append
-    )
+    run = ExecutionContext(plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append)
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
 
