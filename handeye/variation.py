@@ -22,7 +22,7 @@ from handeye.faults import Fault
 from handeye.record import Record
 from handeye.units import UNITS, Unit
 
-DRAWING: Final = 3
+DRAWING: Final = 4
 """How a world comes from its seed: raised when equal seeds give other worlds than before."""
 
 LARGEST_SEED: Final = (1 << 63) - 1

@@ -7,6 +7,7 @@ import numpy as np
 
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
+from handeye.cell.converter import converted
 from handeye.cell.device_errors import ArmErrors
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
@@ -118,7 +119,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         )
 
     def _driven(self, torque: Array) -> Array:
-        """What the drives make of a torque, shape (n,)."""
+        """What the drives make of a torque that is put out, shape (n,)."""
+        torque = converted(torque, self._errors.torque_step) * self._errors.drive_gain
         torque = self._lines.carried_each("drive", torque)
         force = np.array([self._lines.carried(f"force.{axis}", 0.0) for axis in "xyz"])
         return (
@@ -129,10 +131,10 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         errors, data, count = self._errors, self._data, len(self.dofs)
         noise = self._noise.standard_normal(2 * count)
         q = errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count]
-        qd = np.asarray(data.qvel[self.dofs] + errors.tachometer_noise * noise[count:])
+        qd = data.qvel[self.dofs] + errors.tachometer_noise * noise[count:]
         self._read(
-            self._lines.carried_each("potentiometer", q),
-            self._lines.carried_each("tachometer", qd),
+            converted(self._lines.carried_each("potentiometer", q), errors.pot_step),
+            converted(self._lines.carried_each("tachometer", qd), errors.tachometer_step),
             braked=self._braked,
         )
 

@@ -1,6 +1,7 @@
 """Errors of the devices of a cell: by how much each differs from what the controller believes of it."""
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from handeye.pose import Array
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmErrors:
-    """Errors of an arm of n joints; arrays have shape (n,), rad (a prismatic joint: m) unless said."""
+    """Errors of the sensors and drives of an arm of n joints; shape (n,), rad (a prismatic joint: m) unless said."""
 
     offset: Array
     scale: Array
@@ -23,12 +24,26 @@ class ArmErrors:
     centre: Array
     """Posture at which `scale` makes no error."""
     pot_noise: Array
+    """Sigma, before the converter."""
+    pot_step: Array
+    """Of the converter of the potentiometer; 0: there is none."""
     tachometer_noise: Array
-    """Sigma, rad/s, m/s."""
-    link_mass: Array
-    """True mass over the mass the controller believes."""
-    friction: Array
-    """Coulomb friction, N m, N."""
+    """Sigma before the converter, rad/s, m/s."""
+    tachometer_step: Array
+    """Of the converter of the tachometer, rad/s, m/s; 0: there is none."""
+    torque_step: Array
+    """Of the converter that the drive gets its torque from, N m, N; 0: there is none."""
+    drive_gain: Array
+    """True torque over the torque that is put out."""
+
+    @classmethod
+    def none(cls, joints: int) -> Self:
+        """Sensors and drives without error."""
+        none, ones = np.zeros(joints), np.ones(joints)
+        return cls(
+            offset=none, scale=none, wave=none, period=ones, phase=none, centre=none, pot_noise=none,
+            pot_step=none, tachometer_noise=none, tachometer_step=none, torque_step=none, drive_gain=ones,
+        )  # fmt: skip
 
     def readings(self, q: Array) -> Array:
         """Potentiometer readings without noise for true positions `q`, shape (..., n)."""
@@ -44,6 +59,23 @@ class ArmErrors:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ArmBuild:
+    """How an arm of n joints was really built; arrays have shape (n,), true over believed unless said."""
+
+    link_mass: Array
+    mass_centre: Array
+    """Distance of each link's mass centre from the joint that moves the link."""
+    armature: Array
+    """Inertia of each drive."""
+    damping: Array
+    """Viscous friction."""
+    friction: Array
+    """Coulomb friction, N m, N."""
+    hand_length: float
+    """By how much the hand is longer, m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class HandErrors:
     """Errors of the sensors of the hand and the screwdriver."""
 
@@ -51,7 +83,9 @@ class HandErrors:
     """m"""
     gap_scale: float
     gap_noise: float
-    """Sigma, m."""
+    """Sigma before the converter, m."""
+    gap_step: float
+    """Of the converter, m; 0: there is none."""
     switch_force: tuple[float, float]
     """Force at which the +y and the -y finger's switch fires, N."""
     torque_noise: float

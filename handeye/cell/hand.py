@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 
 from handeye.arm.hand import HandModel
+from handeye.cell.converter import converted
 from handeye.cell.device_errors import HandErrors
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
@@ -60,7 +61,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._fingers = model.jnt_qposadr[fingers]
         self._switches = [int(model.sensor(f"{prefix}switch_{side}").adr[0]) for side in "ab"]
         self._set_point = self.gap
-        """Where the finger servo is to be when the time is over, m."""
+        """Where the finger servo is to be when the time is over, m as read."""
         self._command: tuple[float, float] | None = None
         self._reading = HandReading(gap=self.gap, touch=(False, False))
         model.actuator_ctrllimited[self._motor] = 0
@@ -78,7 +79,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
-        """Move the set-point towards the gap that was asked for.
+        """Move the set-point towards the gap that was asked for: all three are gaps as the potentiometer reads them.
 
         It never runs far ahead of fingers that are held up, so that they can turn round at once.
         """
@@ -86,7 +87,7 @@ class SimulatedHand(Mechanism[HandState], HandPort):
             return
         gap, grip = self._command
         goal = min(max(gap, 0.0), self._hand.gap_max)
-        here, step = self.gap, self._hand.gap_speed * seconds
+        here, step = self._reading.gap, self._hand.gap_speed * seconds
         start = min(max(self._set_point, here - _GIVE), here + _GIVE)
         if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
@@ -98,20 +99,24 @@ class SimulatedHand(Mechanism[HandState], HandPort):
     def _press(self, grip: float, ahead: float) -> None:
         """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.
 
-        `ahead` (m) makes up for the servo's lag and for the set-point's steps.
+        The actuator goes by the true gap, which the servo does not know: its control is off as the reading is.
+
+        Args:
+            ahead: makes up for the servo's lag and for the set-point's steps, m.
         """
         model, motor = self._model, self._motor
         model.actuator_gainprm[motor, 0] = grip / _GIVE
         model.actuator_biasprm[motor, 1:3] = (-grip / _GIVE, -grip / _GIVE * _LAG)
         model.actuator_forcerange[motor] = (-grip, grip)
-        self._data.ctrl[motor] = self._set_point + ahead
+        self._data.ctrl[motor] = self._set_point + ahead - (self._reading.gap - self.gap)
 
     def after(self) -> None:
         errors, noise = self._errors, self._noise.standard_normal()
         closed = self._data.sensordata[self._switches] > errors.switch_force
         gap = self.gap * (1 + errors.gap_scale) + errors.gap_offset + errors.gap_noise * noise
+        gap = self._lines.carried("gap_potentiometer", float(gap))
         self._reading = HandReading(
-            gap=self._lines.carried("gap_potentiometer", float(gap)),
+            gap=float(converted(np.array(gap), np.array(errors.gap_step))),
             touch=(self._told("plus_y", closed[0]), self._told("minus_y", closed[1])),
         )
 

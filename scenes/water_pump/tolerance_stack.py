@@ -146,17 +146,15 @@ def _hand(layer: str, worlds: int, rng: np.random.Generator) -> Array:
 def _arm(worlds: int, rng: np.random.Generator) -> ArmErrors:
     """Arms of many worlds at once."""
     size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
-    nothing = np.zeros(6)
 
     def joints(name: str) -> Array:
         return np.stack([_drawn(f"arm.{name}.{k}", worlds, rng) for k in range(1, 7)], -1)
 
     wave = [variation(0).quantities[f"arm.wave.{k}"].distribution.spread for k in range(1, 7)]
-    return ArmErrors(
-        offset=joints("offset"), scale=joints("scale"), wave=np.array(wave) * size,
+    return replace(
+        ArmErrors.none(6), offset=joints("offset"), scale=joints("scale"), wave=np.array(wave) * size,
         period=np.array(ARM_PERIOD) * size, phase=rng.uniform(0.0, 2 * np.pi, (worlds, 6)),
-        centre=np.array(ARM_CENTRE) * size, pot_noise=nothing, tachometer_noise=nothing,
-        link_mass=nothing, friction=nothing,
+        centre=np.array(ARM_CENTRE) * size,
     )  # fmt: skip
 
 

@@ -29,14 +29,6 @@ TOP = 0.1
 START = hand(0.635, 0.95, 0.2, np.pi / 2, np.pi / 2, 0.0)
 
 
-def perfect(joints: int) -> ArmErrors:
-    none = np.zeros(joints)
-    return ArmErrors(
-        offset=none, scale=none, wave=none, period=none + 1.0, phase=none, centre=none, pot_noise=none,
-        tachometer_noise=none, link_mass=none + 1.0, friction=none,
-    )  # fmt: skip
-
-
 class Bench:
     """A robot over a plate, its hand at `START`."""
 
@@ -58,7 +50,7 @@ class Bench:
         q = solve(self.arm, START, self.arm.middle).q
         assert q is not None
         arm = SimulatedArm(
-            model, self.data, "it/", arm=self.arm, posture=q, errors=perfect(len(q)), noise=noise
+            model, self.data, "it/", arm=self.arm, posture=q, errors=ArmErrors.none(len(q)), noise=noise
         )
         cell = SimulatedCell(model, self.data, arm=arm, noise=noise)
         self.link = model.joint(f"it/j{len(q)}").bodyid[0]

@@ -1,5 +1,6 @@
 """The second task: one block is picked up and put down on a table by a small Cartesian arm that knows nothing else."""
 
+from dataclasses import replace
 from functools import cache
 from math import acos, degrees
 from pathlib import Path
@@ -127,16 +128,13 @@ def _boxes(thickness: float) -> list[tuple[list[float], float]]:
 
 
 def _errors(world: World) -> ArmErrors:
-    none, ones = np.zeros(3), np.ones(3)
-    return ArmErrors(
-        offset=np.array(world.numbered("arm.offset")), scale=none, wave=none, period=ones, phase=none, centre=none,
-        pot_noise=none, tachometer_noise=none, link_mass=ones, friction=none,
-    )  # fmt: skip
+    return replace(ArmErrors.none(3), offset=np.array(world.numbered("arm.offset")))
 
 
 def _switches() -> HandErrors:
     return HandErrors(
-        gap_offset=0.0, gap_scale=0.0, gap_noise=0.0, switch_force=(2 * OUNCE_FORCE, 2 * OUNCE_FORCE), torque_noise=0.0
+        gap_offset=0.0, gap_scale=0.0, gap_noise=0.0, gap_step=0.0,
+        switch_force=(2 * OUNCE_FORCE, 2 * OUNCE_FORCE), torque_noise=0.0,
     )  # fmt: skip
 
 

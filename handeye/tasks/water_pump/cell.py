@@ -17,7 +17,8 @@ from handeye.tasks.water_pump.device_faults import defects
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene import ARM, build
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.threads import Threads
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.judge.measured import Measured
-from handeye.tasks.water_pump.scene import ARM
+from handeye.tasks.water_pump.scene.arm import ARM
 
 FASTENER = 8
 BORE = 4

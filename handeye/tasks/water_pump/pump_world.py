@@ -5,7 +5,8 @@ from typing import Self
 
 import numpy as np
 
-from handeye.cell.device_errors import ArmErrors, CameraErrors, HandErrors
+from handeye.cell.device_errors import ArmBuild, ArmErrors, CameraErrors, HandErrors
+from handeye.pose import Array
 from handeye.tasks.water_pump.drawing import Point, screw_holes
 from handeye.tasks.water_pump.stations import stations
 from handeye.tasks.water_pump.variation import (
@@ -51,6 +52,7 @@ class PumpWorld:
     base: Placing
     """The pump base on the belt: its reference point and the direction of its line of centres, in W."""
     arm: ArmErrors
+    arm_build: ArmBuild
     hand: HandErrors
     camera: CameraErrors
     light: Light
@@ -72,6 +74,7 @@ class PumpWorld:
             drawn=world,
             base=_placing(world, "base"),
             arm=_arm(world),
+            arm_build=_arm_build(world),
             hand=_hand(world),
             camera=_camera(world),
             light=Light(
@@ -103,7 +106,7 @@ class PumpWorld:
 
     @classmethod
     def nominal(cls, screws: int = 6) -> Self:
-        """The world as the plan and the controller think it is: no error, no noise, no friction in the joints."""
+        """The world as the plan and the controller think it is: no error, noise or step, no friction in the joints."""
         seed = 0 if screws == 6 else SEVENTH
         table = variation(seed)
         everything = tuple(sorted({name.split(".")[0] for name in table.quantities}))
@@ -136,22 +139,36 @@ def _drilling(world: World, part: str) -> tuple[Point, ...]:
 
 def _arm(world: World) -> ArmErrors:
     size = np.array([UNITS[unit].size for unit in JOINT_UNITS])
-
-    def joints(name: str) -> np.ndarray:
-        return np.array(world.numbered(f"arm.{name}"))
-
     return ArmErrors(
-        offset=joints("offset"),
-        scale=joints("scale"),
-        wave=joints("wave"),
+        offset=_joints(world, "offset"),
+        scale=_joints(world, "scale"),
+        wave=_joints(world, "wave"),
         period=np.array(ARM_PERIOD) * size,
-        phase=joints("wave_phase"),
+        phase=_joints(world, "wave_phase"),
         centre=np.array(ARM_CENTRE) * size,
-        pot_noise=joints("pot_noise"),
-        tachometer_noise=joints("tachometer_noise"),
-        link_mass=1 + joints("link_mass"),
-        friction=joints("friction"),
+        pot_noise=_joints(world, "pot_noise"),
+        pot_step=_joints(world, "pot_step"),
+        tachometer_noise=_joints(world, "tachometer_noise"),
+        tachometer_step=_joints(world, "tachometer_step"),
+        torque_step=_joints(world, "torque_step"),
+        drive_gain=1 + _joints(world, "drive_gain"),
     )
+
+
+def _arm_build(world: World) -> ArmBuild:
+    return ArmBuild(
+        link_mass=1 + _joints(world, "link_mass"),
+        mass_centre=1 + _joints(world, "mass_centre"),
+        armature=1 + _joints(world, "armature"),
+        damping=1 + _joints(world, "damping"),
+        friction=_joints(world, "friction"),
+        hand_length=world["arm.hand_length"],
+    )
+
+
+def _joints(world: World, name: str) -> Array:
+    """A quantity of each joint, shape (6,)."""
+    return np.array(world.numbered(f"arm.{name}"))
 
 
 def _hand(world: World) -> HandErrors:
@@ -159,6 +176,7 @@ def _hand(world: World) -> HandErrors:
         gap_offset=world["hand.gap_offset"],
         gap_scale=world["hand.gap_scale"],
         gap_noise=world["hand.gap_noise"],
+        gap_step=world["hand.gap_step"],
         switch_force=(world["hand.switch_force.plus_y"], world["hand.switch_force.minus_y"]),
         torque_noise=world["screwdriver.torque_noise"],
     )

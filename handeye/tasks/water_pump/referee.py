@@ -13,7 +13,7 @@ from handeye.pose import yaw
 from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.overlap import Overlap, deepest
-from handeye.tasks.water_pump.scene import ARM
+from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.threads import Thread, holes_of
 from handeye.units import INCH
 

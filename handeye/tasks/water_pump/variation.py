@@ -9,8 +9,12 @@ from typing import Final
 
 import numpy as np
 
+from handeye.arm.model import constants
+from handeye.arm.robots.stanford import STANFORD
 from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
+from handeye.pose import Array
 from handeye.tasks.water_pump.stations import stations
+from handeye.units import UNITS
 from handeye.variation import Quantity, Variation
 
 JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
@@ -22,6 +26,12 @@ BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
 """Where the base lies: its reference point (in) and the direction of its line of centres (deg)."""
+SENSE_BITS: Final = 12
+"""Of the converters that potentiometers and tachometers are read by: the arm's data sheet of 1974 (reference 2)."""
+TORQUE_BITS: Final = 8
+"""Of the converters that give the drives their torques: the same sheet has "8 bits or more"."""
+_TORQUES: Final = ("N m", "N m", "N", "N m", "N m", "N m")
+_RATES: Final = ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s")
 RUBBING: Final = ("pad", "table", "part", "thread")
 DRILLED: Final = ("base", "gasket", "top")
 """The parts with screw holes, each drilled with errors of its own."""
@@ -114,37 +124,92 @@ def _arm() -> Iterator[Quantity]:
         "deg",
         "Where the waviness of the reading begins.",
     )
+    yield from _sensors()
+    yield from _drives()
+    yield from _links()
+
+
+def _sensors() -> Iterator[Quantity]:
+    k, size = constants(STANFORD), [UNITS[unit].size for unit in JOINT_UNITS]
     yield from _group(
         "arm.pot_noise", _numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
-        "Reading-to-reading noise of the potentiometers. Placeholder: far inside the .08 in repeatability of the 1974 "
-        "data sheet.",
+        "Reading-to-reading noise of the potentiometers, before the converter. Placeholder: far inside a step.",
     )  # fmt: skip
     yield from _group(
-        "arm.tachometer_noise", _numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5),
-        ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s"),
-        "Noise of the tachometers. Placeholder, after filtering: with 1/60 s it makes under .1 N of noise in the "
-        "estimated hand force.",
+        "arm.pot_step", _numbered(Fixed, *_steps((k.upper - k.lower) / size, SENSE_BITS)), JOINT_UNITS,
+        f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of 1974.",
     )  # fmt: skip
+    yield from _group(
+        "arm.tachometer_noise", _numbered(Noise, 2e-5, 2e-5, 1e-5, 2e-5, 2e-5, 2e-5), _RATES,
+        "Noise of the tachometers, before the converter. Placeholder: far inside a step.",
+    )  # fmt: skip
+    yield from _group(
+        "arm.tachometer_step", _numbered(Fixed, *_steps(2 * k.speed, SENSE_BITS)), _RATES,
+        f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
+        "Data sheet of 1974; that it reaches just the greatest speed is inferred.",
+    )  # fmt: skip
+
+
+def _drives() -> Iterator[Quantity]:
+    yield from _group(
+        "arm.torque_step", _numbered(Fixed, *_steps(2 * constants(STANFORD).effort, TORQUE_BITS)), _TORQUES,
+        f"One step of the converter that a drive gets its torque from: {TORQUE_BITS} bits over its torques in both "
+        'directions. Data sheet of 1974: "8 bits or more".',
+    )  # fmt: skip
+    yield from _group(
+        "arm.drive_gain", _numbered(Normal, *[1.0] * 6), "%",
+        "True torque of a drive over the torque put out. Placeholder: a linear current amplifier with 1 % resistors.",
+        least=-90.0,
+    )  # fmt: skip
+    friction = (0.4, 2.2, 2.0, 0.1, 0.1, 0.05)
+    yield from _group(
+        "arm.friction", _numbered(Uniform, *(mean / 4 for mean in friction)), _TORQUES,
+        "Coulomb friction of the joints, varied by a quarter. Switched off, it is the mean; set to 0, there is none. "
+        "Inferred of joints 2 and 3 from the paper, by which the released arm stays where it is: it bears what the "
+        "errors of masses, mass centres, gains and steps leave of gravity (at the parked posture, in the worst of 100 "
+        "worlds, 1.6 N m and 1.2 N). Of the wrist: it bears half a step of the torques. Of joint 1: placeholder.",
+        nominal=friction, least=0.0,
+    )  # fmt: skip
+    yield from _group(
+        "arm.damping", _numbered(Uniform, *[30.0] * 6), "%",
+        "True viscous friction of a joint over the controller's. Placeholder.", least=-90.0,
+    )  # fmt: skip
+    yield from _group(
+        "arm.armature", _numbered(Uniform, *[5.0] * 6), "%",
+        "True inertia of a drive over the controller's. Placeholder.", least=-90.0,
+    )  # fmt: skip
+
+
+def _links() -> Iterator[Quantity]:
     yield from _group(
         "arm.link_mass", _numbered(Normal, *[3.0] * 6), "%",
         "True mass of each link over the controller's. Placeholder.", least=-90.0,
     )  # fmt: skip
-    friction = (0.04, 0.04, 0.16, 0.008, 0.008, 0.004)
     yield from _group(
-        "arm.friction", _numbered(Uniform, *(mean / 2 for mean in friction)),
-        ("N m", "N m", "N", "N m", "N m", "N m"),
-        "Coulomb friction of the joints, varied by half. Switched off, it is the mean; set to 0, there is none. "
-        "Placeholder: the true arm had more and its programs knew it; this much makes about .15 N of false hand force.",
-        nominal=friction, least=0.0,
+        "arm.mass_centre", _numbered(Uniform, *[5.0] * 6), "%",
+        "True distance of each link's mass centre from its joint over the controller's. Placeholder.", least=-90.0,
     )  # fmt: skip
+    yield from _group(
+        "arm", {"hand_length": Uniform(0.02)}, "in",
+        "By how much the hand is longer than the controller believes. Placeholder.",
+    )  # fmt: skip
+
+
+def _steps(ranges: Array, bits: int) -> tuple[float, ...]:
+    """Steps of converters of so many bits over these ranges."""
+    return tuple(float(step) for step in ranges / 2**bits)
 
 
 def _hand() -> Iterator[Quantity]:
     yield from _group("hand", {"gap_offset": Normal(0.01)}, "in", "Error of the gap as read. Placeholder.")
     yield from _group("hand", {"gap_scale": Normal(0.5)}, "%", "Error of the gap as read. Placeholder.")
     yield from _group(
-        "hand", {"gap_noise": Noise(0.001)}, "in",
-        "Noise of the gap as read. Placeholder: one step of a 12-bit converter over 4.13 in.",
+        "hand", {"gap_noise": Noise(0.0003)}, "in",
+        "Noise of the gap as read, before the converter. Placeholder: a third of a step.",
+    )  # fmt: skip
+    yield from _group(
+        "hand", {"gap_step": Fixed(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
+        f"One step of the converter of the gap: {SENSE_BITS} bits over the opening. Data sheet of 1974.",
     )  # fmt: skip
     yield from _group(
         "hand.switch_force", {"plus_y": Normal(0.4), "minus_y": Normal(0.4)}, "oz",

@@ -19,7 +19,8 @@ from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes, st
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene import ARM, build
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
 from handeye.units import DEGREE, INCH
 from handeye.variation import WorldSpec

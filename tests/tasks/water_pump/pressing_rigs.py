@@ -25,7 +25,8 @@ from handeye.execution.state import DriveState
 from handeye.pose import Array, Pose, hand
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene import ARM, specification
+from handeye.tasks.water_pump.scene import specification
+from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.units import DEGREE, INCH
 
 STIFFNESS: Final = 2000.0  # N/m

@@ -104,16 +104,21 @@ def test_no_error_shares_its_name_with_a_sense() -> None:
 def test_high_errors_keep_masses_frictions_and_forces_positive() -> None:
     for seed in range(50):
         world = PumpWorld.draw(WorldSpec(seed=seed, level="high"))
-        scales = [*world.arm.link_mass, *world.friction.values(), *world.hand.switch_force, world.part_mass]
+        scales = [
+            *world.arm_build.link_mass,
+            *world.friction.values(),
+            *world.hand.switch_force,
+            world.part_mass,
+        ]
         assert min(scales) > 0
-        assert world.arm.friction.min() >= 0
+        assert world.arm_build.friction.min() >= 0
 
 
 def test_without_the_arm_the_hand_is_where_the_controller_thinks() -> None:
     world = PumpWorld.draw(WorldSpec(seed=3, overrides=Overrides(without=("arm",))))
     q = work_area()
     assert np.array_equal(world.arm.readings(q), q)
-    assert world.arm.friction == pytest.approx([0.04, 0.04, 0.16, 0.008, 0.008, 0.004])
+    assert world.arm_build.friction == pytest.approx([0.4, 2.2, 2.0, 0.1, 0.1, 0.05])
 
 
 def test_every_quantity_says_where_its_figures_come_from() -> None:

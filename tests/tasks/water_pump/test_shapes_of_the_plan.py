@@ -13,7 +13,8 @@ from handeye.program.taught import load_taught
 from handeye.program.world_model import WorldModel
 from handeye.resources import plans
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene import ARM, build
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.units import INCH
 
 TAUGHT = load_taught(plans() / "water_pump.toml")

@@ -1,15 +1,12 @@
 """The water-pump work cell as a MuJoCo model, for a given imperfect world."""
 
-import math
 from typing import Final
 
 import mujoco
-import numpy as np
 
-from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import Array, yaw
 from handeye.resources import scenes
 from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene.arm import add_arm
 from handeye.tasks.water_pump.scene.base import add_base
 from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
 from handeye.tasks.water_pump.scene.fasteners import add_pins, add_screws
@@ -19,8 +16,6 @@ from handeye.tasks.water_pump.scene.shapes import Shaper
 from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.scene.tool import add_driver
 
-ARM = "stanford/"
-"""Prefix of all names of the arm."""
 _METAL: Final = (
     "solid", "grip", "bore", "face", "hub", "shank", "threaded", "nose", "head", "base_land", "gasket_land", "top_land",
 )  # fmt: skip
@@ -34,7 +29,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     fixtures, and the arm's under `stanford/`. PumpWorld frame: the table's.
     """
     spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
-    _add_arm(spec, world)  # first: free bodies before it would shift its joints
+    add_arm(spec, world)  # first: free bodies before it would shift its joints
     shaper = Shaper(spec=spec)
     for style in _METAL:
         friction = shaper.style(style).geom.friction
@@ -56,27 +51,3 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
 def build(world: PumpWorld) -> mujoco.MjModel:
     """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
     return specification(world).compile()
-
-
-def _add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
-    """The arm on its riser, with the world's true masses, joint friction and pad friction."""
-    arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
-    for number, (mass, friction) in enumerate(zip(world.arm.link_mass, world.arm.friction, strict=True), 1):
-        link = arm.body(f"link{number}")
-        link.mass *= mass
-        link.inertia = _possible(link.inertia * mass)
-        arm.joint(f"j{number}").frictionloss = friction
-    for pad in (arm.geom("pad_a"), arm.geom("pad_b")):
-        pad.friction[0] *= world.friction["pad"]
-    turn = yaw(STANFORD.X_WB)
-    frame = spec.worldbody.add_frame(
-        pos=STANFORD.X_WB[:3, 3].tolist(), quat=[math.cos(turn / 2), 0.0, 0.0, math.sin(turn / 2)]
-    )
-    spec.attach(arm, frame=frame, prefix=ARM)
-
-
-def _possible(moments: Array) -> Array:
-    """Principal moments, the greatest no more than the others together, where rounding makes it so of a flat body."""
-    greatest = int(np.argmax(moments))
-    moments[greatest] = min(moments[greatest], np.delete(moments, greatest).sum())
-    return moments

@@ -1,0 +1,50 @@
+"""The arm on its riser, as it was really built."""
+
+import math
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.device_errors import ArmBuild
+from handeye.pose import Array, yaw
+from handeye.resources import scenes
+from handeye.tasks.water_pump.pump_world import PumpWorld
+
+ARM: Final = "stanford/"
+"""Prefix of all names of the arm."""
+
+
+def add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
+    """The arm on its riser, as it was really built, and with the world's pad friction."""
+    arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
+    _differ(arm, world.arm_build)
+    for pad in (arm.geom("pad_a"), arm.geom("pad_b")):
+        pad.friction[0] *= world.friction["pad"]
+    turn = yaw(STANFORD.X_WB)
+    frame = spec.worldbody.add_frame(
+        pos=STANFORD.X_WB[:3, 3].tolist(), quat=[math.cos(turn / 2), 0.0, 0.0, math.sin(turn / 2)]
+    )
+    spec.attach(arm, frame=frame, prefix=ARM)
+
+
+def _differ(arm: mujoco.MjSpec, build: ArmBuild) -> None:
+    """Make of the arm as drawn the one that was built."""
+    for i, friction in enumerate(build.friction):
+        link, joint = arm.body(f"link{i + 1}"), arm.joint(f"j{i + 1}")
+        link.mass *= build.link_mass[i]
+        link.inertia = _possible(link.inertia * build.link_mass[i])
+        link.ipos *= build.mass_centre[i]
+        joint.armature *= build.armature[i]
+        joint.damping *= build.damping[i]
+        joint.frictionloss = friction
+    for tip in (arm.body("finger_a"), arm.body("finger_b"), arm.site("tool")):
+        tip.pos[2] += build.hand_length
+
+
+def _possible(moments: Array) -> Array:
+    """Principal moments, the greatest no more than the others together, where rounding makes it so of a flat body."""
+    greatest = int(np.argmax(moments))
+    moments[greatest] = min(moments[greatest], np.delete(moments, greatest).sum())
+    return moments

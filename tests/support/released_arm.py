@@ -1,0 +1,46 @@
+"""The arm of a drawn world, with nothing around it: let go of where it is parked, and perhaps pushed at its hand."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from handeye.arm.robots.stanford import STANFORD
+from handeye.cell.arm import SimulatedArm
+from handeye.cell.simulated import SimulatedCell
+from handeye.execution.drive import ArmDrive
+from handeye.execution.state import DriveState
+from handeye.pose import Array
+from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene.arm import ARM, add_arm
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drift:
+    """How far a released arm has gone."""
+
+    joints: Array
+    """rad, m, shape (6,)"""
+    hand: float
+    """m"""
+
+
+def let_go(world: PumpWorld, seconds: float, push: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Drift:
+    """Let go of the arm of a world while its hand is pushed (N, along the axes of W), and see how far it goes."""
+    spec = mujoco.MjSpec()
+    spec.option.timestep = 1 / 960
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    add_arm(spec, world)
+    model = spec.compile()
+    data, noise = mujoco.MjData(model), world.generator("sensors")
+    arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
+    cell = SimulatedCell(model, data, arm=arm, noise=noise)
+    drive = ArmDrive(
+        cell=cell.devices, arm=STANFORD, state=DriveState.holding(cell.devices.sense(), STANFORD)
+    )
+    hand = data.site(f"{ARM}tool").xpos.copy()
+    data.xfrc_applied[arm.last_link, :3] = push
+    drive.float(seconds)
+    away = np.linalg.norm(data.site(f"{ARM}tool").xpos - hand)
+    return Drift(joints=np.abs(data.qpos[arm.qpos] - PARK), hand=float(away))
