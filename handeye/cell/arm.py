@@ -18,7 +18,10 @@ from handeye.ports.arm import ArmPort, ArmReading
 from handeye.pose import Array
 from handeye.record import Record
 
-_BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))  # creeps under .01 deg in 10 s
+_BRAKE_STIFFNESS: Final = (
+    (0.004, 1.0),
+    (0.999, 0.9999, 0.001, 0.5, 2.0),
+)  # creeps under .01 deg in 10 s, in coarse steps, too
 
 
 class ArmState(Record, frozen=True, kw_only=True):
@@ -89,6 +92,10 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
 
     def read(self) -> ArmReading:
         return self._reading
+
+    @property
+    def still(self) -> bool:
+        return self._braked
 
     def drive(self, torque: Array | None) -> None:
         if torque is not None:

@@ -23,6 +23,10 @@ from handeye.ports.workcell import Workcell
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 """MuJoCo's integration state: enough to continue from a state."""
+_COARSE: Final = 4
+"""Physics steps in one while the cell is quiet: a brake creeps twice as much in such a step, under .01 deg in 10 s."""
+_STILL: Final = 2e-3
+"""Speed, rad/s or m/s, up to which a coarse step may be made: a touch in it would be .008 mm deep."""
 
 
 class SimulationError(HandeyeError):
@@ -118,12 +122,31 @@ class SimulatedCell(Clock):
         steps = whole_steps(seconds, self._model.opt.timestep)
         for part in self._mechanisms:
             part.before(seconds)
-        mujoco.mj_step(self._model, self._data, steps)
-        warnings = np.flatnonzero(self._data.warning.number)
-        if warnings.size:
-            kind = mujoco.mjtWarning(int(warnings[0])).name
+        if steps % _COARSE == 0 and self._quiet():
+            self._step_coarsely(steps // _COARSE)
+        else:
+            mujoco.mj_step(self._model, self._data, steps)
+        warnings = self._data.warning.number
+        if warnings.any():
+            kind = mujoco.mjtWarning(int(np.argmax(warnings != 0))).name
             raise SimulationError(kind)
         self._read()
+
+    def _quiet(self) -> bool:
+        """Nothing is driven, touches or moves, so that a coarse step does what fine ones would."""
+        data = self._data
+        return (
+            data.ncon == 0
+            and all(part.still for part in self._mechanisms)
+            and float(np.abs(data.qvel).max()) < _STILL
+        )
+
+    def _step_coarsely(self, steps: int) -> None:
+        options = self._model.opt
+        fine = options.timestep
+        options.timestep = _COARSE * fine
+        mujoco.mj_step(self._model, self._data, steps)
+        options.timestep = fine
 
     def _read(self) -> None:
         for part in self._mechanisms:

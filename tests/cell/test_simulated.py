@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -75,6 +76,38 @@ def test_reading_twice_in_a_tick_gives_the_same() -> None:
 def test_brakes_hold_the_arm_for_ten_seconds(cell: SimulatedCell) -> None:
     before = cell.devices.sense().q
     assert np.abs(run(cell, BRAKED, 600).q - before).max() < 0.01 * DEGREE
+
+
+@pytest.fixture
+def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Physics steps of every servo period from now on."""
+    taken: list[int] = []
+    step = mujoco.mj_step
+
+    def counted(model: mujoco.MjModel, data: mujoco.MjData, number: int) -> None:
+        taken.append(number)
+        step(model, data, number)
+
+    monkeypatch.setattr(mujoco, "mj_step", counted)
+    return taken
+
+
+def test_time_passes_in_coarse_steps_while_braked_and_quiet(cell: SimulatedCell, steps: list[int]) -> None:
+    run(cell, BRAKED, 60)
+    assert steps[-1] == 4
+    assert cell.now == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_driven_arm_takes_every_step(cell: SimulatedCell, steps: list[int]) -> None:
+    run(cell, BRAKED, 60)
+    run(cell, LOOSE, 1)
+    assert steps[-1] == 16
+
+
+def test_moving_fingers_take_every_step(cell: SimulatedCell, steps: list[int]) -> None:
+    run(cell, BRAKED, 60)
+    run(cell, replace(BRAKED, gap=3 * INCH), 5)
+    assert steps[-1] == 16
 
 
 def test_without_brakes_or_torque_the_arm_falls(cell: SimulatedCell) -> None:
