@@ -10,12 +10,14 @@ import numpy as np
 from handeye.cell.device_errors import CameraErrors
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.raster import HALF
 from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
+from handeye.pose import Array
 from handeye.record import Record
 from handeye.vision.camera_model import CameraModel, View
 
@@ -64,6 +66,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         self._rng = rng
         self._renderer = renderer
         self._pot_noise = errors.pot_noise
+        self._raster, self._drift = errors.raster, errors.drift
         self._model = true_camera(errors, drawing)
         self._vidicon = Vidicon(rng)
         self._lens = self._model.lens(FIRST_LENS).focal_length
@@ -103,10 +106,14 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
 
     def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
         view = self.true_view()
-        light = self._renderer.render(self._data, view)
+        light = self._raster.read(self._renderer.render(self._data, view), self._drifted())
         disc = blur_disc(self._lens, self._focus, self._sight(view))
         picture = self._vidicon.expose(light, disc=disc, hold_target=hold_target)
         return self._lines.carried_picture(picture), DIGITISE
+
+    def _drifted(self) -> Array:
+        """Where the next picture lies, points: nothing moves between two pictures but this."""
+        return np.asarray(self._rng.normal(0.0, self._drift, 2) * HALF) if self._drift else np.zeros(2)
 
     @property
     def renderer(self) -> Renderer:
@@ -139,6 +146,10 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         """True view at present. For the referee and for tests: the program has `pots` only."""
         return self._model.view(self._lens, *self._stand)
 
+    def shown(self, points_W: Array) -> Array:
+        """True picture points, shape (n, 2), of points, shape (n, 3), m, but for the drift. For referee and tests."""
+        return self._raster.shown(self.true_view().project(points_W))
+
     def _sight(self, view: View) -> float:
         """Distance along the line of sight of what is in the middle of the picture, m."""
         X_WC = view.X_WC
@@ -156,7 +167,15 @@ def true_camera(errors: CameraErrors, drawing: CameraModel) -> CameraModel:
         tilt0=drawing.tilt0 + tilt,
         roll=drawing.roll + roll,
         lenses=tuple(
-            replace(lens, scale=lens.scale * scale)
-            for lens, scale in zip(drawing.lenses, errors.focal_scale, strict=True)
+            replace(
+                lens,
+                scale=lens.scale * scale,
+                forward=lens.forward + forward,
+                side=lens.side + side,
+                up=lens.up + up,
+            )
+            for lens, scale, (forward, side, up) in zip(
+                drawing.lenses, errors.focal_scale, errors.lens_place, strict=True
+            )
         ),
     )

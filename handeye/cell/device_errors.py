@@ -5,6 +5,7 @@ from typing import Self
 
 import numpy as np
 
+from handeye.cell.raster import Raster
 from handeye.pose import Array
 
 
@@ -102,5 +103,10 @@ class CameraErrors:
     """Error of pan, tilt and roll, rad."""
     focal_scale: tuple[float, float]
     """True over nominal focal length of the 25 mm and the 50 mm lens."""
+    lens_place: tuple[tuple[float, float, float], tuple[float, float, float]]
+    """Error of the place of either lens: forwards, to the right and upwards in its picture, m."""
     pot_noise: float
     """Sigma of the pan and tilt readings, rad."""
+    raster: Raster
+    drift: float
+    """Sigma of where a picture lies, along its lines and across, over half its length and height."""

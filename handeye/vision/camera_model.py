@@ -33,6 +33,8 @@ class LensModel:
     """m, from the crossing of the pan and tilt axes to the centre of projection, along the line of sight."""
     up: float
     """m, the same, upwards in the picture."""
+    side: float = 0.0
+    """m, the same, to the right in the picture. Calibration leaves it as drawn: it looks like an error of pan."""
 
     def __post_init__(self) -> None:
         """Raises ValueError if no lens is such: what is read from a file would ask for pictures without end."""
@@ -117,7 +119,8 @@ class View:
         down = np.cross(forward, level)
         c, s = math.cos(roll), math.sin(roll)
         right, down = c * level + s * down, c * down - s * level
-        centre = np.asarray(self.model.mount) + self.lens.forward * forward - self.lens.up * down
+        lens = self.lens
+        centre = np.asarray(self.model.mount) + lens.forward * forward + lens.side * right - lens.up * down
         return pose(np.column_stack([right, down, forward]), centre)
 
     def project(self, points_W: Array) -> Array:

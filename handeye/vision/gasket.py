@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Picture
@@ -69,9 +70,11 @@ class GasketInspection:
         return self.cause is None
 
 
-def difference(before: Picture, after: Picture) -> Picture:
-    """|after - before| at every point."""
-    return np.abs(after.astype(np.int16) - before.astype(np.int16)).astype(np.uint8)
+def difference(before: Picture, after: Picture) -> NDArray[np.float32]:
+    """|after - before| at every point of the first, with what has not changed in one place."""
+    from handeye.vision.alignment import aligned  # takes OpenCV, without which plans are made
+
+    return np.abs(aligned(after, to=before) - before.astype(np.float32))
 
 
 def inspect(
@@ -80,7 +83,7 @@ def inspect(
     """Compare pictures of a part at `pose` (x, y m, yaw rad) before and after a gasket was put on it.
 
     Both must be taken with one aim and one target voltage, and with the arm in one place: its shadow is the
-    main enemy.
+    main enemy. The second is aligned with the first by what has not changed in it.
 
     Raises:
         InvalidInput: the program does not give two holes of the part.

@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 
 from handeye.ports.camera import Picture
+from handeye.vision.alignment import aligned
 
 LEVEL: Final = 3.0
 """Least mean difference over 3 x 3 points: six times the noise of such a mean."""
@@ -15,7 +16,7 @@ RADIUS: Final = 10
 
 def find_spot(dark_picture: Picture, lit_picture: Picture) -> tuple[float, float] | None:
     """Centre (u, v) of the spot that only the lit picture has, or None if there is none, or more than one."""
-    difference = lit_picture.astype(np.float32) - dark_picture.astype(np.float32)
+    difference = lit_picture.astype(np.float32) - aligned(dark_picture, to=lit_picture)
     smooth = cv2.blur(difference, (3, 3))
     v, u = np.unravel_index(int(np.argmax(smooth)), smooth.shape)
     if smooth[v, u] < LEVEL:

@@ -1,12 +1,14 @@
 """The world of the pump by its devices and parts: what the simulated cell is built from."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Self
 
 import numpy as np
 
 from handeye.cell.device_errors import ArmBuild, ArmErrors, CameraErrors, HandErrors
-from handeye.pose import Array
+from handeye.cell.raster import Raster
+from handeye.pose import Array, Pose, pose, rotation, rotation_x, rotation_z
+from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point, screw_holes
 from handeye.tasks.water_pump.stations import stations
 from handeye.tasks.water_pump.variation import (
@@ -16,6 +18,7 @@ from handeye.tasks.water_pump.variation import (
     JOINT_UNITS,
     RUBBING,
     SEVENTH,
+    STOOD,
     screws,
     variation,
 )
@@ -37,11 +40,20 @@ class Light:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placing:
-    """An error of place: m and rad."""
+    """An error of place, m, and of turn, rad: about z, then about the y and x that have turned with it."""
 
     x: float = 0.0
     y: float = 0.0
+    z: float = 0.0
     yaw: float = 0.0
+    pitch: float = 0.0
+    roll: float = 0.0
+
+    def about(self, x: float, y: float, z: float = 0.0) -> Pose:
+        """How it moves what is fixed to a thing that is wrong by this, and turned about a point, m."""
+        R = rotation_z(self.yaw) @ rotation(np.array([0.0, self.pitch, 0.0])) @ rotation_x(self.roll)
+        p, error = np.array([x, y, z]), np.array([self.x, self.y, self.z])
+        return pose(R, p + error - R @ p)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,6 +70,10 @@ class PumpWorld:
     light: Light
     fixtures: dict[str, Placing]
     """Error of each fixture."""
+    parts: dict[str, Placing]
+    """Error of each part's place on its fixture, by its body; pins have none."""
+    lamp: tuple[float, float, float]
+    """Error of the lamp's place on the hand, in T, m."""
     holes: dict[str, tuple[Point, ...]]
     """Error of each screw hole of a part, m, by the names in DRILLED; the base's are the tapped ones."""
     part_mass: float
@@ -84,6 +100,8 @@ class PumpWorld:
                 ambient=world["light.ambient"],
             ),
             fixtures={station: _placing(world, f"fixtures.{station}") for station in stations()},
+            parts=_parts(world),
+            lamp=(world["hand.lamp.x"], world["hand.lamp.y"], world["hand.lamp.z"]),
             holes={part: _drilling(world, part) for part in DRILLED},
             part_mass=1 + world["part_mass"],
             friction={name: 1 + world[f"friction.{name}"] for name in RUBBING},
@@ -129,7 +147,26 @@ class PumpWorld:
 
 
 def _placing(world: World, name: str) -> Placing:
-    return Placing(x=world[f"{name}.x"], y=world[f"{name}.y"], yaw=world[f"{name}.yaw"])
+    """The error of a name; what its quantities do not speak of is right."""
+    ways = (field.name for field in fields(Placing))
+    return Placing(**{way: world.values.get(f"{name}.{way}", 0.0) for way in ways})
+
+
+def _parts(world: World) -> dict[str, Placing]:
+    d = dimensions()
+    screws_play = d("dispenser.hole_radius") - d("screw.shank_radius")
+    screws_of = range(1, screws(world.spec.seed) + 1)
+    return {
+        **{part: _placing(world, f"parts.{part}") for part in STOOD},
+        "driver": _in_play(world, "parts.driver", d("rack.play")),
+        **{f"screw{k - 1}": _in_play(world, f"parts.screws.{k}", screws_play) for k in screws_of},
+    }
+
+
+def _in_play(world: World, name: str, play: float) -> Placing:
+    """The error of a name whose place is told in shares of a play, m."""
+    share = _placing(world, name)
+    return replace(share, x=share.x * play, y=share.y * play)
 
 
 def _drilling(world: World, part: str) -> tuple[Point, ...]:
@@ -191,4 +228,14 @@ def _camera(world: World) -> CameraErrors:
         turn=three("turn", "pan", "tilt", "roll"),
         focal_scale=(1 + world["camera.focal_length.25mm"], 1 + world["camera.focal_length.50mm"]),
         pot_noise=world["camera.pot_noise"],
+        lens_place=(
+            three("lens_place.25mm", "forward", "side", "up"),
+            three("lens_place.50mm", "forward", "side", "up"),
+        ),
+        raster=Raster(
+            pincushion=world["camera.raster.pincushion"],
+            lines=world["camera.raster.lines"],
+            field=world["camera.raster.field"],
+        ),
+        drift=world["camera.raster.drift"],
     )

@@ -35,6 +35,8 @@ _RATES: Final = ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s")
 RUBBING: Final = ("pad", "table", "part", "thread")
 DRILLED: Final = ("base", "gasket", "top")
 """The parts with screw holes, each drilled with errors of its own."""
+STOOD: Final = ("gasket", "top")
+"""The parts that a person puts on a stand, which holds them by nothing but friction."""
 SEVENTH: Final = 7_000_000
 """The first seed whose pump has seven screws. Chosen: no other worlds are drawn from so far up."""
 
@@ -47,6 +49,8 @@ _READING: Final = (
     "section 4."
 )
 _VISION: Final = "Vision study, verdict 1."
+IN_PLAY: Final = 70.0
+"""%, of its play, that a thing can be off along either axis: it stays clear of the corners of what it stands in."""
 
 
 def screws(seed: int) -> int:
@@ -74,12 +78,13 @@ def _group(
     *,
     nominal: Sequence[float] | float = 0.0,
     least: float = -np.inf,
+    greatest: float = np.inf,
 ) -> Iterator[Quantity]:
     """Quantities that one source speaks of; those that are sizes are never less than nothing."""
     units = [unit] * len(components) if isinstance(unit, str) else unit
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
-        most = _MOST[its]
+        most = min(greatest, _MOST[its])
         low = 0.0 if isinstance(distribution, Noise | Fixed) else max(least, -most)
         yield Quantity(
             name=f"{group}.{name}",
@@ -217,6 +222,11 @@ def _hand() -> Iterator[Quantity]:
         nominal=2.0, least=0.0,
     )  # fmt: skip
     yield from _group(
+        "hand.lamp", {axis: Normal(0.03) for axis in "xyz"}, "in",
+        "Where the lamp is on the hand, against the drawing that the program calibrates its camera with, in the hand's "
+        "frame. Placeholder: screwed on by hand.",
+    )  # fmt: skip
+    yield from _group(
         "screwdriver",
         {"torque_noise": Noise(0.004)},
         "N m",
@@ -244,6 +254,21 @@ def _camera() -> Iterator[Quantity]:
         "camera", {"pot_noise": Noise(0.07)}, "deg",
         "Noise of the pan and tilt readings. Vision study: .07-.10 reproduces 1973.",
     )  # fmt: skip
+    for lens in ("25mm", "50mm"):
+        yield from _group(
+            f"camera.lens_place.{lens}", {way: Normal(0.1) for way in ("forward", "side", "up")}, "in",
+            "Where the middle of the lens is, against the drawing. Placeholder: the turret's own offset is one.",
+        )  # fmt: skip
+    yield from _group(
+        "camera.raster", {"pincushion": Normal(0.5), "lines": Normal(0.4), "field": Normal(0.4)}, "%",
+        "Shape of the raster: how far a corner is drawn in, over its distance from the middle, and how far the middle "
+        "of lines and of the field is off, over half their length. Honesty study, finding 10: 1 % at the corners.",
+    )  # fmt: skip
+    yield from _group(
+        "camera.raster", {"drift": Noise(0.3)}, "%",
+        "How far each picture lies off the one before, over half its length and height: half a point. The paper speaks "
+        "of a slight shift between two pictures; vision study, section 4: up to a point.",
+    )  # fmt: skip
 
 
 def _light() -> Iterator[Quantity]:
@@ -263,8 +288,12 @@ def _light() -> Iterator[Quantity]:
 def _fixtures() -> Iterator[Quantity]:
     for station in stations():
         yield from _group(
-            f"fixtures.{station}", {"x": Normal(0.02), "y": Normal(0.02), "yaw": Normal(0.2)},
-            ("in", "in", "deg"), "Where the fixture stands against its drawing. Placeholder.",
+            f"fixtures.{station}",
+            {"x": Normal(0.02), "y": Normal(0.02), "z": Normal(0.01), "yaw": Normal(0.2), "pitch": Normal(0.1),
+             "roll": Normal(0.1)},
+            ("in", "in", "in", "deg", "deg", "deg"),
+            "Where the fixture stands against its drawing, how high, and how it tilts. Placeholder: set up with a "
+            "rule, a square and a spirit level.",
         )  # fmt: skip
 
 
@@ -279,6 +308,22 @@ def _holes(count: int) -> Iterator[Quantity]:
 
 
 def _parts(count: int) -> Iterator[Quantity]:
+    for part in STOOD:
+        yield from _group(
+            f"parts.{part}", {"x": Uniform(0.03), "y": Uniform(0.03), "yaw": Uniform(1.0)}, ("in", "in", "deg"),
+            "Where a person has put the part on its stand, against the drawing. Honesty study, finding 9.",
+        )  # fmt: skip
+    for thing in ("driver", *(f"screws.{screw}" for screw in range(1, count + 1))):
+        yield from _group(
+            f"parts.{thing}", {axis: Uniform(IN_PLAY / 2) for axis in "xy"}, "%",
+            "Where it is within the play that guides or hole leave it. Even, so far that it stays within them at the "
+            "high level too. A pin has none: the bevel that it stands in puts it in the middle.",
+            greatest=IN_PLAY,
+        )  # fmt: skip
+    yield from _group(
+        "parts.driver", {"yaw": Uniform(0.3)}, "deg",
+        "Turn of the screwdriver in its guides. What their play allows beside its place.", greatest=0.6,
+    )  # fmt: skip
     yield Quantity(
         name="part_mass", unit="%", distribution=Normal(2.0), limits=(-90.0, _MOST["%"]),
         source="Masses of base and top over those of the drawing. Placeholder.",

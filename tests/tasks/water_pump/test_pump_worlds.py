@@ -9,12 +9,15 @@ import pytest
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
+from handeye.judge.measured import Measured, tilt
 from handeye.pose import Array, hand
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.overlap import deepest
+from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
 from handeye.tasks.water_pump.scene import build
-from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, variation
+from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, STOOD, variation
 from handeye.units import DEGREE, INCH
-from handeye.variation import Overrides, WorldSpec
+from handeye.variation import Level, Overrides, WorldSpec
 
 NEAR = np.array([-25.0, 105.0, 0.0, 0.0, 75.0, 20.0]) * DEGREE + np.array([0, 0, 31 * INCH, 0, 0, 0])
 
@@ -81,7 +84,7 @@ def test_noise_streams_of_a_world_are_independent() -> None:
 def test_from_the_seventh_screw_on_the_world_has_one_more_hole_and_thread() -> None:
     more = variation(SEVENTH).quantities.keys() - variation(SEVENTH - 1).quantities.keys()
     holes = {f"holes.{part}.7.{axis}" for part in DRILLED for axis in "xy"}
-    assert more == {*holes, "thread_phase.7"}
+    assert more == {*holes, "thread_phase.7", "parts.screws.7.x", "parts.screws.7.y"}
 
 
 @pytest.mark.slow
@@ -99,6 +102,27 @@ def test_every_quantity_reaches_the_world(seed: int) -> None:
 def test_no_error_shares_its_name_with_a_sense() -> None:
     first = {name.split(".")[0] for name in variation(0).quantities}
     assert not first & {"sight", "vision", "touch", "force", "search"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("level", ["nominal", "high"])
+def test_no_part_starts_in_another(level: Level) -> None:
+    for seed in range(3):
+        truth = build_cell(PumpWorld.draw(WorldSpec(seed=seed, level=level)), camera="ray").truth
+        assert max(overlap.depth for overlap in deepest(Measured(truth))) < 1e-6
+
+
+def test_a_person_puts_gasket_and_top_down_within_three_hundredths_and_a_degree() -> None:
+    found = [PumpWorld.sample(seed).parts[part] for seed in range(100) for part in STOOD]
+    places = np.array([(part.x / INCH, part.y / INCH, part.yaw / DEGREE) for part in found])
+    assert np.abs(places).max(axis=0) == pytest.approx((0.03, 0.03, 1.0), rel=0.05)
+
+
+def test_a_placing_turns_a_thing_about_its_point_and_tilts_it() -> None:
+    error = Placing(x=0.001, z=0.002, yaw=0.01, pitch=0.003, roll=-0.004)
+    X = error.about(0.5, 0.3)
+    assert pytest.approx((0.501, 0.3, 0.002, 1.0)) == X @ (0.5, 0.3, 0.0, 1.0)
+    assert tilt(X) == pytest.approx(0.005, rel=1e-3)
 
 
 def test_high_errors_keep_masses_frictions_and_forces_positive() -> None:

@@ -66,7 +66,9 @@ def test_a_new_station_moves_no_other_quantity(monkeypatch: pytest.MonkeyPatch) 
     after = task().variation(3).draw(WorldSpec(seed=3)).values
     variation._variation.cache_clear()
     assert {name: after[name] for name in before} == before
-    assert set(after) - set(before) == {f"fixtures.tool_tray.{axis}" for axis in ("x", "y", "yaw")}
+    assert set(after) - set(before) == {
+        f"fixtures.tool_tray.{axis}" for axis in ("x", "y", "z", "yaw", "pitch", "roll")
+    }
 
 
 @pytest.mark.usefixtures("tray")

@@ -20,6 +20,7 @@ def add_arm(spec: mujoco.MjSpec, world: PumpWorld) -> None:
     """The arm on its riser, as it was really built, and with the world's pad friction."""
     arm = mujoco.MjSpec.from_file(str(scenes() / "stanford_arm" / "stanford.xml"))
     _differ(arm, world.arm_build)
+    arm.geom("lamp").pos += world.lamp  # in the frame of link 6, whose axes are those of the hand
     for pad in (arm.geom("pad_a"), arm.geom("pad_b")):
         pad.friction[0] *= world.friction["pad"]
     turn = yaw(STANFORD.X_WB)

@@ -18,7 +18,9 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     d = dimensions()
     (x, y), turn, thick = d.all("gasket_stand.grasp"), d("standard.yaw"), d("gasket.thickness")
     fixture = add_gasket_stand(shaper, world)
-    body = fixture.stand(shaper, "gasket", x + web_centre(), y, d("gasket_stand.height"), turn)
+    body = fixture.stand(
+        shaper, "gasket", x + web_centre(), y, d("gasket_stand.height"), turn, world.parts["gasket"]
+    )
     # The moments are those of the mass that the contacts need, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
     hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
@@ -37,7 +39,7 @@ def add_top(shaper: Shaper, world: PumpWorld) -> None:
     d = dimensions()
     (x, y), turn, flange = d.all("top_stand.grasp"), d("standard.yaw"), d("top.flange")
     fixture = add_top_stand(shaper, world)
-    body = fixture.stand(shaper, "top", x, y, d("top_stand.height"), turn)
+    body = fixture.stand(shaper, "top", x, y, d("top_stand.height"), turn, world.parts["top"])
     moments = [world.part_mass * value for value in (1e-3, 1.6e-3, 2.3e-3)]
     body_inertia(body, d("top.mass") * world.part_mass, d.all("top.mass_centre"), moments)
     _add_flange(shaper, body, d, world.drilled("top"))

@@ -53,7 +53,7 @@ def add_screws(shaper: Shaper, world: PumpWorld) -> None:
     """The dispenser, and a free screw for each hole, hanging by its head in it; its origin is at its point."""
     d = dimensions()
     height, length, (x, y) = d("dispenser.height"), d("screw.length"), d.all("dispenser.place")
-    hole = Bore(radius=0.0034, outer=0.0095, height=0.010, above=0.0015)
+    hole = Bore(radius=d("dispenser.hole_radius"), outer=0.0095, height=0.010, above=0.0015)
     fixture = add_fixture(shaper, world, Station.DISPENSER, (x, y))
     beyond = (world.screws - 6) * d("dispenser.pitch")
     low, high = (x - 0.019, y - 0.064), (x + 0.019, y + 0.064 + beyond)
@@ -63,7 +63,9 @@ def add_screws(shaper: Shaper, world: PumpWorld) -> None:
         shaper.box(
             fixture.body, "seat", (px - 0.008, py - 0.008, height - 0.010), (px + 0.008, py + 0.008, height)
         )
-        _add_screw(shaper, fixture.stand(shaper, f"screw{number}", px, py, height - length), number)
+        name = f"screw{number}"
+        body = fixture.stand(shaper, name, px, py, height - length, error=world.parts[name])
+        _add_screw(shaper, body, number)
     shaper.box(fixture.body, "solid", (*low, 0.0), (*high, height - length - 0.002))
     block = solids.drilled((*low, *high), height, places, hole.radius, 0.02, hole.above)
     shaper.look(fixture.body, "screw_dispenser", "enamel", block)

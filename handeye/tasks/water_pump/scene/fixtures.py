@@ -1,18 +1,20 @@
 """Fixtures on the table, each off its nominal place by the world's error: blocks, stands, rack."""
 
-import math
 from dataclasses import dataclass
+from typing import Final
 
 import mujoco
 import numpy as np
 
 from handeye.cell.looks import SEEN
-from handeye.pose import Pose, inverse, planar, yaw
+from handeye.pose import Array, Pose, planar
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point
-from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
 from handeye.tasks.water_pump.scene.shapes import Shaper
 from handeye.tasks.water_pump.stations import Station, plain_stations
+
+EXACT: Final = Placing()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,31 +25,33 @@ class Fixture:
     X_WF: Pose
     """Nearly the identity: the error of place, about the fixture's middle."""
 
-    def place(self, x: float, y: float, z: float = 0.0, turn: float = 0.0) -> Pose:
-        """The true pose of what nominally stands at (x, y, z) with yaw `turn` (m, rad)."""
-        return self.X_WF @ planar(x, y, z, turn)
-
     def stand(
-        self, shaper: Shaper, name: str, x: float, y: float, z: float, turn: float = 0.0
+        self,
+        shaper: Shaper,
+        name: str,
+        x: float,
+        y: float,
+        z: float,
+        turn: float = 0.0,
+        error: Placing = EXACT,
     ) -> mujoco.MjsBody:
-        """A free body that starts on this fixture, at a nominal place."""
-        X = self.place(x, y, z, turn)
-        body = shaper.spec.worldbody.add_body(name=name, pos=X[:3, 3].tolist(), quat=upright(yaw(X)))
+        """A free body that starts on this fixture, but for an error at a nominal place and yaw `turn` (m, rad)."""
+        X = self.X_WF @ error.about(x, y, z) @ planar(x, y, z, turn)
+        body = _body(shaper, name, X)
         body.add_freejoint(name=name)
         return body
 
 
-def upright(angle: float) -> list[float]:
-    """Quaternion of a turn about the vertical."""
-    return [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]
+def _body(shaper: Shaper, name: str, X_WB: Pose) -> mujoco.MjsBody:
+    quat: Array = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, X_WB[:3, :3].ravel())
+    return shaper.spec.worldbody.add_body(name=name, pos=X_WB[:3, 3].tolist(), quat=quat.tolist())
 
 
 def add_fixture(shaper: Shaper, world: PumpWorld, station: str, middle: Point) -> Fixture:
     """An empty fixture; `middle` (m) is what its error turns about."""
-    error = world.fixtures[station]
-    X = planar(middle[0] + error.x, middle[1] + error.y, 0.0, error.yaw) @ inverse(planar(*middle, 0.0, 0.0))
-    body = shaper.spec.worldbody.add_body(name=station, pos=X[:3, 3].tolist(), quat=upright(yaw(X)))
-    return Fixture(body=body, X_WF=X)
+    X = world.fixtures[station].about(*middle)
+    return Fixture(body=_body(shaper, station, X), X_WF=X)
 
 
 def add_blocks(shaper: Shaper, world: PumpWorld) -> None:

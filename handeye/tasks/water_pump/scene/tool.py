@@ -16,7 +16,7 @@ def add_driver(shaper: Shaper, world: PumpWorld) -> None:
     fixture = add_fixture(shaper, world, Station.RACK, (x, y))
     _add_rack(shaper, fixture)
     half, high = d("driver.width") / 2, d("driver.height") / 2
-    body = fixture.stand(shaper, "driver", x, y, d("rack.height") + high)
+    body = fixture.stand(shaper, "driver", x, y, d("rack.height") + high, error=world.parts["driver"])
     body_inertia(body, d("driver.mass"), (0.0, 0.0, 0.0), (3e-4, 3e-4, 8e-5))
     shaper.box(body, "grip", (-half, -half, -high), (half, half, high), "red", "driver").group = 2
     for z in (-high * 0.93, high * 0.93):
