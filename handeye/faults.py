@@ -142,6 +142,15 @@ class Catalogue:
         )
         raise InvalidInput(f"there is no fault {quoted(name)}; {near}")
 
+    def select(self, name: str) -> tuple[FaultKind, ...]:
+        """The fault of a name, or those of a group.
+
+        Raises:
+            InvalidInput: there is neither.
+        """
+        found = tuple(kind for kind in self.kinds.values() if f"{kind.name}.".startswith(f"{name}."))
+        return found or (self.kind(name),)
+
     def check(self, faults: Sequence[Fault]) -> None:
         """Make sure that a run can be given these faults.
 

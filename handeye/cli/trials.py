@@ -3,18 +3,30 @@
 import re
 import tempfile
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, WholeNumber, compiled, say
-from handeye.cli.world_options import ANY_ERRORS, ANY_WORLD, ErrorOptions, WorldOptions
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_line, say
+from handeye.cli.world_options import (
+    ANY_ERRORS,
+    ANY_WORLD,
+    ErrorOptions,
+    Faults,
+    WorldOptions,
+    broken,
+    stage_of,
+)
 from handeye.errors import InvalidInput
 from handeye.files import Kind, check_place, write_over
 from handeye.runs.scripts import default_script
 from handeye.tasks import task
 from handeye.variation import WorldSpec
 
+if TYPE_CHECKING:
+    from handeye.trials.faults import FaultTrial
+
+OUTCOMES: Final = Kind("list of outcomes", rb'\{"fault":')
 RESULTS: Final = Kind("list of results", rb'\{"assembled":')
 
 
@@ -25,6 +37,7 @@ def register(app: App) -> None:
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")
+    trials.command(fault_trials, name="faults")
     app.command(trials)
 
 
@@ -32,6 +45,7 @@ def assembly_trials(
     *,
     seeds: Annotated[str, Parameter(help="Worlds to try: a range such as 0-19, or one number.")] = "0-19",
     errors: ErrorOptions = ANY_ERRORS,
+    fault: Faults = None,
     jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
     camera: Camera = "auto",
     out: Annotated[Path | None, Parameter(help="File for the results, one JSON object a line.")] = None,
@@ -49,8 +63,9 @@ def assembly_trials(
     if out is not None:
         check_place(out, RESULTS)
     results = []
-    worlds = [errors.spec(seed) for seed in chosen]
-    for result in assemble_many(compiled(default_script()), worlds, camera=camera, jobs=jobs):
+    plan = compiled(default_script())
+    worlds = [broken(errors.spec(seed), fault, plan.program) for seed in chosen]
+    for result in assemble_many(plan, worlds, camera=camera, jobs=jobs):
         results.append(result)
         word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
         detail = f"{result.stopped_at or ''}: {result.message}"
@@ -67,6 +82,60 @@ def assembly_trials(
         lines = (msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
         write_over(out, b"".join(lines), RESULTS)
     return 3 if silent else 0
+
+
+def fault_trials(
+    *,
+    only: Annotated[
+        list[str] | None,
+        Parameter(
+            help="A fault or a group of them; may be repeated. By default all.", consume_multiple=False
+        ),
+    ] = None,
+    stage: Annotated[
+        str | None, Parameter(help="Let what can set in while the cell works set in with this stage.")
+    ] = None,
+    world: WorldOptions = ANY_WORLD,
+    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
+    camera: Camera = "auto",
+    json: Json = False,
+    out: Annotated[Path | None, Parameter(help="File for the outcomes, one JSON object a line.")] = None,
+) -> int:
+    """Assemble once with each fault, at its usual size, and tell where it is noticed and by which error.
+
+    Exit code 0: every fault was noticed or did no harm; 3: with some fault the program said done, although the pump was
+    wrong or the fault should have been noticed.
+    """
+    import msgspec
+
+    from handeye.trials.faults import GOOD, chosen, counted_verdicts, try_faults
+
+    spec, plan = world.spec, compiled(default_script())
+    kinds = chosen(task().faults(spec.seed), only or ())
+    number = None if stage is None else stage_of(plan.program)(stage)
+    _some(jobs, "process")
+    if out is not None:
+        check_place(out, OUTCOMES)
+    tried = []
+    for trial in try_faults(plan, spec, kinds, stage=number, camera=camera, jobs=jobs):
+        tried.append(trial)
+        line = msgspec.json.encode(trial).decode()
+        if json:
+            put_line(line)
+        else:
+            say(_told(trial))
+    (note if json else say)(f"{len(tried)} faults: {counted_verdicts(tried)}")
+    if out is not None:
+        lines = (msgspec.json.encode(trial) + b"\n" for trial in sorted(tried, key=lambda each: each.fault))
+        write_over(out, b"".join(lines), OUTCOMES)
+    return 0 if all(trial.verdict in GOOD for trial in tried) else 3
+
+
+def _told(trial: "FaultTrial") -> str:
+    """A line on a run with a fault."""
+    where = "" if trial.line is None else f"“{trial.stage}”, line {trial.line}: "
+    number = "" if trial.error is None else f"error {trial.error}: "
+    return f"{trial.fault:32}  exit {trial.exit_code}  {trial.verdict:9}  {where}{number}{trial.message}".rstrip()
 
 
 def base_vision_trials(

@@ -117,12 +117,13 @@ def broken(world: WorldSpec, options: list[str] | None, listing: "Listing | None
     """
     if not options:
         return world
-    stage = from_start_only if listing is None else _stage_of(listing)
+    stage = from_start_only if listing is None else stage_of(listing)
     found = faults(task().faults(world.seed), options, stage)
     return msgspec.structs.replace(world, faults=found)
 
 
-def _stage_of(listing: "Listing") -> StageNumber:
+def stage_of(listing: "Listing") -> StageNumber:
+    """What tells the number of a stage of a program from how it is written."""
     from handeye.debugger.breakpoints import stage_number
 
     return lambda text: stage_number(text, listing) + 1

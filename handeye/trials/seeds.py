@@ -1,11 +1,13 @@
-"""Assembling many pumps, one world each, and counting."""
+"""Carrying plans out in many worlds, each in a process of its own."""
 
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from multiprocessing import active_children, get_context
+from typing import Any, TypeVar
 
 from handeye.planfile.plan import Plan
 from handeye.report.judging import Limits
@@ -13,11 +15,23 @@ from handeye.report.result import Result
 from handeye.trials.assembly import run_plan
 from handeye.variation import WorldSpec
 
+T = TypeVar("T")
+
 
 def assemble_many(
     plan: Plan, worlds: Sequence[WorldSpec], *, camera: str, jobs: int, limits: Limits | None = None
 ) -> Iterator[Result]:
-    """Results in the order they come; each world in a process of its own making, so that none can sway another.
+    """Results of a plan in many worlds, in the order they come."""
+    yield from in_processes(partial(_result, plan, camera, limits), worlds, jobs)
+
+
+def _result(plan: Plan, camera: str, limits: Limits | None, world: WorldSpec) -> Result:
+    return run_plan(plan, world=world, camera=camera, limits=limits).result
+
+
+def in_processes(trial: Callable[[WorldSpec], T], worlds: Sequence[WorldSpec], jobs: int) -> Iterator[T]:
+    """What a trial comes to in many worlds, in the order they come; each in a process of its own making, so that none
+    can sway another.
 
     Who stops asking for them ends those processes too.
     """
@@ -25,7 +39,7 @@ def assemble_many(
         try:
             with _deaf_to_interrupts():
                 pool = ProcessPoolExecutor(
-                    jobs, get_context("spawn"), _begin, (plan, camera, limits), max_tasks_per_child=1
+                    jobs, get_context("spawn"), _begin, (trial,), max_tasks_per_child=1
                 )
                 closing.enter_context(pool)
                 closing.callback(pool.shutdown, wait=False, cancel_futures=True)
@@ -65,20 +79,16 @@ def _deaf_to_interrupts() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-_trial: Callable[[WorldSpec], Result]
+_trial: Callable[[WorldSpec], Any]
 """What a process carries out in a world. It comes with the process and not with each world: a plan is too much for the
 pipe of a pool, whose writer would wait for ever for processes that were ended."""
 
 
-def _begin(plan: Plan, camera: str, limits: Limits | None) -> None:
+def _begin(trial: Callable[[WorldSpec], Any]) -> None:
     """Begin a process."""
     global _trial
-
-    def trial(world: WorldSpec) -> Result:
-        return run_plan(plan, world=world, camera=camera, limits=limits).result
-
     _trial = trial
 
 
-def _one(world: WorldSpec) -> Result:
+def _one(world: WorldSpec) -> Any:
     return _trial(world)

@@ -24,6 +24,7 @@ from handeye.cell.truth import Truth
 from handeye.pose import Array, Pose, pose, translated
 from handeye.record import Record
 from handeye.tasks.water_pump.carriers import Carriers
+from handeye.tasks.water_pump.part_faults import scarred_threads
 from handeye.tasks.water_pump.pump_world import PumpWorld
 
 CAPTURE: Final = 0.0004  # m, tip to axis. The bore leaves the point .35 mm of play.
@@ -90,8 +91,8 @@ class Threads(Mechanism[ThreadsState]):
         """Empty holes; `lines`: `magnet`, the force of the bit's."""
         self._model, self._data, self._driver, self._lines = model, data, driver, lines
         self._carriers = Carriers(model, data)
-        holes = range(self._carriers.count)
-        self.holes: tuple[Thread, ...] = tuple(Thread() for _ in holes)
+        holes, scarred = range(self._carriers.count), scarred_threads(world.drawn.spec.faults)
+        self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in scarred) for k in holes)
         self._phase = world.thread_phase
         self._friction = THREAD_FRICTION * world.friction["thread"]
         self._base = model.body("base").id

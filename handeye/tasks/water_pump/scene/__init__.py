@@ -5,6 +5,7 @@ from typing import Final
 import mujoco
 
 from handeye.resources import scenes
+from handeye.tasks.water_pump.part_faults import break_parts
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import add_arm
 from handeye.tasks.water_pump.scene.base import add_base
@@ -45,6 +46,7 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     add_plain_stations(shaper, world)
     add_merging(spec)
     add_textures(spec)
+    break_parts(spec, world.drawn.spec.faults, world.drawn.spec.seed)
     return spec
 
 

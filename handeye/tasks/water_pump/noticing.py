@@ -1,0 +1,53 @@
+"""By which error each fault of the pump's world should be noticed, or why it may do no harm."""
+
+from typing import Final
+
+from handeye.errors import (
+    FEATURES_NOT_SEEN,
+    NO_FORCE,
+    NO_TORQUE,
+    NOTHING_HELD,
+    PART_NOT_SEEN,
+    SEARCH_EXHAUSTED,
+    SERVO_LAG,
+    WRONG_THICKNESS,
+    WRONG_TRAVEL,
+)
+from handeye.faults import UNKNOWN, Expected
+
+EXPECTED: Final[dict[str, Expected]] = {
+    "finger_motor": Expected(errors=(NOTHING_HELD,)),
+    "drive": Expected(errors=(SERVO_LAG,)),
+    "brake": Expected(
+        harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where the arm sank."
+    ),
+    "screwdriver.motor": Expected(errors=(NO_TORQUE,)),
+    "screwdriver.missing": Expected(errors=(NOTHING_HELD,)),
+    "magnet": Expected(errors=(NO_TORQUE,)),
+    "bit": Expected(errors=(NO_TORQUE,)),
+    "lamp": Expected(at_setup=True),
+    "picture": Expected(at_setup=True),
+    "base.missing": Expected(errors=(PART_NOT_SEEN,)),
+    "base.turned": Expected(harmless="The job is for a base that lies anyhow within the arm's reach."),
+    "base.reversed": Expected(errors=(FEATURES_NOT_SEEN,)),
+    "gasket.missing": Expected(errors=(NOTHING_HELD,)),
+    "gasket.doubled": Expected(errors=(WRONG_THICKNESS, WRONG_TRAVEL)),
+    "gasket.thick": Expected(errors=(WRONG_THICKNESS, WRONG_TRAVEL)),
+    "gasket.reversed": Expected(errors=(NO_FORCE,)),
+    "top.missing": Expected(errors=(NOTHING_HELD,)),
+    "pin.1.missing": Expected(errors=(NOTHING_HELD,)),
+    "pin.2.missing": Expected(errors=(NOTHING_HELD,)),
+    "pin.1.thick": Expected(errors=(SEARCH_EXHAUSTED,)),
+    "pin.2.thick": Expected(errors=(SEARCH_EXHAUSTED,)),
+    "rotor": Expected(errors=(NO_FORCE, SERVO_LAG)),
+    "thread": Expected(
+        harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
+    ),
+}
+"""By the names of faults and of groups of them; what stands under a longer name counts."""
+
+
+def expected(name: str) -> Expected:
+    """How a run with a fault of a name should end."""
+    known = [group for group in EXPECTED if f"{name}.".startswith(f"{group}.")]
+    return EXPECTED[max(known, key=len)] if known else UNKNOWN

@@ -1,0 +1,263 @@
+"""Wrong parts of the pump and its cell: what is missing, of another size, or where it should not be.
+
+A wrong part is wrong in the scene, before anything happens; the devices that meet it work.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.faults import Fault, FaultKind, Size
+from handeye.pose import planar
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import Point, base_top, web_centre
+from handeye.tasks.water_pump.variation import screws
+
+if TYPE_CHECKING:
+    import mujoco
+
+Change = Callable[["mujoco.MjSpec", float], None]
+"""Changes a scene, by the value of a fault (SI)."""
+
+GONE: Final = {
+    "base": (-0.15, 0.15), "gasket": (-0.15, -0.15), "top": (0.15, -0.2), "driver": (0.2, 0.2), "pin0": (0.0, 0.1),
+    "pin1": (0.05, 0.1), **{f"screw{k}": (0.05 * k - 0.1, 0.05) for k in range(7)},
+}  # fmt: skip
+"""Places (m) for what is missing: on the tray under the floor, where nothing can meet it."""
+_OVER: Final = 0.12
+"""m over the tray: what hangs below a part's origin."""
+_JAM: Final = 20.0
+"""N m of friction: more than the arm can turn."""
+_THREAD: Final = "thread"
+_SCARRED: Final = "scarred"
+_AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PartFault:
+    """A fault of a part."""
+
+    kind: FaultKind
+    change: Change
+
+
+def part_faults(seed: int) -> tuple[PartFault, ...]:
+    """All of them in the worlds like that of a seed, in the order they are listed."""
+    return _part_faults(screws(seed))
+
+
+@cache
+def _part_faults(count: int) -> tuple[PartFault, ...]:
+    return (*_base(), *_gasket(), *_top(), *_pins(), *_screws(count), *_holes(count), *_screwdriver())
+
+
+def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], seed: int) -> None:
+    """Make parts of a scene wrong; faults of devices change nothing in it."""
+    known = {fault.kind.name: fault for fault in part_faults(seed)}
+    for fault in faults:
+        if fault.name in known:
+            known[fault.name].change(spec, fault.value or 0.0)
+
+
+def _fault(name: str, meaning: str, change: Change, size: Size | None = None) -> PartFault:
+    return PartFault(kind=FaultKind(name=name, meaning=meaning, size=size, from_start=True), change=change)
+
+
+def _base() -> Iterator[PartFault]:
+    yield _fault("base.missing", "Nothing lies on the belt.", _missing("base"))
+    yield _fault(
+        "base.turned", "The base lies with its line of centres in this direction.",
+        lambda spec, yaw: _turn(spec, "base", _plate_centre(), yaw),
+        Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
+    )  # fmt: skip
+    yield _fault(
+        "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre())
+    )
+
+
+def _gasket() -> Iterator[PartFault]:
+    part, middle = "gasket", (web_centre(), 0.0)
+    thin = dimensions()("gasket.thickness")
+    yield _fault("gasket.missing", "No gasket lies on its stand.", _missing(part))
+    yield _fault("gasket.doubled", "Two gaskets stick together.", lambda spec, _: _thicken(spec, 2.0))
+    yield _fault(
+        "gasket.thick", "The gasket is so thick, where .06 in are right.",
+        lambda spec, thick: _thicken(spec, thick / thin), Size(unit="in", usual=0.09, limits=(0.02, 0.5)),
+    )  # fmt: skip
+    yield from _moved(part, "the gasket")
+    yield _fault(
+        f"{part}.reversed", "The gasket lies end for end.", lambda spec, _: _reverse(spec, part, middle)
+    )
+
+
+def _top() -> Iterator[PartFault]:
+    yield _fault("top.missing", "No top lies on its stand.", _missing("top"))
+    yield from _moved("top", "the top")
+    yield _fault(
+        "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0))
+    )
+    yield _fault("rotor.jammed", "The rotor does not turn.", _jam)
+
+
+def _moved(part: str, article: str) -> Iterator[PartFault]:
+    for axis, direction in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+        name, meaning = (
+            f"{part}.off.{axis}",
+            f"On its stand {article} lies so far along table {axis} from its place.",
+        )
+        yield _fault(name, meaning, _shift(part, direction), _AWAY)
+
+
+def _pins() -> Iterator[PartFault]:
+    for number in (1, 2):
+        pin = f"pin{number - 1}"
+        yield _fault(f"pin.{number}.missing", f"Aligning pin {number} is not in its holder.", _missing(pin))
+        yield _fault(
+            f"pin.{number}.thick", f"The nose of aligning pin {number} is so much thicker, in radius.",
+            _thick_nose(pin), Size(unit="mm", usual=0.2, limits=(-1.0, 0.25)),
+        )  # fmt: skip
+
+
+def _screws(count: int) -> Iterator[PartFault]:
+    for number in range(1, count + 1):
+        screw = f"screw{number - 1}"
+        yield _fault(f"screw.{number}.missing", f"Screw {number} is not in the dispenser.", _missing(screw))
+        yield _fault(
+            f"screw.{number}.burred", f"A burr makes the point of screw {number} so much thicker, in radius: from .35 "
+            "mm on it enters no tapped hole.", _thick_point(screw), Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
+        )  # fmt: skip
+
+
+def _holes(count: int) -> Iterator[PartFault]:
+    for number in range(1, count + 1):
+        yield _fault(
+            f"hole.{number}.blocked", f"Tapped hole {number} of the base is open only so far below its mouth.",
+            _block(number - 1), Size(unit="mm", usual=2.0, limits=(0.0, 20.0)),
+        )  # fmt: skip
+        yield _fault(
+            f"{_THREAD}.{number}.{_SCARRED}",
+            f"A screw was crossed in tapped hole {number} before: another crosses there more easily.",
+            _as_drawn,
+        )
+
+
+def _screwdriver() -> Iterator[PartFault]:
+    yield _fault("screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"))
+    yield _fault("bit.smooth", "The bit does not rub on what it turns.", _smooth)
+
+
+def scarred_threads(faults: Sequence[Fault]) -> frozenset[int]:
+    """The tapped holes, from 0, in which faults have had a screw crossed."""
+    names = (fault.name.split(".") for fault in faults)
+    return frozenset(
+        int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (_THREAD, _SCARRED)
+    )
+
+
+# -- what they change ---------------------------------------------------------------------------------
+
+
+def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
+    """Change nothing: threads are no shapes, see `scarred_threads`."""
+
+
+def _missing(part: str) -> Change:
+    def change(spec: mujoco.MjSpec, _: float) -> None:
+        x, y = GONE[part]
+        spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + _OVER)
+
+    return change
+
+
+def _shift(part: str, direction: Point) -> Change:
+    def change(spec: mujoco.MjSpec, away: float) -> None:
+        spec.body(part).pos[:2] += np.multiply(direction, away)
+
+    return change
+
+
+def _plate_centre() -> Point:
+    return dimensions()("base.plate.centre_x"), 0.0
+
+
+def _reverse(spec: mujoco.MjSpec, part: str, middle: Point) -> None:
+    _turn(spec, part, middle, _yaw(spec, part) + math.pi)
+
+
+def _turn(spec: mujoco.MjSpec, part: str, middle: Point, yaw: float) -> None:
+    """Turn a part that lies flat to a direction (rad) about a point of its own, m."""
+    body = spec.body(part)
+    x, y, z = body.pos
+    centre = planar(x, y, z, _yaw(spec, part)) @ [*middle, 0.0, 1.0]
+    away = planar(0.0, 0.0, 0.0, yaw) @ [*middle, 0.0, 1.0]
+    body.pos[:2] = (centre - away)[:2]
+    body.quat[:] = (math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2))
+
+
+def _yaw(spec: mujoco.MjSpec, part: str) -> float:
+    w, _, _, z = spec.body(part).quat
+    return 2 * math.atan2(z, w)
+
+
+def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
+    """Make the gasket so many times as thick."""
+    gasket = spec.body("gasket")
+    for mesh in {geom.meshname for geom in gasket.geoms if geom.meshname}:
+        spec.mesh(mesh).scale[2] *= factor
+    for geom in gasket.geoms:
+        geom.pos[2] *= factor
+        if not geom.meshname:
+            geom.size[2] *= factor
+    for hole in gasket.sites:
+        hole.pos[2] *= factor
+
+
+def _jam(spec: mujoco.MjSpec, _: float) -> None:
+    spec.joint("rotor").frictionloss = _JAM
+
+
+def _smooth(spec: mujoco.MjSpec, _: float) -> None:
+    spec.geom("bit").friction[:] = 0.0
+
+
+def _thick_nose(pin: str) -> Change:
+    def change(spec: mujoco.MjSpec, more: float) -> None:
+        wide = 1 + more / dimensions()("pin.nose_radius")
+        drawn = spec.mesh("pin_nose")  # which the other pin keeps
+        spec.add_mesh(name=f"{pin}_nose", uservert=list(drawn.uservert), scale=[wide, wide, 1.0])
+        for geom in spec.body(pin).geoms:
+            if geom.meshname == "pin_nose":
+                geom.meshname = f"{pin}_nose"
+
+    return change
+
+
+def _thick_point(screw: str) -> Change:
+    def change(spec: mujoco.MjSpec, more: float) -> None:
+        point = next(geom for geom in spec.body(screw).geoms if geom.fromto[2] == 0.0)
+        point.size[0] += more
+
+    return change
+
+
+def _block(hole: int) -> Change:
+    def change(spec: mujoco.MjSpec, depth: float) -> None:
+        """Fill the hole with metal up to a depth below its mouth, and let no screw in its thread go deeper."""
+        x, y, mouth = spec.site(f"base_hole{hole}").pos
+        floor = base_top() - dimensions()("base.screw_holes.depth")
+        plug = spec.body("base").add_geom(
+            spec.find_default("face"), name=f"plug{hole}", type=spec.geom("bit").type
+        )
+        plug.fromto[:], plug.size[0] = (
+            (x, y, floor, x, y, mouth - depth),
+            dimensions()("base.screw_holes.radius"),
+        )
+        spec.joint(f"thread_slide{hole}").range[0] = -depth
+
+    return change

@@ -1,0 +1,139 @@
+"""A wrong part is wrong in the scene as its fault says, and nothing else is."""
+
+from functools import cache
+
+import mujoco
+import numpy as np
+import pytest
+
+from handeye.faults import Fault
+from handeye.pose import Array
+from handeye.tasks.water_pump.part_faults import GONE, part_faults, scarred_threads
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.variation import SEVENTH
+from handeye.units import DEGREE, INCH
+from handeye.variation import WorldSpec
+
+pytestmark = pytest.mark.slow
+
+TOGETHER = (
+    Fault(name="base.turned", value=35 * DEGREE),
+    Fault(name="bit.smooth"),
+    Fault(name="gasket.reversed"),
+    Fault(name="gasket.thick", value=0.12 * INCH),
+    Fault(name="hole.3.blocked", value=0.002),
+    Fault(name="pin.1.missing"),
+    Fault(name="pin.2.thick", value=0.0002),
+    Fault(name="rotor.jammed"),
+    Fault(name="screw.4.burred", value=0.0005),
+    Fault(name="top.off.y", value=0.006),
+)
+"""Faults that do not touch each other."""
+
+
+@cache
+def scene(*faults: Fault) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """A scene as it is drawn, with wrong parts."""
+    model = build(PumpWorld.draw(WorldSpec(seed=3, faults=faults)))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def place(part: str, *faults: Fault) -> Array:
+    return np.array(scene(*faults)[1].body(part).xpos)
+
+
+def direction(part: str, *faults: Fault) -> float:
+    """Of a part's x axis, deg."""
+    x = scene(*faults)[1].body(part).xmat.reshape(3, 3)[:, 0]
+    return float(np.degrees(np.arctan2(x[1], x[0])))
+
+
+def radius(part: str, *faults: Fault) -> float:
+    """The farthest that a part of a screw or pin below its origin's 1 mm reaches from its axis, mm."""
+    model, _ = scene(*faults)
+    geoms = np.flatnonzero(
+        (model.geom_bodyid == model.body(part).id) & (model.geom_contype + model.geom_conaffinity > 0)
+    )
+    return float(min(model.geom_aabb[geoms, 3])) * 1e3
+
+
+def test_every_wrong_part_makes_a_scene() -> None:
+    model, _ = scene(*(fault.kind.usual() for fault in part_faults(3)))
+    assert model.nbody == scene()[0].nbody
+
+
+def test_the_seventh_screw_can_be_missing_too() -> None:
+    names = {fault.kind.name for fault in part_faults(SEVENTH)} - {
+        fault.kind.name for fault in part_faults(0)
+    }
+    assert names == {f"{thing}.7.{what}" for thing, what in (
+        ("screw", "missing"), ("screw", "burred"), ("hole", "blocked"), ("thread", "scarred"),
+    )}  # fmt: skip
+
+
+def test_what_is_missing_is_on_the_tray_under_the_floor() -> None:
+    assert place("pin0", *TOGETHER) == pytest.approx([*GONE["pin0"], -1.9], abs=0.03)
+    assert place("pin1", *TOGETHER) == pytest.approx(place("pin1"))
+
+
+def test_a_part_off_its_place_is_so_far_off() -> None:
+    assert place("top", *TOGETHER) - place("top") == pytest.approx([0, 0.006, 0])
+
+
+def test_a_base_that_is_turned_lies_in_that_direction() -> None:
+    assert direction("base", *TOGETHER) == pytest.approx(35)
+
+
+def test_a_reversed_gasket_lies_the_other_way_round_with_its_web_where_it_was() -> None:
+    assert abs(direction("gasket", *TOGETHER) - direction("gasket")) == pytest.approx(180, abs=1e-3)
+    webs = [scene(*faults)[1].geom("gasket_web").xpos[:2] for faults in ((), TOGETHER)]
+    assert webs[0] == pytest.approx(webs[1], abs=1e-6)
+
+
+def test_a_thick_gasket_reaches_so_high_at_each_hole_and_lies_on_its_stand() -> None:
+    model, data = scene(*TOGETHER)
+    floor, web = data.body("gasket").xpos[2], data.geom("gasket_web")
+    assert [data.site(f"gasket_hole{k}").xpos[2] - floor for k in range(6)] == pytest.approx(
+        [0.12 * INCH] * 6
+    )
+    half = model.geom("gasket_web").size[2]
+    assert [web.xpos[2] - half - floor, web.xpos[2] + half - floor] == pytest.approx([0, 0.12 * INCH])
+    assert ring_heights(model, data, "gasket_hole") - floor == pytest.approx([0, 0.12 * INCH])
+
+
+def ring_heights(model: mujoco.MjModel, data: mujoco.MjData, mesh: str) -> Array:
+    """The lowest and the highest corner in W of the wedges of a mesh, m."""
+    known = model.mesh(mesh)
+    corners = model.mesh_vert[known.vertadr[0] : known.vertadr[0] + known.vertnum[0]]
+    wedges = np.flatnonzero(model.geom_dataid == known.id)
+    heights = [data.geom_xpos[w, 2] + corners @ data.geom_xmat[w].reshape(3, 3)[2] for w in wedges]
+    return np.array([np.min(heights), np.max(heights)])
+
+
+def test_a_pin_is_thicker_than_the_other() -> None:
+    assert radius("pin1", *TOGETHER) - radius("pin1") == pytest.approx(0.2, abs=0.01)
+
+
+def test_a_burr_makes_the_point_of_one_screw_thicker() -> None:
+    assert radius("screw3", *TOGETHER) - radius("screw3") == pytest.approx(0.5, abs=0.01)
+    assert radius("screw2", *TOGETHER) == radius("screw2")
+
+
+def test_a_blocked_hole_ends_below_its_mouth_for_whatever_comes_in() -> None:
+    model, data = scene(*TOGETHER)
+    top = data.geom("plug2").xpos[2] + model.geom("plug2").size[1]
+    assert data.site("base_hole2").xpos[2] - top == pytest.approx(0.002)
+    assert model.joint("thread_slide2").range[0] == -0.002
+
+
+def test_a_jammed_rotor_and_a_smooth_bit_rub_otherwise() -> None:
+    model, _ = scene(*TOGETHER)
+    assert model.dof_frictionloss[model.joint("rotor").dofadr[0]] == 20.0
+    assert model.geom("bit").friction.tolist() == [0.0, 0.0, 0.0]
+
+
+def test_threads_are_scarred_by_number() -> None:
+    assert scarred_threads([Fault(name="thread.2.scarred"), Fault(name="hole.3.blocked")]) == {1}
