@@ -53,6 +53,7 @@ CHEAP = {
     "trials base": "trials base ✓",
     "trials gasket": "trials gasket 1 --set ✓",
     "trials breaking": "trials breaking ✓",
+    "trials faults": "trials faults --only ✓",
     "bench timing": "bench timing --set ✓",
     "bench overhead": "bench overhead --set ✓",
     "bench language": "bench language --times 0",
