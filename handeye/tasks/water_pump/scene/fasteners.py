@@ -5,7 +5,7 @@ from functools import cache
 
 import mujoco
 import numpy as np
-from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but no marker
+import trimesh
 from numpy.typing import NDArray
 
 from handeye.cell.looks import MESH
@@ -15,7 +15,7 @@ from handeye.tasks.water_pump.drawing import dispenser_places, pin_seat
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.fixtures import add_fixture
-from handeye.tasks.water_pump.scene.shapes import Bore, Shaper
+from handeye.tasks.water_pump.scene.shapes import Bore, Shaper, body_inertia
 from handeye.tasks.water_pump.stations import Station
 
 
@@ -79,6 +79,19 @@ def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
     head = f"screw_head{number}"
     shaper.cylinder(body, "head", d("screw.head_radius"), (0, 0, length), (0, 0, length + height), name=head)
     screw_look(shaper, body)
+    mass, centre, moments = _screw_inertia(shaper.style("shank").geom.density)
+    body_inertia(body, mass, (0.0, 0.0, centre), moments)
+
+
+@cache
+def _screw_inertia(density: float) -> tuple[float, float, tuple[float, float, float]]:
+    """Mass of a screw with its thread (kg), its centre over the point (m), and principal moments (kg m2)."""
+    shape = trimesh.Trimesh(*_screw(), process=False)
+    shape.density = density
+    across, _, along = np.diag(
+        shape.moment_inertia
+    )  # the slot makes the two across differ by half a per cent
+    return float(shape.mass), float(shape.center_mass[2]), (float(across), float(across), float(along))
 
 
 def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:
@@ -95,10 +108,12 @@ def _screw_surfaces() -> dict[str, solids.Surface]:
         slot = (abs(middles[:, 1]) < 0.00071) & (abs(middles[:, 2] - top + 0.0006) < 0.00061)
         return np.where(slot, "slot", "screw")
 
-    return solids.painted(solids.surface(_screw()), colour)
+    return solids.painted(_screw(), colour)
 
 
-def _screw() -> Manifold:
+@cache
+def _screw() -> solids.Surface:
+    """Surface of a screw."""
     d = dimensions()
     length, height, tip = d("screw.length"), d("screw.head_height"), d("screw.point_length")
     crest, head, pitch = d("screw.shank_radius"), d("screw.head_radius"), d("screw.pitch")
@@ -109,4 +124,4 @@ def _screw() -> Manifold:
     thread += [(root, length), (0.0, length)]
     cap = [(0.0, length), (head, length), (head, top - bevel), (head - bevel, top), (0.0, top)]
     slot = solids.extruded(solids.rectangle(-0.01, -0.0007, 0.01, 0.0007), top - 0.0012, top + 0.001)
-    return solids.revolved(thread, 20) + (solids.revolved(cap) - slot)
+    return solids.surface(solids.revolved(thread, 20) + (solids.revolved(cap) - slot))
