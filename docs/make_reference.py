@@ -47,6 +47,8 @@ GROUPS: Final = {
     "Worlds": {
         "handeye.World": "door.worlds.World",
         "QuantityReport": "report.world_page.QuantityReport",
+        "Export": "report.export.Export",
+        "Weight": "report.export.Weight",
     },
     "Results": {
         "handeye.Result": "report.result.Result",

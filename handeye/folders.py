@@ -25,11 +25,16 @@ class FolderKind:
     """Patterns of the names of all its files."""
 
 
+class Taken(InvalidInput):
+    """A folder of the kind is there, and may not be replaced."""
+
+
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     """Look whether a folder of a kind may be written, and can be: it takes the place of one of its kind at most.
 
     Raises:
-        InvalidInput: it may not, or cannot.
+        Taken: one of its kind is there, and may not be replaced.
+        InvalidInput: it may not be written for another reason, or cannot.
     """
     try:
         _refuse_others(path, kind, overwrite=overwrite)
@@ -52,7 +57,7 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
         what = quoted(str(others[0]))
         raise InvalidInput(f"{path} holds other things ({what}); choose a new folder, or an empty one")
     if inside and not overwrite:
-        raise InvalidInput(f"{path} holds {kind.name} already; --overwrite replaces it")
+        raise Taken(f"{path} holds {kind.name} already; --overwrite replaces it")
     if path.exists() and path.samefile(Path.cwd()):
         raise InvalidInput(f"{path} is the folder that you are in, which cannot be replaced; name another")
 

@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import note, say
+from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 
 if TYPE_CHECKING:
+    from handeye.report.export import Export
     from handeye.runs.exhibit import Exhibit
 
 Run = Annotated[
@@ -31,20 +32,16 @@ def mjcf(
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")],
     overwrite: Annotated[bool, Parameter(help="Replace the export that is in the folder.")] = False,
+    json: Json = False,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
     """Write a scene that plain MuJoCo opens: scene.xml, its meshes and textures, and a README.
 
     Exit code 0: it is written; 2: bad input.
     """
-    from handeye.folders import check_folder, write_folder
-    from handeye.report.exported_scene import EXPORT, scene_files, shows
+    from handeye.report.export import export_mjcf
 
-    check_folder(output, EXPORT, overwrite=overwrite)
-    exhibit = _exhibit(run, world)
-    write_folder(output, scene_files(exhibit))
-    say(f"{output}: {shows(exhibit)}")
-    return 0
+    return _told(export_mjcf(output, lambda: _exhibit(run, world), overwrite=overwrite), json=json)
 
 
 def glb(
@@ -53,22 +50,25 @@ def glb(
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"], help="The file, .glb.")],
     part: Annotated[str, Parameter(help="What of it: `cell` or `pump`.")] = "cell",
+    json: Json = False,
     world: WorldOptions = ANY_WORLD,
 ) -> int:
     """Write solids for programs that show or measure shapes, and check that they are closed and weigh what they should.
 
     Exit code 0: it is written, whatever the checks found; 2: bad input.
     """
-    from handeye.files import check_place, write_over
-    from handeye.report.exported_scene import shows
-    from handeye.report.exported_solids import GLB, checks, exported_solids
+    from handeye.report.export import export_glb
 
-    check_place(output, GLB)
-    exhibit = _exhibit(run, world)
-    exported = exported_solids(exhibit, part)
-    write_over(output, exported.file, GLB)
-    for line in (f"{output}: {part}, {shows(exhibit)}", *checks(exported)):
-        say(line)
+    return _told(export_glb(output, lambda: _exhibit(run, world), part=part), json=json)
+
+
+def _told(written: "Export", *, json: bool) -> int:
+    """Tell what was written."""
+    if json:
+        put_json(written)
+    else:
+        for line in (f"{written.path}: {written.shows}", *written.remarks):
+            say(line)
     return 0
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import msgspec
 import numpy as np
@@ -18,6 +18,7 @@ from handeye.debugger.stepper import Stepper
 from handeye.debugger.views import last_picture
 from handeye.door.answer import Answer, answer
 from handeye.door.arguments import given_count, given_file, given_place
+from handeye.door.exporting import exported
 from handeye.door.plans import Plan
 from handeye.door.run_page import run_page
 from handeye.door.state import State, state_of
@@ -32,6 +33,7 @@ from handeye.report.pictures import annotated_png
 from handeye.report.result import Result
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
+from handeye.runs.exhibit import present
 from handeye.runs.folder import TRACE, RunFolder
 from handeye.runs.host_seconds import Meter
 from handeye.runs.operator import Operator, attend, beginnings
@@ -40,6 +42,9 @@ from handeye.runs.setup import plan_of
 from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
+
+if TYPE_CHECKING:
+    from handeye.report.export import Export
 
 Place = str | int
 """A stage or a part of its name, a label, an instruction, `error:N`, or a line of the script."""
@@ -301,6 +306,28 @@ class Run:
         check_place(file, CHECKPOINT)
         write_checkpoint(file, kept)
         return file
+
+    def export(
+        self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
+    ) -> "Export":
+        """Hand the cell as it now is to other programs, whether the run is closed or not.
+
+        Args:
+            path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
+            part: what of the solids: `cell`, as by default, or `pump`.
+            overwrite: an export that is in the folder may be replaced.
+
+        Returns:
+            what was written, and what was found out about it; a run that is not finished is marked so.
+
+        Raises:
+            InvalidInput: it cannot be written there, there is no such part, or the run is on no cell.
+
+        >>> run = handeye.begin("OPEN 1\\n", camera="ray")
+        >>> run.export(folder).moment
+        'unfinished'
+        """
+        return exported(path, lambda: present(self._runner), part, overwrite=overwrite)
 
     def close(self) -> None:
         """End the run, and complete its folder: trace, pictures, result, and a checkpoint if it can go on."""

@@ -1,17 +1,24 @@
 """Worlds as a caller from Python chooses them."""
 
+import os
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from handeye import fault_options, tasks
 from handeye.door.arguments import given_names
+from handeye.door.exporting import exported
 from handeye.door.html import heading, page, table
 from handeye.errors import InvalidInput
 from handeye.fault_options import by_number
 from handeye.report.world_page import QuantityReport, report
+from handeye.runs.exhibit import drawn
 from handeye.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.world_options import overrides
+
+if TYPE_CHECKING:
+    from handeye.report.export import Export
 
 
 class World:
@@ -106,6 +113,24 @@ class World:
             InvalidInput: there is no such quantity; the nearest name is told.
         """
         return self._table.quantities[self._quantity(name)].unit
+
+    def export(
+        self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
+    ) -> "Export":
+        """Hand the cell of this world, before anything has happened in it, to other programs.
+
+        Args:
+            path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
+            part: what of the solids: `cell`, as by default, or `pump`.
+            overwrite: an export that is in the folder may be replaced.
+
+        Returns:
+            what was written, and what was found out about it.
+
+        Raises:
+            InvalidInput: it cannot be written there, or there is no such part.
+        """
+        return exported(path, lambda: drawn(self.spec, self._task), part, overwrite=overwrite)
 
     def _repr_html_(self) -> str:
         rows = [(each.name, f"{each.value:.4g}", each.unit, each.override or "") for each in self.quantities]

@@ -8,6 +8,7 @@ from handeye.cell.truth import Truth
 from handeye.errors import InvalidInput
 from handeye.runs.checkpoint_file import read_checkpoint
 from handeye.runs.folder import open_again
+from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.tasks import DEFAULT, task
@@ -33,13 +34,13 @@ class Exhibit:
     """The stage under way, or the one to come."""
 
 
-def drawn(world: WorldSpec) -> Exhibit:
-    """A world before anything happened in it, its cell switched on.
+def drawn(world: WorldSpec, name: str = DEFAULT) -> Exhibit:
+    """A world of a task, by its name, before anything happened in it, its cell switched on.
 
     Raises:
         InvalidInput: it cannot be drawn here.
     """
-    return Exhibit(task=DEFAULT, world=world, moment="drawn", truth=task().cell(world, "ray").truth)
+    return Exhibit(task=name, world=world, moment="drawn", truth=task(name).cell(world, "ray").truth)
 
 
 def kept(path: Path) -> tuple[Exhibit, list[str]]:
@@ -57,6 +58,17 @@ def kept(path: Path) -> tuple[Exhibit, list[str]]:
     return _exhibit(path, checkpoint), faults
 
 
+def present(runner: Runner) -> Exhibit:
+    """A run as it now is.
+
+    Raises:
+        InvalidInput: its system acts on no cell.
+    """
+    if runner.system.cell is None:
+        raise InvalidInput("the run is of a system that acts on no cell")
+    return _shown(runner.checkpoint(), runner.cell.truth)
+
+
 def _exhibit(path: Path, checkpoint: Checkpoint) -> Exhibit:
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     if snapshot is None:
@@ -65,11 +77,17 @@ def _exhibit(path: Path, checkpoint: Checkpoint) -> Exhibit:
         raise InvalidInput(f"the run in {path} is of a system that acts on no cell")
     cell = task(setup.task).cell(setup.world, "ray")
     cell.restore(snapshot.cell)
+    return _shown(checkpoint, cell.truth)
+
+
+def _shown(checkpoint: Checkpoint, truth: Truth) -> Exhibit:
+    """The truth of a cell in the state of a checkpoint, with what is told of it."""
+    setup = checkpoint.setup
     return Exhibit(
         task=setup.task,
         world=setup.world,
         moment="final" if checkpoint.ended else "unfinished",
-        truth=cell.truth,
+        truth=truth,
         program=listing_of(setup).name,
         steps=checkpoint.position,
         stage=checkpoint.stage,

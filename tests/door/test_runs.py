@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -204,6 +205,24 @@ def test_the_folder_is_that_of_the_command_line(kept: handeye.Run) -> None:
     assert {name for name in names if name.startswith("checkpoints/")} != set()
     assert isinstance(kept.trace.events[-1], RunFinished)
     assert kept.trace.head.world.seed == 3
+
+
+def test_a_run_is_exported_as_it_now_is(kept: handeye.Run, run: handeye.Run, tmp_path: Path) -> None:
+    run.step()
+    half, whole = run.export(tmp_path / "half"), kept.export(tmp_path / "whole")
+    assert (half.moment, whole.moment) == ("unfinished", "final")
+    assert "after 1 step" in half.shows
+    model = mujoco.MjModel.from_xml_path(f"{half.path}/scene.xml")
+    assert model.key_time[-1] == pytest.approx(run.state.time)
+
+
+def test_an_export_is_replaced_only_if_it_may_be(run: handeye.Run, tmp_path: Path) -> None:
+    run.export(tmp_path / "scene")
+    with pytest.raises(
+        InvalidInput, match=r"scene holds an export of handeye already; overwrite=True replaces it$"
+    ):
+        run.export(tmp_path / "scene")
+    assert run.export(tmp_path / "scene", overwrite=True).format == "mjcf"
 
 
 def test_a_run_that_is_left_before_its_end_can_be_gone_on_with_in_its_folder(tmp_path: Path) -> None:

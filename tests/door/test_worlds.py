@@ -1,5 +1,8 @@
 """Worlds are chosen in the units of `handeye world`, and a mistake is told with the nearest name."""
 
+from pathlib import Path
+
+import mujoco
 import pytest
 
 import handeye
@@ -82,3 +85,34 @@ def test_a_world_says_what_its_quantities_are() -> None:
     assert (first.name, first.value, first.unit) == ("base.x", world["base.x"], "in")
     assert first.source.startswith("Where the pump base lies on the belt")
     assert [each.name for each in world.quantities] == [*world.values]
+
+
+@pytest.mark.slow
+def test_a_world_is_exported_as_it_is_drawn(tmp_path: Path) -> None:
+    world = handeye.World(seed=3)
+    scene = world.export(tmp_path / "scene")
+    assert (scene.moment, scene.format, scene.world) == ("drawn", "mjcf", world.spec)
+    assert mujoco.MjModel.from_xml_path(f"{scene.path}/scene.xml").nkey == 1
+    solids = world.export(tmp_path / "pump.glb", part="pump")
+    assert (solids.solids, solids.open, {each.body for each in solids.weights} >= {"gasket"}) == (
+        16,
+        (),
+        True,
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "part", "sentence"),
+    [
+        ("scene", "pump", r"^a part goes into a file whose name ends in \.glb, not into .*scene$"),
+        ("pump.glb", "motor", r"^there is no part `motor` to export; known: `cell`, `pump`$"),
+        (3, None, r"^an export is written to a folder, or to a file that ends in \.glb, not 3$"),
+    ],
+)
+def test_what_cannot_be_exported_is_told_in_one_sentence(
+    tmp_path: Path, name: str | int, part: str | None, sentence: str
+) -> None:
+    with pytest.raises(InvalidInput, match=sentence):
+        handeye.World(seed=3).export(tmp_path / name if isinstance(name, str) else name, part=part)
+    assert [*tmp_path.iterdir()] == []

@@ -3,6 +3,7 @@
 import shutil
 from pathlib import Path
 
+import msgspec
 import mujoco
 import numpy as np
 import pytest
@@ -72,6 +73,17 @@ def test_a_run_that_is_not_finished_is_marked_so(command: Command, ended: tuple[
     assert (text(model, "moment"), text(model, "shows")) == ("unfinished", out.strip().removeprefix("half: "))
     assert data.body("pin1").xpos[2] > 0.06  # drawn out of its holder
     assert "unfinished" in Path("half/README.md").read_text(encoding="utf-8")
+
+
+def test_an_export_is_told_to_programs(command: Command, ended: tuple[Path, Runner]) -> None:
+    code, out, err = command("export", "glb", str(ended[0]), "-o", "pump.glb", "--part", "pump", "--json")
+    told = msgspec.json.decode(out)
+    assert (code, err) == (0, "")
+    assert (told["path"], told["format"], told["moment"], told["open"]) == ("pump.glb", "glb", "final", [])
+    assert told["world"]["seed"] == 0
+    assert {each["body"] for each in told["weights"]} == {
+        "base", "gasket", "top", "rotor", *(f"screw{k}" for k in range(6))
+    }  # fmt: skip
 
 
 def test_an_export_takes_the_place_of_an_export_only_if_asked(

@@ -35,6 +35,15 @@ def test_a_solid_has_the_holes_that_go_through_it(name: str) -> None:
     assert measured(solid).euler_number == 2 - 2 * holes
 
 
+@pytest.mark.parametrize("name", SOLIDS)
+def test_volume_and_moments_of_a_solid_are_those_of_trimesh(name: str) -> None:
+    volume, centre, moments = solids.volume_moments(SOLIDS[name][0])
+    there = measured(SOLIDS[name][0])
+    assert volume == pytest.approx(there.volume)
+    assert centre == pytest.approx(there.center_mass, abs=1e-9)
+    assert moments == pytest.approx(np.diag(there.moment_inertia))
+
+
 def test_the_plate_weighs_what_aluminium_does() -> None:
     density = dimensions()("base.plate.mass") / measured(solids.plate()).volume
     assert density == pytest.approx(2700, rel=0.01)

@@ -5,7 +5,6 @@ from functools import cache
 
 import mujoco
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from handeye.cell.looks import MESH
@@ -86,12 +85,9 @@ def _add_screw(shaper: Shaper, body: mujoco.MjsBody, number: int) -> None:
 @cache
 def _screw_inertia(density: float) -> tuple[float, float, tuple[float, float, float]]:
     """Mass of a screw with its thread (kg), its centre over the point (m), and principal moments (kg m2)."""
-    shape = trimesh.Trimesh(*_screw(), process=False)
-    shape.density = density
-    across, _, along = np.diag(
-        shape.moment_inertia
-    )  # the slot makes the two across differ by half a per cent
-    return float(shape.mass), float(shape.center_mass[2]), (float(across), float(across), float(along))
+    volume, centre, moments = solids.volume_moments(_screw())
+    across, _, along = (density * moments).tolist()  # the slot makes the two across differ by half a per cent
+    return density * volume, float(centre[2]), (across, across, along)
 
 
 def screw_look(shaper: Shaper, body: mujoco.MjsBody) -> list[mujoco.MjsGeom]:

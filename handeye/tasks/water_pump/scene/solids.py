@@ -141,6 +141,21 @@ def surface(solid: Manifold) -> Surface:
     return np.asarray(mesh.vert_properties, np.float64)[:, :3], np.asarray(mesh.tri_verts, np.int32)
 
 
+def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
+    """Measure the solid in a surface, by the tetrahedra from the origin to its triangles.
+
+    Returns:
+        Volume (m3), its centre (m), and its moments about axes through that along x, y and z (m5), shape (3,) each.
+    """
+    vertices, triangles = closed
+    corners = vertices[triangles]
+    volumes = np.linalg.det(corners) / 6
+    volume, together = volumes.sum(), corners.sum(axis=1)
+    centre = volumes @ together / (4 * volume)
+    squares = volumes @ ((corners**2).sum(axis=1) + together**2) / 20 - volume * centre**2
+    return float(volume), centre, squares.sum() - squares
+
+
 def painted(whole: Surface, colour: Callable[[Array, Array], NDArray[np.str_]]) -> dict[str, Surface]:
     """A surface, parted by colour.
 
