@@ -7,6 +7,7 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
+from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
@@ -14,6 +15,19 @@ from handeye.pose import Array
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import ARM, add_arm
+
+
+def arm_alone(world: PumpWorld) -> SimulatedCell:
+    """The cell of a world without anything but its arm and hand."""
+    spec = mujoco.MjSpec()
+    spec.option.timestep = 1 / 960
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    add_arm(spec, world)
+    model = spec.compile()
+    data, noise = mujoco.MjData(model), world.generator("sensors")
+    arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
+    hand = SimulatedHand(model, data, ARM, hand=STANFORD.hand, errors=world.hand, noise=noise)
+    return SimulatedCell(model, data, arm=arm, hand=hand, noise=noise)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,19 +42,10 @@ class Drift:
 
 def let_go(world: PumpWorld, seconds: float, push: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Drift:
     """Let go of the arm of a world while its hand is pushed (N, along the axes of W), and see how far it goes."""
-    spec = mujoco.MjSpec()
-    spec.option.timestep = 1 / 960
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    add_arm(spec, world)
-    model = spec.compile()
-    data, noise = mujoco.MjData(model), world.generator("sensors")
-    arm = SimulatedArm(model, data, ARM, arm=STANFORD, posture=PARK, errors=world.arm, noise=noise)
-    cell = SimulatedCell(model, data, arm=arm, noise=noise)
-    drive = ArmDrive(
-        cell=cell.devices, arm=STANFORD, state=DriveState.holding(cell.devices.sense(), STANFORD)
-    )
+    cell = arm_alone(world)
+    data, arm, state = cell.truth.data, cell.arm, DriveState.holding(cell.devices.sense(), STANFORD)
     hand = data.site(f"{ARM}tool").xpos.copy()
     data.xfrc_applied[arm.last_link, :3] = push
-    drive.float(seconds)
+    ArmDrive(cell=cell.devices, arm=STANFORD, state=state).float(seconds)
     away = np.linalg.norm(data.site(f"{ARM}tool").xpos - hand)
     return Drift(joints=np.abs(data.qpos[arm.qpos] - PARK), hand=float(away))
