@@ -9,6 +9,7 @@ import pytest
 from conftest import Command
 
 from handeye.cli.world_options import ErrorOptions, WorldOptions
+from handeye.tasks import task
 from handeye.tasks.water_pump.variation import SEVENTH, variation
 from handeye.trials import breaking
 from handeye.variation import DRAWING, LARGEST_SEED, Overrides, WorldSpec
@@ -202,7 +203,7 @@ def test_checkpoints_of_two_worlds_do_not_mix(command: Command, half_run: Path) 
 def test_a_checkpoint_brings_its_own_world(command: Command, half_run: Path, words: tuple[str, str]) -> None:
     kept = next((half_run / "checkpoints").glob("0002-*"))
     code, _, err = command("do", "OPEN 1", "--from", str(kept), *words)
-    told = "brings its own world; --seed, --level, --without and --set do not go with --from\n"
+    told = "brings its own world; --seed, --level, --without, --set and --fault do not go with --from\n"
     assert (code, err) == (2, f"handeye: {kept} {told}")
 
 
@@ -214,3 +215,53 @@ def test_equal_options_mean_equal_worlds() -> None:
     assert first == WorldSpec(
         seed=3, level="high", overrides=Overrides(without=("base.x", "camera"), set={"part_mass": 0.0005})
     )
+
+
+# -- faults -------------------------------------------------------------------------------------------
+
+BREAKING = ["assemble", "run", "render", "do", "repl", "teach", "trials assembly"]
+"""Commands that can break something in the world that they build."""
+
+
+@pytest.mark.parametrize("words", BREAKING)
+def test_every_command_that_builds_a_cell_to_look_at_or_to_work_in_takes_faults(
+    command: Command, words: str
+) -> None:
+    _, out, _ = command(*words.split(), "--help")
+    assert "--fault " in out
+
+
+@pytest.mark.parametrize("words", [("assemble",), ("do", "PARK"), ("trials", "assembly", "--seeds", "3")])
+def test_a_fault_that_there_is_not_is_bad_input(command: Command, words: tuple[str, ...]) -> None:
+    code, out, err = command(*words, "--fault", "gap_potentiometer.of")
+    assert (code, out) == (2, "")
+    assert err.endswith("there is no fault `gap_potentiometer.of`; did you mean `gap_potentiometer.off`?\n")
+
+
+def test_a_fault_sets_in_with_a_stage_by_a_piece_of_its_name_or_not_at_all(command: Command) -> None:
+    code, _, err = command("assemble", "--fault", "lamp.dead@aligning")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "`aligning`" in err
+    code, _, err = command("do", "PARK", "--fault", "lamp.dead@2")
+    assert (code, err) == (2, "handeye: a fault is there from the beginning here; leave out `@2`\n")
+
+
+@pytest.mark.parametrize("columns", ["60", "120"])
+def test_every_fault_is_listed_with_its_size(
+    command: Command, monkeypatch: pytest.MonkeyPatch, columns: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    code, out, _ = command("faults")
+    names = [
+        line.split()[0].split("=")[0] for line in out.splitlines() if line[:3].strip() and line[:2] == "  "
+    ]
+    assert (code, names) == (0, list(task().faults(0).kinds))
+    assert max(map(len, out.splitlines())) <= int(columns)
+
+
+def test_faults_are_listed_for_programs(command: Command) -> None:
+    _, out, _ = command("faults", "--json", "--seed", str(SEVENTH))
+    known = {fault["name"]: fault for fault in json.loads(out)["faults"]}
+    assert list(known) == list(task().faults(SEVENTH).kinds)
+    assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
+    assert known["lamp.dead"]["size"] is None

@@ -9,7 +9,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Camera, Json, note, put_line, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
-from handeye.cli.world_options import ANY_WORLD, WorldOptions
+from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.errors import InvalidInput
 from handeye.files import beside, check_place
 from handeye.program.taught import Taught, load_taught
@@ -40,6 +40,7 @@ def register(app: App) -> None:
 def do(
     *functions: str,
     world: WorldOptions = ANY_WORLD,
+    fault: Faults = None,
     taught: TaughtFile = None,
     look: Looking = False,
     first: From = None,
@@ -66,7 +67,9 @@ def do(
     if keep is not None:
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
-        workplace = _workplace(panic, _given(taught), world=world, camera=camera, look=look, first=first)
+        workplace = _workplace(
+            panic, _given(taught), world=world, fault=fault, camera=camera, look=look, first=first
+        )
         lines = (f"DO {function}" for function in functions)
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
         failed = converse(ReplSession(repl), lines, put_line if json else say, json=json, strict=True)
@@ -82,6 +85,7 @@ def repl(
     /,
     *,
     world: WorldOptions = ANY_WORLD,
+    fault: Faults = None,
     taught: TaughtFile = None,
     look: Looking = False,
     first: From = None,
@@ -107,7 +111,9 @@ def repl(
         taught = beside(script, ".toml")
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
-        workplace = _workplace(panic, _given(taught), world=world, camera=camera, look=look, first=first)
+        workplace = _workplace(
+            panic, _given(taught), world=world, fault=fault, camera=camera, look=look, first=first
+        )
         lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
         typist = ReplSession(Repl(workplace=workplace, folder=folder))
         failed = converse(typist, lines, put_line if json else say, json=json)
@@ -119,6 +125,7 @@ def teach(
     /,
     *,
     world: WorldOptions = ANY_WORLD,
+    fault: Faults = None,
     first: From = None,
     camera: Camera = "auto",
     json: Json = False,
@@ -141,7 +148,7 @@ def teach(
     text = read_source(path).text if path.exists() else ""
     known = load_taught(path) if path.exists() else Taught()
     with PanicButton() as panic:
-        workplace = _workplace(panic, known, world=world, camera=camera, look=False, first=first)
+        workplace = _workplace(panic, known, world=world, fault=fault, camera=camera, look=False, first=first)
         teacher = Teacher(workplace=workplace, file=path, saved=text)
         lines = typed_lines(
             "teach> ",
@@ -160,6 +167,7 @@ def _workplace(
     taught: Taught | None,
     *,
     world: WorldOptions,
+    fault: Faults,
     camera: str,
     look: bool,
     first: Path | None,
@@ -173,15 +181,15 @@ def _workplace(
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.teaching.workplace import Workplace
 
-    if first is not None and world != ANY_WORLD:
+    if first is not None and (world != ANY_WORLD or fault):
         raise InvalidInput(
-            f"{first} brings its own world; --seed, --level, --without and --set do not go with --from"
+            f"{first} brings its own world; --seed, --level, --without, --set and --fault do not go with --from"
         )
     if first is not None:
         return Workplace.at(read_checkpoint(first), taught, panic)
     known = taught_for(default_script()) if taught is None else taught
     try:
-        return Workplace(world=world.spec, camera=camera, taught=known, look=look, halt=panic)
+        return Workplace(world=broken(world.spec, fault), camera=camera, taught=known, look=look, halt=panic)
     except Halted:
         raise KeyboardInterrupt from None
 

@@ -5,7 +5,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Height, Json, PictureFile, SceneCamera, WholeNumber, Width, put, say, screen
-from handeye.cli.world_options import ANY_WORLD, WorldOptions
+from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.files import check_place, write_over
 from handeye.tasks import task
 from handeye.variation import checked_seed
@@ -53,12 +53,13 @@ def render(
     width: Width = 1280,
     height: Height = 960,
     world: WorldOptions = ANY_WORLD,
+    fault: Faults = None,
 ) -> int:
     """Render a picture of the work cell."""
     from handeye.cell.photograph import PNG, photograph_png
 
     check_place(output, PNG)
-    cell = task().cell(world.spec, "ray")
+    cell = task().cell(broken(world.spec, fault), "ray")
     write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
     say(f"{output}: {width} x {height}, camera {camera}")
     return 0

@@ -4,7 +4,7 @@ from typing import Final
 
 from handeye.door.html import Markup, heading, inked, line, page, picture, table
 from handeye.door.state import State
-from handeye.report.page import verdict
+from handeye.report.page import told_faults, verdict
 from handeye.report.result import Check, Result
 
 _INKS: Final = {
@@ -22,6 +22,7 @@ def run_page(result: Result, state: State, name: str | None, png: bytes | None) 
     pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
     if result.referee:
         pieces.append(_findings(result))
+    pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
     limits = (result.limits or {}).items()
     pieces += [
         line(inked(f"limit of {name} set by the caller: {limit:g}", "doubtful")) for name, limit in limits

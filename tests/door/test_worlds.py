@@ -116,3 +116,18 @@ def test_what_cannot_be_exported_is_told_in_one_sentence(
     with pytest.raises(InvalidInput, match=sentence):
         handeye.World(seed=3).export(tmp_path / name if isinstance(name, str) else name, part=part)
     assert [*tmp_path.iterdir()] == []
+
+
+def test_a_world_has_faults_by_name_size_and_the_number_of_a_stage() -> None:
+    world = handeye.World(3, faults=["lamp.dead", "gap_potentiometer.off=1mm@2"])
+    assert [(fault.name, fault.value, fault.stage) for fault in world.spec.faults] == [
+        ("gap_potentiometer.off", 0.001, 2),
+        ("lamp.dead", None, None),
+    ]
+    assert repr(world) == "World(seed=3, faults=['lamp.dead', 'gap_potentiometer.off=1mm@2'])"
+    assert world != handeye.World(3)
+
+
+def test_a_fault_that_there_is_not_is_refused_with_the_nearest() -> None:
+    with pytest.raises(InvalidInput, match=r"^there is no fault `lamp.daed`; did you mean `lamp.dead`\?$"):
+        handeye.World(faults="lamp.daed")

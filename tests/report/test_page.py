@@ -11,9 +11,11 @@ from rich.console import Console
 
 from handeye.door.run_page import run_page
 from handeye.door.state import State
+from handeye.faults import Fault
 from handeye.judge.finding import at_most
 from handeye.report.page import clock, page, referee, timing, verdict
 from handeye.report.result import CameraReport, Check, Result, to_json
+from handeye.variation import WorldSpec
 
 GAP = Check(
     ok=False, subject="gap under a head", value=5.0, relation="at most", limit=0.2, unit="mm",
@@ -151,3 +153,15 @@ def test_the_exit_code_tells_the_cases_apart(completed: bool, assembled: bool | 
 )
 def test_times_are_said_as_people_say_them(seconds: float, said: str) -> None:
     assert clock(seconds) == said
+
+
+def test_what_was_broken_is_told_as_it_would_be_typed() -> None:
+    fault = Fault(name="gap_potentiometer.off", value=0.0127, stage=2)
+    made = result(completed=True, assembled=True)
+    broken = msgspec.structs.replace(made, world=WorldSpec(seed=0, faults=(fault,)))
+    console = Console(file=io.StringIO(), width=80)
+    with console.capture() as shown:
+        console.print(page(broken))
+    assert "broken: gap_potentiometer.off=0.5in@2\n" in shown.get()
+    state = cast("State", object())
+    assert "broken: gap_potentiometer.off=0.5in@2" in run_page(broken, state, None, None)
