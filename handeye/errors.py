@@ -30,6 +30,12 @@ NO_TOUCH: Final = 25
 PART_NOT_SEEN: Final = 30
 FEATURES_NOT_SEEN: Final = 31
 GASKET_WRONG: Final = 32
+SWITCH_WRONG: Final = 50
+GAP_WRONG: Final = 51
+FORCE_WRONG: Final = 52
+JOINT_SENSE_WRONG: Final = 53
+CURRENT_WRONG: Final = 54
+PICTURE_WRONG: Final = 55
 
 ERRORS: Final[dict[int, str]] = {
     JOINT_LIMIT: "a joint would move beyond its limit",
@@ -46,5 +52,12 @@ ERRORS: Final[dict[int, str]] = {
     PART_NOT_SEEN: "the part is not seen in the picture",
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
     GASKET_WRONG: "the gasket is not on properly",
+    SWITCH_WRONG: "a finger switch does not tell what its finger touches",
+    GAP_WRONG: "the gap does not follow its drive: its potentiometer fails, or something holds the fingers",
+    FORCE_WRONG: "the hand feels a force in free air: the force sense or a drive fails, or the load is not as declared",
+    JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
+    CURRENT_WRONG: "the screwdriver runs, and its motor current shows nothing",
+    PICTURE_WRONG: "the camera gives a picture that is not a live one",
 }
-"""Error numbers a script can test, with what the operator is told. 2 and 23 are the period's."""
+"""Error numbers a script can test, with what the operator is told. 2 and 23 are the period's. From 50 on it is a
+sense that is not to be believed."""

@@ -91,6 +91,37 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
+    errors.SWITCH_WRONG: Remedy(
+        "A switch that is closed while its finger stands off everything is stuck; so is one that stays open while the "
+        "fingers press on something. Nothing counts that is felt by it: leave the error untested, or put it into "
+        "words for the operator.",
+        'OPEN 1\nSKIPN 50 ;both switches are open\nWAIT "SEE TO THE FINGER SWITCHES"\nMOVE P\nCLOSE .1',
+    ),
+    errors.GAP_WRONG: Remedy(
+        "Where there is room for the fingers, the gap's potentiometer is broken: leave the error untested. Where they "
+        "may meet something as they open, open them less.",
+        "OPEN 1.8\nSKIPN 51 ;the fingers came to where they should\nOPEN 1.5\nMOVE P",
+    ),
+    errors.FORCE_WRONG: Remedy(
+        "The first motion after a MOVE that should feel something finds a force already: declare with LOAD what the "
+        "hand carries, and LOAD 0 when it has let go. Where that is right, something leans on the hand, or a drive or "
+        "a tachometer fails.",
+        "MOVE P\nCLOSE .1\nLOAD 30 ;else it would be felt\nMOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7",
+    ),
+    errors.JOINT_SENSE_WRONG: Remedy(
+        "The arm does not know where it is: leave the error untested, or put it into words for the operator.",
+        'MOVE T\nSKIPN 53 ;both sensors of each joint agree\nWAIT "SEE TO THE ARM\'S POTENTIOMETERS"\nMOVE P',
+    ),
+    errors.CURRENT_WRONG: Remedy(
+        "A motor takes current to start. Where none is read, no TORQUE can be met, and no screw is known to be tight.",
+        "MOVE T\nTOOL 100\nTORQUE 42\nCHANGE [0 0 -1] .5\nSKIPN 54 ;the motor shows current\n"
+        'WAIT "SEE TO THE DRIVER"\nTOOL 0',
+    ),
+    errors.PICTURE_WRONG: Remedy(
+        "Noise makes two pictures of a live camera differ, even of a scene at rest. One that is the same as an "
+        "earlier one, or of one intensity all over, shows nothing.",
+        'LOOK V\nSKIPN 55 ;it is a live picture\nWAIT "SEE TO THE CAMERA"\nGENERAL BASE V',
+    ),
 }
 """Every error number, with what can be done."""
 

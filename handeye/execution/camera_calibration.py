@@ -22,12 +22,13 @@ from handeye.execution.state import DriveState
 from handeye.ports.camera import TvCamera
 from handeye.ports.workcell import Workcell
 from handeye.pose import hand
-from handeye.program.cause_text import cause_sentence
+from handeye.program.cause_text import error_sentence
 from handeye.record import Vector3
 from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 from handeye.vision.lamp import find_spot
+from handeye.vision.live import repeated
 
 FEWEST: Final = 8
 """Sightings with each lens below which the set-up is called a failure."""
@@ -54,7 +55,7 @@ def calibrate_camera(
         viewed: told of each view that the lamp is carried to: its number, of how many.
 
     Raises:
-        CalibrationFailed: the lamp was seen too few times.
+        CalibrationFailed: the lamp was seen too few times, or the camera's picture does not change.
         Halted: the panic button was hit.
     """
     drive = ArmDrive(cell=cell, arm=arm, state=DriveState.holding(cell.sense(), arm), halt=halt)
@@ -78,9 +79,9 @@ def calibrate_camera(
 
 
 def _go(drive: ArmDrive, trajectory: Trajectory) -> None:
-    outcome = drive.follow(trajectory.sample(drive.period))
+    outcome = drive.glide(trajectory.sample(drive.period))
     if outcome.error is not None:
-        why = "the drives were cut" if outcome.cause is None else cause_sentence(outcome.cause)
+        why = "the drives were cut" if outcome.cause is None else error_sentence(outcome.error, outcome.cause)
         raise CalibrationFailed(f"while the camera was being calibrated, {why}")
 
 
@@ -116,6 +117,8 @@ def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3) -> Iterat
     lit, seconds = camera.digitise(hold_target=True)
     drive.state.lamp = False
     drive.brake(seconds)
+    if repeated(lit, dark):
+        raise CalibrationFailed("the camera gives the same picture again, with the lamp lit as without it")
     spot = find_spot(dark, lit)
     if spot is None:
         return

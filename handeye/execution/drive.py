@@ -47,6 +47,12 @@ class ArmDrive(ServoLoop):
         """Follow set-points; end early when `guard` trips. See `following`."""
         return self._pass(self.following(samples, guard, direction))
 
+    def glide(
+        self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
+    ) -> Outcome:
+        """Follow set-points through free air. See `gliding`."""
+        return self._pass(self.gliding(samples, guard, direction))
+
     def comply(self, course: Course, guard: Monitor | None) -> Outcome:
         """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips."""
         return self._pass(self.complying(course, guard))

@@ -20,6 +20,7 @@ from handeye.events import (
 )
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
+from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
 from handeye.execution.state import ExecutionState, Fault, vector
 from handeye.execution.vision_actions import VISION_ACTIONS
@@ -30,7 +31,7 @@ from handeye.program.program import Step
 IDLE_LIMIT: Final = 10_000
 """Steps without time passing after which a program is taken to run in a circle."""
 
-ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | VISION_ACTIONS | FLOW_ACTIONS
+ACTIONS: Final[dict[type[Operation], Action]] = MOTION_ACTIONS | HAND_ACTIONS | VISION_ACTIONS | FLOW_ACTIONS
 """Actions of all operations that do not branch."""
 
 

@@ -1,4 +1,4 @@
-"""Motions of the arm and the hand: what each operation does in the working phase."""
+"""Motions of the arm: what each operation does in the working phase."""
 
 from typing import Final
 
@@ -22,17 +22,14 @@ from handeye.planning.motions import (
     turn_samples,
 )
 from handeye.pose import Array, Pose, translated
-from handeye.program.causes import GapTooLarge, GapTooSmall, GuardsUnmet, NothingBetween, TravelOutside
-from handeye.program.guards import Guards, unmet
-from handeye.program.motion_operations import Center, Change, Close, Move, Open, Travel, Turn
+from handeye.program.causes import CurrentSilent, GuardsUnmet, TravelOutside
+from handeye.program.guards import GuardKind, Guards, unmet
+from handeye.program.motion_operations import Change, Move, Travel, Turn
 from handeye.program.operation import Operation
 from handeye.record import Vector3
-from handeye.touch.centring import Centring
 from handeye.touch.guards import monitor
-from handeye.touch.hold import at_least, at_most
+from handeye.touch.senses import STARTING
 
-_SHUT: Final = -0.02
-"""Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""
 PLAN_TOLERANCE: Final = 1e-4
 """A goal or start nearer than this (m, rad) to its planned value is run as planned."""
 
@@ -59,7 +56,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
         return Fault(number=errors.NO_SOLUTION, cause=trajectory.why.cause(run.arm, trajectory.name))
     samples = trajectory.sample(run.drive.period)
     along = directions(samples, run.arm, run.drive.state.q)
-    return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
+    return _finish(run, run.drive.glide(samples, monitor(operation.guards), along), operation.guards)
 
 
 def _trajectory(
@@ -94,6 +91,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
     else:
         outcome = run.drive.comply(_course(run, operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
+    run.drive.state.in_air = False
     return _finish(run, outcome, operation.guards)
 
 
@@ -123,7 +121,9 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
     along = directions(samples, run.arm, run.drive.state.q)
-    return _finish(run, run.drive.follow(samples, monitor(operation.guards), along), operation.guards)
+    outcome = run.drive.follow(samples, monitor(operation.guards), along)
+    run.drive.state.in_air = False
+    return _finish(run, outcome, operation.guards)
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:
@@ -138,66 +138,10 @@ def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | 
         return None
     if not guards:
         return None
-    return Fault(number=unmet(guards), cause=GuardsUnmet(guards=tuple(guard.kind for guard in guards)))
-
-
-def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
-    """Drive the fingers to a gap."""
-    _to_gap(run, operation.gap)
-    run.drive.hold(run.arm.hand.grasp.settle)
-    return None
-
-
-def _to_gap(run: ExecutionContext, goal: float) -> None:
-    drive = run.drive
-    start = drive.state.gap = drive.sensed.gap
-    ticks = max(1, round(abs(goal - start) / (run.arm.hand.grasp.speed * drive.period)))
-    for i in range(1, ticks + 1):
-        drive.state.gap = start + (goal - start) * i / ticks
-        drive.hold(1)
-
-
-def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close until both switches fire or the gap falls below the minimum, then see what is held."""
-    drive, grasp = run.drive, run.arm.hand.grasp
-    drive.state.gap = drive.sensed.gap
-    floor = min(operation.minimum, drive.state.gap)
-    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
-        drive.state.gap -= grasp.speed * drive.period
-        drive.hold(1)
-    drive.state.gap = _SHUT
-    drive.hold(grasp.settle)
-    return _held(drive.sensed.gap, operation.minimum, operation.maximum)
-
-
-def _held(gap: float, minimum: float, maximum: float | None) -> Fault | None:
-    if not at_least(gap, minimum):
-        return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=minimum))
-    if maximum is not None and not at_most(gap, maximum):
-        return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))
-    return None
-
-
-def center(run: ExecutionContext, operation: Center) -> Fault | None:
-    """Close on an object, moving the arm so that the object stays where it is."""
-    drive, grasp = run.drive, run.arm.hand.grasp
-    X_WT = forward(run.arm, drive.state.q)
-    line = X_WT[:3, 1]
-    here = drive.dynamics()
-    drive.state.gap = drive.sensed.gap
-    centring = Centring(minimum=operation.minimum, speed=grasp.centring)
-    while not centring.done:
-        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=drive.period)
-        drive.state.gap += step.gap
-        X_WT = translated(X_WT, step.hand * line)
-        outcome = drive.shift(here, X_WT)
-        if outcome.error is not None:
-            return Fault(number=outcome.error, cause=outcome.cause)
-    drive.hold(grasp.settle // 2)
-    if centring.error:
-        return Fault(number=centring.error, cause=NothingBetween(gap=round(drive.sensed.gap, 6)))
-    run.state.finger_line = line
-    return _held(drive.sensed.gap, operation.minimum, None)
+    kinds, drive = tuple(guard.kind for guard in guards), run.drive.state
+    if GuardKind.TORQUE in kinds and drive.tool and drive.current < STARTING:
+        return Fault(number=errors.CURRENT_WRONG, cause=CurrentSilent(torque=round(drive.current, 6)))
+    return Fault(number=unmet(guards), cause=GuardsUnmet(guards=kinds))
 
 
 def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
@@ -213,8 +157,5 @@ MOTION_ACTIONS: Final[dict[type[Operation], Action]] = {
     Move: move,
     Change: change,
     Turn: turn,
-    Open: open_hand,
-    Close: close,
-    Center: center,
     Travel: travel,
 }

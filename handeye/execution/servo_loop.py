@@ -16,6 +16,7 @@ from handeye import errors
 from handeye.arm.computed_torque import felt_wrench, prepare, torque
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
+from handeye.arm.joint_agreement import JointAgreement
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
@@ -24,8 +25,17 @@ from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.pose import Array, Pose, displaced, translated
-from handeye.program.causes import Cause, HandAstray, HandStuck, JointBehind
+from handeye.program.causes import (
+    Cause,
+    ForceInAir,
+    HandAstray,
+    HandStuck,
+    JointBehind,
+    JointName,
+    JointSensesApart,
+)
 from handeye.touch.guards import ActiveGuard, Monitor, Reading, Trip
+from handeye.touch.senses import IN_AIR, off_zero
 
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
@@ -45,6 +55,8 @@ class Outcome:
     """An error of the motion itself (servo lag, watchdog)."""
     cause: Cause | None = None
     """Cause of that error, if there is more to say of it."""
+    off: float = 0.0
+    """Distance of the hand from its set-points on the way, m, if it is too far from the last."""
 
 
 REACHED = Outcome()
@@ -117,9 +129,12 @@ class ServoLoop:
         if len(samples) == 0:
             return REACHED
         if guard is not None:
-            yield from self.zeroing()
+            zeroed = yield from self.zeroing()
+            if zeroed.error is not None:
+                return zeroed
         motion = prepare(self.arm, self.state.q, samples)
         J = jacobian(self.arm, motion.q) if guard is not None or self.state.load else _no_jacobian(motion.q)
+        sensors, off = self._sensors(), np.zeros(len(self.state.q))
         for i in range(len(motion)):
             here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), _row(direction, i)
             q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
@@ -128,29 +143,43 @@ class ServoLoop:
             if self.state.cut:
                 return CUT
             self.state.q = samples.q[i]
-            lag = np.abs(self.sensed.q - self.state.q) > constants(self.arm).lag
-            if lag.any():
-                self.state.q = self.sensed.q.copy()
-                joint = self.arm.joints[int(np.argmax(lag))].name
-                return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
+            failed = self._doubted(sensors) or self._behind()
+            if failed is not None:
+                return failed
+            off += self.sensed.q - self.state.q
             trip = guard.check(self._reading(along)) if guard is not None else None
             if trip is not None:
                 self._freeze(along)
                 return Outcome(trip=trip)
         yield from self.holding(self.arm.servo.settle)
-        return REACHED if guard is not None else self._arrived()
+        return REACHED if guard is not None else self._arrived(off / len(motion))
+
+    def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
+        """Follow set-points through free air; see `following`.
+
+        A hand that something stops is off its set-point there, and one on which a force acts is off it all the way.
+        """
+        self.state.in_air = False
+        outcome = yield from self.following(samples, guard, direction)
+        if outcome.off > self.arm.servo.short / 2:
+            yield from self.zeroing()
+            return self._force_in_air()
+        self.state.in_air = outcome == REACHED
+        return outcome
 
     def complying(self, course: Course, guard: Monitor | None) -> Motion[Outcome]:
         """Go straight, pressing, turning or giving way as the course says; end early when `guard` trips.
 
         A position servo in which the measured force moves the set-point: it needs no joint to be slack.
         """
-        yield from self.zeroing()
-        X_start = forward(self.arm, self.state.q)
+        zeroed = yield from self.zeroing()
+        if zeroed.error is not None:
+            return zeroed
+        X_start, sensors = forward(self.arm, self.state.q), self._sensors()
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
             if gone >= course.distance:
-                return REACHED if guard is not None else self._arrived()
+                return REACHED if guard is not None else self._arrived(np.zeros(len(self.state.q)))
             gone += course.advance(self.state.wrench, tick) * self.period
             given += course.yielding(self.state.wrench) * self.period
             turn = course.turned(turn, self.state.wrench, self.period)
@@ -161,6 +190,9 @@ class ServoLoop:
             yield from self._approach(self.dynamics(), step.q, estimate=True, guards=guards)
             if self.state.cut:
                 return CUT
+            doubted = self._doubted(sensors)
+            if doubted is not None:
+                return doubted
             trip = guard.check(self._reading(course.direction)) if guard is not None else None
             if trip is not None:
                 self._freeze(course.direction)
@@ -183,8 +215,8 @@ class ServoLoop:
         for _ in range(ticks):
             yield from self._approach(here, self.state.q, estimate=False)
 
-    def zeroing(self) -> Motion[None]:
-        """Hold still and take what is felt now as zero force."""
+    def zeroing(self) -> Motion[Outcome]:
+        """Hold still and take what is felt now as zero force; in free air that is next to none."""
         here = self.dynamics()
         felt = []
         self.state.tare = np.zeros(6)
@@ -193,6 +225,7 @@ class ServoLoop:
             felt.append(self.state.wrench)
         self.state.tare = np.mean(felt, axis=0)
         self.state.wrench = np.zeros(6)
+        return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
     # -- one servo period ------------------------------------------------------------------------------
 
@@ -269,6 +302,8 @@ class ServoLoop:
         yield
         sensed = self.cell.sense()
         self.state.cut = sensed.braked and tau is not None
+        if self.state.tool:
+            self.state.current = max(self.state.current, abs(sensed.tool_torque))
         if feel is not None and not halted:
             feel(sensed)
         unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear
@@ -303,14 +338,53 @@ class ServoLoop:
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
         self.state.q = self.sensed.q.copy() if held.q is None else held.q
 
+    # -- doubting -----------------------------------------------------------------------------------
+
+    def _unloaded(self) -> Array:
+        """Force on the hand by the last tare, less the load that the servo bears: shape (3,), N."""
+        return np.asarray(self.state.tare[:3] + np.array((0.0, 0.0, self.state.load)))
+
+    def _force_in_air(self) -> Outcome:
+        """The error that the last tare is no zero force."""
+        x, y, z = (round(float(component), 6) for component in self._unloaded())
+        cause = ForceInAir(force=(x, y, z), limit=IN_AIR, load=self.state.load)
+        return Outcome(error=errors.FORCE_WRONG, cause=cause)
+
+    def _sensors(self) -> JointAgreement:
+        """The sensors of the joints, to be compared from now on."""
+        return JointAgreement(arm=self.arm, start=self.sensed.q, rate=self.sensed.qd)
+
+    def _doubted(self, sensors: JointAgreement) -> Outcome | None:
+        """Compare the sensors of the joints; the set-point becomes where the arm says it is if they disagree."""
+        found = sensors.step(self.sensed.q, self.sensed.qd)
+        if found is None:
+            return None
+        self.state.q = self.sensed.q.copy()
+        joint = self.arm.joints[found.joint]
+        cause = JointSensesApart(
+            joint=JointName(name=joint.name, kind=joint.kind),
+            potentiometer=round(found.potentiometer, 6), tachometer=round(found.tachometer, 6),
+        )  # fmt: skip
+        return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
+
+    def _behind(self) -> Outcome | None:
+        """See that every joint keeps up with its set-point, which else becomes where it is."""
+        lag = np.abs(self.sensed.q - self.state.q) > constants(self.arm).lag
+        if not lag.any():
+            return None
+        self.state.q = self.sensed.q.copy()
+        joint = self.arm.joints[int(np.argmax(lag))].name
+        return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
+
     # -- knowing ------------------------------------------------------------------------------------
 
-    def _arrived(self) -> Outcome:
-        """Check that the hand is at its set-point."""
+    def _arrived(self, on_the_way: Array) -> Outcome:
+        """Check that the hand is at its set-point; `on_the_way`: by how much the joints were off theirs, shape (n,)."""
         off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
-        return Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)))
+        before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))
+        return Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)), off=before)
 
     @property
     def sensed(self) -> Sensed:

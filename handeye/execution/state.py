@@ -93,9 +93,13 @@ class DriveState(MutableRecord, kw_only=True):
     """Weight that the servo bears, N."""
     tool: float = 0.0
     """Speed of the screwdriver, rad/s."""
+    current: float = 0.0
+    """Greatest torque that its motor has shown since it was told that speed, N m."""
     lamp: bool = False
     cut: bool = False
     """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
+    in_air: bool = False
+    """A MOVE has brought the hand where it is, and met nothing."""
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     wrench: Array = msgspec.field(default_factory=lambda: np.zeros(6))
     """External force and moment on the hand in W, less the tare."""
@@ -126,6 +130,8 @@ class ExecutionState(SystemState, kw_only=True):
     """How far the last straight motion went (m)."""
     finger_line: Array | None = None
     """Unit vector of the finger line when the last action was a Center."""
+    grasping: bool = False
+    """The fingers were last told to close."""
     calibration: Calibration | None = None
     """Of the camera, if the plan takes pictures."""
     unable: str | None = None

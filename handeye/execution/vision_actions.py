@@ -9,14 +9,15 @@ from handeye import errors
 from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
-from handeye.ports.camera import TvCamera
+from handeye.ports.camera import Picture, TvCamera
 from handeye.pose import Array, Pose, planar, yaw
-from handeye.program.causes import NoGeneral, NoPicture
+from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel
 from handeye.vision.gasket import inspect as inspect_gasket
+from handeye.vision.live import blank, repeated
 from handeye.vision.marks import Mark
 
 
@@ -68,11 +69,24 @@ def look(run: ExecutionContext, operation: Look) -> Fault | None:
     """Take a picture."""
     picture, seconds = _tv(run).digitise(hold_target=operation.hold_target)
     _wait(run, "digitise", seconds)
+    dead = _dead(run, operation.picture, picture)
+    if dead is not None:
+        return Fault(number=errors.PICTURE_WRONG, cause=dead)
     pan, tilt = _tv(run).pots()
     run.state.shots[operation.picture] = Shot(
         picture=picture, view=_known(run).view(run.state.lens, pan, tilt)
     )
     run.emit(PictureTaken(time=run.time, picture=operation.picture, lens=run.state.lens))
+    return None
+
+
+def _dead(run: ExecutionContext, name: str, picture: Picture) -> PictureBlank | PictureRepeated | None:
+    """Why a picture is none of a live camera, whose noise makes every picture another."""
+    if blank(picture):
+        return PictureBlank(picture=name)
+    for earlier, shot in run.state.shots.items():
+        if repeated(picture, shot.picture):
+            return PictureRepeated(picture=name, earlier=earlier)
     return None
 
 

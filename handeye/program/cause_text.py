@@ -6,6 +6,7 @@ from handeye.errors import ERRORS
 from handeye.plain_text import told_apart
 from handeye.program import causes as c
 from handeye.program.causes import Cause
+from handeye.program.doubt_text import doubt_sentence
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import sentence as reason_sentence
 from handeye.units import INCH
@@ -52,6 +53,11 @@ def cause_sentence(cause: Cause) -> str:
             return f"the gap is {gap} in, the maximum {most} in"
         case c.NothingBetween():
             return f"the fingers do not both touch anything; the gap is {_inches(cause.gap)}"
+        case (
+            c.SwitchesClosed() | c.SwitchesOpen() | c.GapAstray() | c.GapStill() | c.ForceInAir()
+            | c.JointSensesApart() | c.CurrentSilent() | c.PictureRepeated() | c.PictureBlank()
+        ):  # fmt: skip
+            return doubt_sentence(cause)
         case c.NoPicture():
             return f"no picture {cause.picture} was taken"
         case c.NoGeneral():

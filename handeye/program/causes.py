@@ -8,7 +8,7 @@ from typing import Literal
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import NamedArm
 from handeye.program.reasons import Reason
-from handeye.record import Record
+from handeye.record import Record, Vector3
 
 LargeHole = Literal["largest", "second"]
 """The holes by which vision locates a part."""
@@ -110,6 +110,76 @@ class NothingBetween(CauseRecord, frozen=True, kw_only=True):
     gap: float
 
 
+# -- senses -----------------------------------------------------------------------------------------
+
+
+class SwitchesClosed(CauseRecord, frozen=True, kw_only=True):
+    """Finger switches are closed although the fingers have gone apart."""
+
+    fingers: tuple[bool, bool]
+    """As `Sensed.touch`: those that are closed."""
+
+
+class SwitchesOpen(CauseRecord, frozen=True, kw_only=True):
+    """Finger switches are open although something holds the fingers apart that are driven shut."""
+
+    fingers: tuple[bool, bool]
+    """Those that are open."""
+    gap: float
+
+
+class GapAstray(CauseRecord, frozen=True, kw_only=True):
+    """The gap is not what the fingers were driven to."""
+
+    gap: float
+    goal: float
+
+
+class GapStill(CauseRecord, frozen=True, kw_only=True):
+    """The gap reads the same while the fingers are driven together."""
+
+    gap: float
+    driven: float
+    """By how much, m."""
+
+
+class ForceInAir(CauseRecord, frozen=True, kw_only=True):
+    """The force on the hand, before any tare, where it should touch nothing."""
+
+    force: Vector3
+    """N, table coordinates."""
+    limit: float
+    load: float
+    """Weight that was declared, N."""
+
+
+class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
+    """Ways of a joint since the motion began, by its two sensors."""
+
+    joint: JointName
+    potentiometer: float
+    tachometer: float
+
+
+class CurrentSilent(CauseRecord, frozen=True, kw_only=True):
+    """The greatest torque that the motor's current showed while the screwdriver ran."""
+
+    torque: float
+
+
+class PictureRepeated(CauseRecord, frozen=True, kw_only=True):
+    """A picture is the same as an earlier one, point by point."""
+
+    picture: str
+    earlier: str
+
+
+class PictureBlank(CauseRecord, frozen=True, kw_only=True):
+    """A picture is of one intensity all over."""
+
+    picture: str
+
+
 # -- vision -----------------------------------------------------------------------------------------
 
 
@@ -195,11 +265,16 @@ class Recorded(CauseRecord, frozen=True, kw_only=True):
 
 SightCause = NoOutline | OutsidePicture | NoHoles
 """Causes for which vision does not find a part."""
+SenseCause = (
+    SwitchesClosed | SwitchesOpen | GapAstray | GapStill | ForceInAir | JointSensesApart | CurrentSilent
+    | PictureRepeated | PictureBlank
+)  # fmt: skip
+"""Causes for which a sense is not believed."""
 InspectionCause = NoGasket | GasketWrong
 """Causes for which a part does not pass its inspection."""
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside
-    | GapTooSmall | GapTooLarge | NothingBetween | NoPicture | NoGeneral | SightCause | InspectionCause
+    | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
     | NoSearch | PlacesTried | Looping | Recorded
 )  # fmt: skip
 """All there are."""

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Final
 from msgspec import Meta
 
 from handeye import errors
-from handeye.program.guards import FORCE, Bounds, Guards, unmet
+from handeye.program.guards import FORCE, Bounds, GuardKind, Guards, unmet
 from handeye.program.operation import Operation, Use, action
 from handeye.record import Record, Vector3
 
@@ -30,12 +30,19 @@ class ArmMotion(Operation, frozen=True, kw_only=True):
     family: ClassVar = "motion"
     moves: ClassVar = True
     takes_time: ClassVar = True
-    raising: ClassVar = action(errors.JOINT_LIMIT, errors.NO_SOLUTION, errors.SERVO_LAG)
+    raising: ClassVar = action(
+        errors.JOINT_LIMIT, errors.NO_SOLUTION, errors.SERVO_LAG, errors.FORCE_WRONG, errors.JOINT_SENSE_WRONG
+    )
 
     @property
     def raises(self) -> frozenset[int]:
         """The numbers of the errors it can raise."""
-        return self.raising | {unmet(self.guards)} if self.guards else self.raising
+        found = set(self.raising)
+        if self.guards:
+            found.add(unmet(self.guards))
+        if any(guard.kind is GuardKind.TORQUE for guard in self.guards):
+            found.add(errors.CURRENT_WRONG)
+        return frozenset(found)
 
 
 class Move(ArmMotion, frozen=True, kw_only=True):
@@ -138,7 +145,7 @@ class Open(Operation, frozen=True, kw_only=True):
     needs: ClassVar = "hand"
     moves: ClassVar = True
     takes_time: ClassVar = True
-    raising: ClassVar = action()
+    raising: ClassVar = action(errors.SWITCH_WRONG, errors.GAP_WRONG)
     bounds: ClassVar = {"gap": _GAP}
 
     gap: float
@@ -151,7 +158,7 @@ class Close(Operation, frozen=True, kw_only=True):
     needs: ClassVar = "hand"
     moves: ClassVar = True
     takes_time: ClassVar = True
-    raising: ClassVar = action(errors.NOTHING_HELD)
+    raising: ClassVar = action(errors.NOTHING_HELD, errors.SWITCH_WRONG, errors.GAP_WRONG)
     bounds: ClassVar = {"minimum": _GAP, "maximum": _GAP}
 
     minimum: float = 0.0
@@ -170,7 +177,9 @@ class Center(Operation, frozen=True, kw_only=True):
     needs: ClassVar = "hand"
     moves: ClassVar = True
     takes_time: ClassVar = True
-    raising: ClassVar = action(errors.NOTHING_HELD, errors.JOINT_LIMIT, errors.SERVO_LAG)
+    raising: ClassVar = action(
+        errors.NOTHING_HELD, errors.JOINT_LIMIT, errors.SERVO_LAG, errors.SWITCH_WRONG, errors.GAP_WRONG
+    )
     bounds: ClassVar = {"minimum": _GAP}
 
     minimum: float = 0.0

@@ -37,7 +37,7 @@ class Look(Operation, frozen=True, kw_only=True):
     family: ClassVar = "sight"
     needs: ClassVar = "camera"
     takes_time: ClassVar = True
-    raising: ClassVar = action()
+    raising: ClassVar = action(errors.PICTURE_WRONG)
     writing: ClassVar = {"picture": ("picture",)}
 
     picture: str

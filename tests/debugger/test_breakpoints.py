@@ -113,6 +113,9 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
     assert macro.program.steps[macro.program.labels["LY"][0]].text.startswith("CHANGE")
 
 
+NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32, 50, 51, 52, 53, 54, 55"
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
@@ -125,8 +128,8 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
          "did you mean `shut the hand`?"),
         ("zzz", "the program has no label, instruction or stage `zzz`"),
         ("", "give an error (error:23), a line, a label, an instruction or a stage"),
-        ("error:9", "there is no error `9`; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
-        ("error:", "there is no error ``; there are 1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32"),
+        ("error:9", f"there is no error `9`; there are {NUMBERS}"),
+        ("error:", f"there is no error ``; there are {NUMBERS}"),
     ],
 )  # fmt: skip
 def test_a_place_that_is_not_there_is_refused_in_a_sentence(text: str, sentence: str) -> None:

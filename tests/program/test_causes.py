@@ -11,7 +11,7 @@ from handeye.program import causes as c
 from handeye.program.cause_text import call_sentence, cause_sentence, error_sentence, inspection_sentence
 from handeye.program.guards import GuardKind
 from handeye.program.reasons import HeldJoint, InnerCylinder, JointLimit, Reason
-from handeye.units import DEGREE, INCH
+from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
 ARM = c.ArmNames(
     name="toy",
@@ -39,6 +39,40 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0), "the gap is -0.002 in, the minimum 0.000 in"),
     (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),
     (c.NothingBetween(gap=0.1 * INCH), "the fingers do not both touch anything; the gap is 0.10 in"),
+    (
+        c.SwitchesClosed(fingers=(True, False)),
+        "the switch of the +y finger is closed although the fingers are open",
+    ),
+    (
+        c.SwitchesOpen(fingers=(True, True), gap=0.3 * INCH),
+        "the switches of both fingers are open although something 0.30 in thick holds the fingers apart",
+    ),
+    (
+        c.GapAstray(gap=0.5 * INCH, goal=1.8 * INCH),
+        "the gap reads 0.50 in; the fingers were driven to 1.80 in",
+    ),
+    (
+        c.GapStill(gap=1.0 * INCH, driven=0.7 * INCH),
+        "the gap still reads 1.00 in; the fingers were driven together by 0.70 in",
+    ),
+    (
+        c.ForceInAir(force=(0.0, -1.0 * OUNCE_FORCE, 70.0 * OUNCE_FORCE), limit=25 * OUNCE_FORCE, load=0.0),
+        "0 oz in x, -1 oz in y, 70 oz in z; allowed: 25 oz; declared load: 0 oz",
+    ),
+    (
+        c.JointSensesApart(joint=ARM.joints[0], potentiometer=1.0 * INCH, tachometer=0.0),
+        "rail has gone 1.00 in by its potentiometer, 0.00 in by its tachometer",
+    ),
+    (
+        c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=-1 * DEGREE),
+        "wrist has gone 2.0 degrees by its potentiometer, -1.0 degrees by its tachometer",
+    ),
+    (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than it takes to start"),
+    (
+        c.PictureRepeated(picture="AFTER", earlier="BEFORE"),
+        "picture AFTER is the same as BEFORE, point by point",
+    ),
+    (c.PictureBlank(picture="WIDE"), "picture WIDE is of one intensity all over"),
     (c.NoPicture(picture="WIDE"), "no picture WIDE was taken"),
     (c.NoGeneral(), "no GENERAL found the part before"),
     (c.NoOutline(), "nothing of the part's size stands out from the background where it should be"),

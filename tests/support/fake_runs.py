@@ -14,6 +14,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan
 from handeye.pose import Array, hand
+from handeye.program.cause_text import call_sentence
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught
 from handeye.source import Source
@@ -60,6 +61,13 @@ class FakeRun:
     def called(self) -> bool:
         """The operator was called."""
         return self.executor.state.stopped is not None
+
+    @property
+    def told(self) -> str:
+        """What the operator was told."""
+        stopped = self.executor.state.stopped
+        assert stopped is not None
+        return call_sentence(stopped.message, stopped.error, stopped.cause)
 
     def saved(self, name: str) -> Array:
         """A saved difference (in)."""

@@ -60,11 +60,12 @@ class Wall:
 
 
 class FakeArm(ArmPort):
-    """Rigid bodies without error or noise, starting at rest at `q`; its walls push on the tool centre point."""
+    """Rigid bodies without error or noise, at rest at `q` first; `push` (N) and walls act on the tool centre point."""
 
     def __init__(self, q: Array) -> None:
         self.q, self.qd = np.array(q, dtype=np.float64), np.zeros(len(q))
         self.walls: list[Wall] = []
+        self.push = np.zeros(3)
         self.braked, self.cut, self.torque, self.unanswered = True, False, None, 0.0
 
     @property
@@ -91,7 +92,7 @@ class FakeArm(ArmPort):
     def _move(self, torque: Array, seconds: float, steps: int = 16) -> None:
         """Semi-implicit steps under a held torque; the arm's matrices are taken once for all of them."""
         inverse = np.linalg.inv(mass_matrix(STANFORD, self.q))
-        pushed = self._pushes() if self.walls else (lambda q, qd: 0.0)
+        pushed = self._pushes() if self.walls or self.push.any() else (lambda q, qd: 0.0)
         damping, step = np.array([joint.damping for joint in STANFORD.joints]), seconds / steps
         frictionless = bias(STANFORD, self.q, self.qd) - damping * self.qd
         for _ in range(steps):
@@ -105,7 +106,7 @@ class FakeArm(ArmPort):
 
         def pushed(q: Array, qd: Array) -> Array:
             p, v = X + J @ (q - q0), J @ qd
-            return np.asarray(J.T @ sum((wall.force(p, v) for wall in self.walls), np.zeros(3)))
+            return np.asarray(J.T @ sum((wall.force(p, v) for wall in self.walls), self.push))
 
         return pushed
 
@@ -164,7 +165,7 @@ class FakeLamp(LampPort):
 
 
 class FakeCamera(TvCamera):
-    """Hands out scripted pictures; every mechanical action takes one second."""
+    """Hands out scripted pictures, then noise; every mechanical action takes one second."""
 
     renderer = Renderer(method="none")
 
@@ -172,6 +173,7 @@ class FakeCamera(TvCamera):
         self.pictures = list(pictures)
         self.actions: list[tuple[object, ...]] = []
         self._pots = (0.0, 0.0)
+        self._noise = np.random.default_rng(0)
 
     def lens(self, focal_length: float) -> float:
         self.actions.append(("lens", focal_length))
@@ -191,8 +193,9 @@ class FakeCamera(TvCamera):
 
     def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
         self.actions.append(("digitise", hold_target))
-        picture = self.pictures.pop(0) if self.pictures else np.zeros((ROWS, COLUMNS), np.uint8)
-        return picture, 0.5
+        if self.pictures:
+            return self.pictures.pop(0), 0.5
+        return self._noise.integers(0, 2, (ROWS, COLUMNS), np.uint8), 0.5
 
 
 class FakeAxes(Axes):

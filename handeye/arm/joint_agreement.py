@@ -1,0 +1,57 @@
+"""Do the two sensors of a joint agree? What a tachometer has told of a motion against what its potentiometer tells."""
+
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.model import ArmModel, constants
+from handeye.pose import Array
+
+TURNED: Final = 0.03
+SLID: Final = 0.01
+"""Way, rad and m, by which they may differ. Far over what both are stated to be off by: a step of a 12-bit converter
+(.0015 rad, .24 mm), the waviness of a potentiometer (.003 rad), half a step of the tachometer's converter for five
+seconds (.007 rad, 1.3 mm)."""
+SHARE: Final = 0.05
+"""Share of the way by which they may differ besides: scales off by .2 % (potentiometers), and what a converter and a
+servo period lose of a rate that changes. Placeholder."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Disagreement:
+    """Ways of a joint (rad or m) since a motion began, by its two sensors."""
+
+    joint: int
+    potentiometer: float
+    tachometer: float
+
+
+@dataclass(slots=True, kw_only=True)
+class JointAgreement:
+    """The sensors of all joints from the beginning of a motion on; arrays have shape (n,), rad and m."""
+
+    arm: ArmModel
+    start: Array
+    """Potentiometers when the motion began."""
+    rate: Array
+    """Tachometers a servo period ago."""
+    _way: Array = field(init=False)
+    _path: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._way, self._path = np.zeros(len(self.start)), np.zeros(len(self.start))
+
+    def step(self, q: Array, qd: Array) -> Disagreement | None:
+        """Look at the readings of the next servo period; the joint whose sensors disagree most, if any do."""
+        gone = (self.rate + qd) / 2 * self.arm.servo.period
+        self._way, self._path, self.rate = self._way + gone, self._path + np.abs(gone), qd
+        by_pot = q - self.start
+        allowed = np.where(constants(self.arm).prismatic, SLID, TURNED) + SHARE * self._path
+        excess = np.abs(by_pot - self._way) / allowed
+        joint = int(np.argmax(excess))
+        if excess[joint] <= 1:
+            return None
+        return Disagreement(
+            joint=joint, potentiometer=float(by_pot[joint]), tachometer=float(self._way[joint])
+        )

@@ -1,0 +1,169 @@
+"""Motions of the hand: opening, closing and centring, and whether its senses tell of them what they should."""
+
+from typing import Final
+
+from handeye import errors
+from handeye.arm.kinematics import forward
+from handeye.execution.context import Action, ExecutionContext
+from handeye.execution.state import Fault
+from handeye.pose import translated
+from handeye.program.causes import (
+    Cause,
+    GapAstray,
+    GapStill,
+    GapTooLarge,
+    GapTooSmall,
+    NothingBetween,
+    SwitchesClosed,
+    SwitchesOpen,
+)
+from handeye.program.motion_operations import Center, Close, Open
+from handeye.program.operation import Operation
+from handeye.touch.centring import Centring
+from handeye.touch.hold import at_least, at_most
+from handeye.touch.senses import FOLLOWED, FREED, followed, stood_still
+
+_SHUT: Final = -0.02
+"""Set-point of the gap, m, that no thing and no hand reaches: the fingers press with all their grip."""
+
+
+def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
+    """Drive the fingers to a gap."""
+    start = run.drive.sensed.gap
+    run.state.grasping = False
+    _to_gap(run, operation.gap)
+    run.drive.hold(run.arm.hand.grasp.settle)
+    gap, touch = run.drive.sensed.gap, run.drive.sensed.touch
+    if not followed(gap, operation.gap):
+        return _gap_wrong(GapAstray(gap=round(gap, 6), goal=operation.gap))
+    if any(touch) and operation.gap - start > FREED:
+        return _switch_wrong(SwitchesClosed(fingers=touch))
+    return None
+
+
+def _to_gap(run: ExecutionContext, goal: float) -> None:
+    drive = run.drive
+    start = drive.state.gap = drive.sensed.gap
+    ticks = max(1, round(abs(goal - start) / (run.arm.hand.grasp.speed * drive.period)))
+    for i in range(1, ticks + 1):
+        drive.state.gap = start + (goal - start) * i / ticks
+        drive.hold(1)
+
+
+def close(run: ExecutionContext, operation: Close) -> Fault | None:
+    """Close until both switches fire or the gap falls below the minimum, then see what is held."""
+    fault = _begin_to_close(run)
+    if fault is not None:
+        return fault
+    drive, grasp = run.drive, run.arm.hand.grasp
+    start = drive.state.gap = drive.sensed.gap
+    floor = min(operation.minimum, drive.state.gap)
+    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
+        drive.state.gap -= grasp.speed * drive.period
+        drive.hold(1)
+    driven = _driven(start, drive.state.gap)
+    drive.state.gap = _SHUT
+    drive.hold(grasp.settle)
+    return _still(run, start, driven) or _held(run, operation.minimum, operation.maximum)
+
+
+def center(run: ExecutionContext, operation: Center) -> Fault | None:
+    """Close on an object, moving the arm so that the object stays where it is."""
+    fault = _begin_to_close(run)
+    if fault is not None:
+        return fault
+    drive, grasp = run.drive, run.arm.hand.grasp
+    X_WT = forward(run.arm, drive.state.q)
+    line = X_WT[:3, 1]
+    here = drive.dynamics()
+    start = drive.state.gap = drive.sensed.gap
+    centring = Centring(minimum=operation.minimum, speed=grasp.centring)
+    while not centring.done:
+        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=drive.period)
+        drive.state.gap += step.gap
+        X_WT = translated(X_WT, step.hand * line)
+        outcome = drive.shift(here, X_WT)
+        if outcome.error is not None:
+            return Fault(number=outcome.error, cause=outcome.cause)
+    drive.hold(grasp.settle // 2)
+    still = _still(run, start, _driven(start, drive.state.gap))
+    if still is not None:
+        return still
+    if centring.error:
+        return _nothing_centred(run, operation.minimum)
+    run.state.finger_line = line
+    return _thick_enough(run, operation.minimum)
+
+
+# -- what the senses say of it ------------------------------------------------------------------------
+
+
+def _begin_to_close(run: ExecutionContext) -> Fault | None:
+    """See that no switch is closed before the fingers close on anything.
+
+    A finger may stand against something: it opens a little then, and comes off.
+    """
+    drive, already = run.drive, run.state.grasping
+    run.state.grasping, drive.state.in_air = True, False
+    if already or not any(drive.sensed.touch):
+        return None
+    _to_gap(run, drive.sensed.gap + FREED)
+    drive.hold(run.arm.hand.grasp.settle // 2)
+    touch = drive.sensed.touch
+    return _switch_wrong(SwitchesClosed(fingers=touch)) if any(touch) else None
+
+
+def _driven(start: float, goal: float) -> float:
+    """Way of fingers (m) that are driven from one gap to another, less, on which they are shut at the latest."""
+    return start - max(goal, 0.0)
+
+
+def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
+    """See that the gap has changed with fingers that were driven together by `driven` (m) from a gap of `start`."""
+    if not stood_still(start - run.drive.sensed.gap, driven):
+        return None
+    return _gap_wrong(GapStill(gap=round(run.drive.sensed.gap, 6), driven=round(driven, 6)))
+
+
+def _nothing_centred(run: ExecutionContext, minimum: float) -> Fault:
+    """The error of fingers that did not both touch anything: held apart all the same, they touch it unnoticed."""
+    gap = run.drive.sensed.gap
+    if at_least(gap, minimum + FREED):
+        return _switches_open(run)
+    return Fault(number=errors.NOTHING_HELD, cause=NothingBetween(gap=round(gap, 6)))
+
+
+def _held(run: ExecutionContext, minimum: float, maximum: float | None) -> Fault | None:
+    """See that something is held, by the gap and by both switches."""
+    gap, touch = run.drive.sensed.gap, run.drive.sensed.touch
+    thin = _thick_enough(run, minimum)
+    if thin is not None:
+        return thin
+    if not all(touch) and at_least(gap, FOLLOWED):
+        return _switches_open(run)
+    if maximum is not None and not at_most(gap, maximum):
+        return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))
+    return None
+
+
+def _thick_enough(run: ExecutionContext, minimum: float) -> Fault | None:
+    gap = run.drive.sensed.gap
+    if at_least(gap, minimum):
+        return None
+    return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=minimum))
+
+
+def _switches_open(run: ExecutionContext) -> Fault:
+    first, second = run.drive.sensed.touch
+    return _switch_wrong(SwitchesOpen(fingers=(not first, not second), gap=round(run.drive.sensed.gap, 6)))
+
+
+def _switch_wrong(cause: Cause) -> Fault:
+    return Fault(number=errors.SWITCH_WRONG, cause=cause)
+
+
+def _gap_wrong(cause: Cause) -> Fault:
+    return Fault(number=errors.GAP_WRONG, cause=cause)
+
+
+HAND_ACTIONS: Final[dict[type[Operation], Action]] = {Open: open_hand, Close: close, Center: center}

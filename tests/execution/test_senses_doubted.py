@@ -1,0 +1,199 @@
+"""A sense that is broken is noticed where it first matters, by its own error, which names it.
+
+They are broken in the fake cell, whose other senses have no error. That none is doubted wrongly in drawn worlds is in
+`test_senses_believed`.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fake_runs import FakeRun, fake_run
+
+from handeye import errors
+from handeye.errors import ERRORS
+from handeye.ports.arm import ArmReading
+from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.hand import HandReading
+from handeye.pose import Array
+from handeye.units import INCH, OUNCE_INCH
+
+DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
+
+
+def reading(run: FakeRun, told: Callable[[ArmReading], ArmReading]) -> FakeRun:
+    """The arm of a run reads otherwise."""
+    right = run.cell.arm.read
+    run.cell.arm.read = lambda: told(right())  # type: ignore[method-assign]
+    return run
+
+
+def only(values: Array, joint: int, value: float) -> Array:
+    """Readings, but for that of one joint."""
+    found = values.copy()
+    found[joint] = value
+    return found
+
+
+def gripping(script: str, thickness: float, told: Callable[[HandReading], HandReading]) -> FakeRun:
+    """A script about a thing of some thickness (in), carried out by a hand that reads otherwise."""
+    run = fake_run(script)
+    run.cell.hand.thickness = lambda _: thickness * INCH
+    right = run.cell.hand.read
+    run.cell.hand.read = lambda: told(right())  # type: ignore[method-assign]
+    return run.go()
+
+
+# -- finger switches ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("stuck", "who"),
+    [
+        ((True, True), "the switches of both fingers are"),
+        ((True, False), "the switch of the +y finger is"),
+        ((False, True), "the switch of the -y finger is"),
+    ],
+)
+def test_switches_that_are_closed_on_nothing_are_told_when_the_hand_opens(
+    stuck: tuple[bool, bool], who: str
+) -> None:
+    run = gripping("OPEN 2.5\nCENTER .1", 0.0, lambda read: replace(read, touch=stuck))
+    assert run.errors == [errors.SWITCH_WRONG]
+    assert run.told == f"{ERRORS[errors.SWITCH_WRONG]} ({who} closed although the fingers are open)"
+
+
+@pytest.mark.parametrize("word", ["CLOSE .1", "CENTER .1"])
+def test_a_switch_that_closes_before_the_fingers_do_is_told_before_they_close(word: str) -> None:
+    run = fake_run(f"OPEN 2.5\n{word}")
+    run.executor.step()
+    run.cell.hand.read = lambda: HandReading(  # type: ignore[method-assign]
+        gap=run.cell.hand.gap, touch=(True, False)
+    )
+    run.go()
+    assert run.errors == [errors.SWITCH_WRONG]
+    assert run.cell.hand.gap > 2.5 * INCH
+
+
+def test_a_finger_that_stands_against_something_comes_off_and_is_believed() -> None:
+    run = fake_run("OPEN 1\nCLOSE .1")
+    run.executor.step()
+    run.cell.hand.thickness = lambda _: 1.0 * INCH
+    assert run.go().errors == []
+
+
+def test_fingers_that_hold_something_may_close_again() -> None:
+    assert gripping("OPEN 2\nCENTER .1\nCLOSE .1", 1.0, lambda read: read).errors == []
+
+
+@pytest.mark.parametrize("word", ["CLOSE .1", "CENTER .1"])
+def test_switches_that_stay_open_on_something_are_told(word: str) -> None:
+    run = gripping(f"OPEN 2\n{word}", 1.0, lambda read: replace(read, touch=(read.touch[0], False)))
+    assert run.errors == [errors.SWITCH_WRONG]
+    assert "the switch of the -y finger is open although something 1.00 in thick" in run.told
+
+
+def test_fingers_that_close_on_nothing_are_no_matter_of_the_switches() -> None:
+    run = gripping("OPEN 2\nCLOSE .1", 0.0, lambda read: read)
+    assert run.errors == [errors.NOTHING_HELD]
+
+
+# -- the gap --------------------------------------------------------------------------------------------
+
+
+def test_a_gap_that_stays_as_the_hand_opens_is_told() -> None:
+    run = gripping("OPEN 3", 0.0, lambda read: replace(read, gap=1.0 * INCH))
+    assert run.errors == [errors.GAP_WRONG]
+    assert run.told.endswith("(the gap reads 1.00 in; the fingers were driven to 3.00 in)")
+
+
+@pytest.mark.parametrize("word", ["CLOSE .1", "CENTER .1"])
+def test_a_gap_that_stays_as_the_hand_closes_is_told(word: str) -> None:
+    run = gripping(f"OPEN 2\n{word}", 1.0, lambda read: replace(read, gap=2.0 * INCH))
+    assert run.errors == [errors.GAP_WRONG]
+    assert "the gap still reads 2.00 in" in run.told
+
+
+# -- force ----------------------------------------------------------------------------------------------
+
+
+def pushed(run: FakeRun, force: tuple[float, float, float]) -> FakeRun:
+    """A run in which the drives of the arm push the hand by a force that nobody asked for (N)."""
+    run.cell.arm.push = np.array(force)
+    return run
+
+
+@pytest.mark.parametrize(
+    ("force", "at"),
+    [((0, 0, 20), "MOVE"), ((0, 0, -20), "MOVE"), ((-20, 0, 0), "MOVE"), ((0, 0, 15), "CHANGE")],
+)
+def test_a_force_felt_in_free_air_is_told_where_it_bends_the_arm_or_should_be_felt(
+    force: tuple[float, float, float], at: str
+) -> None:
+    run = pushed(fake_run(f"MOVE T\n{DOWN}"), force).go()
+    assert run.errors == [errors.FORCE_WRONG]
+    assert run.steps[-1].startswith(at)
+
+
+def test_a_load_that_was_not_declared_is_felt_in_free_air() -> None:
+    assert pushed(fake_run(f"MOVE T\n{DOWN}"), (0, 0, -20)).go().errors == [errors.FORCE_WRONG]
+    assert pushed(fake_run(f"LOAD 72\nMOVE T\n{DOWN}"), (0, 0, -20)).go().errors == [errors.NO_FORCE]
+
+
+def test_what_leans_on_the_hand_after_a_motion_that_met_it_is_no_matter_of_the_force_sense() -> None:
+    run = pushed(fake_run(f"MOVE T\nCHANGE [0 0 -1] .2\n{DOWN}"), (0, 0, 15)).go()
+    assert run.errors == [errors.NO_FORCE]
+
+
+# -- the joints -----------------------------------------------------------------------------------------
+
+
+def test_a_tachometer_that_reads_nothing_is_told_with_its_joint() -> None:
+    run = reading(fake_run("CHANGE X 6"), lambda read: replace(read, qd=only(read.qd, 0, 0.0))).go()
+    assert run.errors == [errors.JOINT_SENSE_WRONG]
+    assert "column has gone" in run.told
+    assert run.told.endswith("0.0 degrees by its tachometer)")
+
+
+def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
+    run = fake_run("MOVE T")
+    reading(run, lambda read: replace(read, q=only(read.q, 2, read.q[2] + 0.02 * (run.cell.clock.now > 1))))
+    run.go()
+    assert run.errors == [errors.JOINT_SENSE_WRONG]
+    assert "boom has gone" in run.told
+
+
+# -- the motor's current --------------------------------------------------------------------------------
+
+
+DRIVE = "MOVE T\nTOOL 190\nTORQUE 42\nCHANGE [0 0 -1] .2"
+
+
+def test_a_motor_that_shows_no_current_while_it_runs_is_told() -> None:
+    run = fake_run(DRIVE).go()
+    assert run.errors == [errors.CURRENT_WRONG]
+    assert run.told.startswith("the screwdriver runs, and its motor current shows nothing")
+
+
+def test_a_motor_that_starts_and_meets_nothing_lacks_its_torque() -> None:
+    run = fake_run(DRIVE)
+    run.cell.screwdriver.load = 7 * OUNCE_INCH
+    assert run.go().errors == [errors.NO_TORQUE]
+
+
+# -- the camera -----------------------------------------------------------------------------------------
+
+
+def test_a_picture_that_is_an_earlier_one_is_told() -> None:
+    picture = np.arange(ROWS * COLUMNS, dtype=np.uint8).reshape(ROWS, COLUMNS) % 16
+    run = fake_run("LOOK A\nLOOK B")
+    run.cell.camera.pictures = [picture, picture.copy()]
+    assert run.go().errors == [errors.PICTURE_WRONG]
+    assert run.told.endswith("(picture B is the same as A, point by point)")
+
+
+def test_a_picture_of_one_intensity_is_told() -> None:
+    run = fake_run("LOOK A")
+    run.cell.camera.pictures = [np.full((ROWS, COLUMNS), 7, np.uint8)]
+    assert run.go().errors == [errors.PICTURE_WRONG]
