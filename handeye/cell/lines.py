@@ -19,6 +19,8 @@ from handeye.record import Record
 
 _NUMBER: Final = 8
 """Bytes of a number."""
+_BRIGHTEST: Final = 15
+"""Intensity of a point."""
 
 
 class DefectState(Record, frozen=True, kw_only=True):
@@ -99,6 +101,8 @@ class Lines(Mechanism[LinesState]):
             first, pictured = own.first or b"", defect.line == PICTURE
             if len(first) not in (0, ROWS * COLUMNS if pictured else _NUMBER):
                 raise ValueError(f"what the line {defect.line} carried is of another size")
+            if pictured and max(first, default=0) > _BRIGHTEST:
+                raise ValueError("a picture was brighter than any can be")
             if not pictured:
                 finite(np.frombuffer(first), f"the line {defect.line}")
             if not 0 <= (own.seconds or 0.0) < np.inf:

@@ -82,19 +82,21 @@ def test_lines_go_on_as_from_the_state_they_are_put_into() -> None:
     assert arrived(other) == arrived(lines)
 
 
-STATES: dict[str, tuple[DefectState, ...]] = {
-    "other defects": (),
-    "another size": (DefectState(seconds=0.0, first=b"abc"),),
-    "not a finite number": (DefectState(seconds=0.0, first=np.array(np.nan).tobytes()),),
-    "when it cannot have": (DefectState(seconds=-1.0),),
+STATES: dict[str, tuple[str, tuple[DefectState, ...]]] = {
+    "other defects": ("a", ()),
+    "another size": ("a", (DefectState(seconds=0.0, first=b"abc"),)),
+    "not a finite number": ("a", (DefectState(seconds=0.0, first=np.array(np.nan).tobytes()),)),
+    "when it cannot have": ("a", (DefectState(seconds=-1.0),)),
+    "brighter than any can be": (PICTURE, (DefectState(seconds=0.0, first=bytes([16]) * ROWS * COLUMNS),)),
 }
 
 
 @pytest.mark.parametrize("words", STATES)
 def test_a_state_that_lines_cannot_be_in_is_refused(words: str) -> None:
-    lines = Lines([Defect(line="a", effect=Stuck())])
+    line, states = STATES[words]
+    lines = Lines([Defect(line=line, effect=Stuck())])
     with pytest.raises((ValueError, InvalidInput), match=words):
-        lines.check(LinesState(defects=STATES[words]))
+        lines.check(LinesState(defects=states))
 
 
 # -- an arm alone -------------------------------------------------------------------------------------
