@@ -3,32 +3,47 @@
 from typing import Final
 
 from handeye.errors import (
+    CURRENT_WRONG,
     FEATURES_NOT_SEEN,
+    FORCE_WRONG,
+    GAP_WRONG,
+    JOINT_SENSE_WRONG,
     NO_FORCE,
     NO_TORQUE,
     NOTHING_HELD,
     PART_NOT_SEEN,
+    PICTURE_WRONG,
     SEARCH_EXHAUSTED,
     SERVO_LAG,
+    SWITCH_WRONG,
     WRONG_THICKNESS,
     WRONG_TRAVEL,
 )
 from handeye.faults import UNKNOWN, Expected
 
 EXPECTED: Final[dict[str, Expected]] = {
-    "finger_motor": Expected(errors=(NOTHING_HELD,)),
-    "drive": Expected(errors=(SERVO_LAG,)),
+    "finger_switch": Expected(errors=(SWITCH_WRONG,)),
+    "gap_potentiometer": Expected(errors=(GAP_WRONG,)),
+    "finger_motor": Expected(errors=(GAP_WRONG, NOTHING_HELD)),
+    "force": Expected(errors=(FORCE_WRONG,), at_setup=True),
+    "potentiometer": Expected(errors=(JOINT_SENSE_WRONG,), at_setup=True),
+    "tachometer": Expected(errors=(JOINT_SENSE_WRONG,), at_setup=True),
+    "drive": Expected(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True),
     "brake": Expected(
         harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where the arm sank."
     ),
-    "screwdriver.motor": Expected(errors=(NO_TORQUE,)),
+    "screwdriver.current": Expected(errors=(CURRENT_WRONG,)),
+    "screwdriver.motor": Expected(errors=(CURRENT_WRONG, NO_TORQUE)),
     "screwdriver.missing": Expected(errors=(NOTHING_HELD,)),
     "magnet": Expected(errors=(NO_TORQUE,)),
     "bit": Expected(errors=(NO_TORQUE,)),
     "lamp": Expected(at_setup=True),
-    "picture": Expected(at_setup=True),
+    "picture": Expected(errors=(PICTURE_WRONG,), at_setup=True),
     "base.missing": Expected(errors=(PART_NOT_SEEN,)),
-    "base.turned": Expected(harmless="The job is for a base that lies anyhow within the arm's reach."),
+    "base.turned": Expected(
+        errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN),
+        harmless="The job is for a base that lies anyhow within the arm's reach.",
+    ),
     "base.reversed": Expected(errors=(FEATURES_NOT_SEEN,)),
     "gasket.missing": Expected(errors=(NOTHING_HELD,)),
     "gasket.doubled": Expected(errors=(WRONG_THICKNESS, WRONG_TRAVEL)),

@@ -7,9 +7,11 @@ import pytest
 from driving import Drive, tick
 
 from handeye.cell.lines import LinesState
-from handeye.faults import Fault
+from handeye.errors import ERRORS, FEATURES_NOT_SEEN, SWITCH_WRONG
+from handeye.faults import UNKNOWN, Fault
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.device_faults import defects, device_faults
+from handeye.tasks.water_pump.noticing import EXPECTED, expected
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.variation import WorldSpec
@@ -41,3 +43,15 @@ def test_the_catalogue_has_every_fault_of_a_device() -> None:
 
 def test_a_fault_at_its_usual_size_is_one_that_can_be_had() -> None:
     WATER_PUMP.faults(0).check(FAULTS)
+
+
+@pytest.mark.parametrize("name", sorted(EXPECTED))
+def test_what_is_expected_is_of_faults_there_are_and_by_errors_there_are(name: str) -> None:
+    assert WATER_PUMP.faults(0).select(name)
+    assert {*EXPECTED[name].errors} <= ERRORS.keys()
+
+
+def test_what_is_said_of_one_fault_counts_and_not_what_is_said_of_its_group() -> None:
+    assert expected("base.reversed").errors == (FEATURES_NOT_SEEN,)
+    assert expected("finger_switch.plus_y.stuck_open").errors == (SWITCH_WRONG,)
+    assert expected("gasket.off.x") == UNKNOWN
