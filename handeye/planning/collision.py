@@ -18,7 +18,7 @@ from handeye.units import INCH
 
 MARGIN: Final = 0.1 * INCH
 """Overlap of boxes that is not reported. The free motions of the pump swing by as much beside the straight way down:
-where the screwdriver comes back, its socket is planned .06 in into a rail of the rack."""
+where the screwdriver comes back, it is planned .02 in into its rack."""
 
 SAME: Final = 1e-6
 """Difference of depths that is none, m: of the same depth before and behind the middle of a box the first counts, on

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scene_bench import Bench
 
+from handeye.pose import translated
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import screw_holes
 
@@ -46,3 +47,37 @@ def test_a_driver_set_down_on_the_hub_stands_on_it() -> None:
     bench.run(0.05)
     bit = bench.data.body("bit").xpos[2] - bench.pose("top")[2, 3]
     assert bit > top - 0.003  # its ring stands lower than its face
+
+
+def over_the_rack(bench: Bench, x: float, y: float) -> float:
+    """Let the driver down into its rack from 80 mm up, so far aside (m); how deep its socket went into a post, m."""
+    home, deepest = bench.pose("driver"), 0.0
+    posts = [
+        g for g in range(bench.model.ngeom) if bench.model.body(bench.model.geom_bodyid[g]).name == "rack"
+    ][:4]
+    ring = [
+        g for g in range(bench.model.ngeom) if bench.model.body(bench.model.geom_bodyid[g]).name == "socket"
+    ]
+    bench.put("driver", translated(home, (x, y, 0.08)))
+    guide = bench.model.joint("driver").dofadr[0]
+    for _ in range(1200):  # as slowly as a hand lets it down that gives way sideways
+        bench.data.qvel[guide + 2] = max(bench.data.qvel[guide + 2], -0.1)
+        bench.data.qvel[guide + 3 : guide + 6] = 0.0
+        bench.run(bench.model.opt.timestep)
+        met = np.isin(bench.data.contact.geom, posts).any(axis=1) & np.isin(
+            bench.data.contact.geom, ring
+        ).any(axis=1)
+        deepest = min(deepest, bench.data.contact.dist[met].min(initial=0.0))
+    assert bench.pose("driver")[2, 3] == pytest.approx(home[2, 3], abs=3e-4)
+    return float(-deepest)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("x", "y"), [(0.0, 0.0), (0.003, 0.0), (0.0, -0.003), (-0.0025, 0.0025)])
+def test_a_driver_let_down_a_little_aside_passes_the_posts_of_its_rack(x: float, y: float) -> None:
+    assert over_the_rack(Bench(), x, y) == 0.0
+
+
+@pytest.mark.slow
+def test_a_socket_over_a_post_of_the_rack_meets_it_and_slides_off() -> None:
+    assert 0.0 < over_the_rack(Bench(), 0.006, 0.006) < 0.5e-3

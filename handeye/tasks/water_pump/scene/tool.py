@@ -50,16 +50,18 @@ def _add_spindle(shaper: Shaper, driver: mujoco.MjsBody) -> None:
 
 
 def _add_rack(shaper: Shaper, fixture: Fixture) -> None:
-    """Two rails that the grip block stands on, the spindle hanging between, in a square guide with a lead-in."""
+    """Four posts that the corners of the grip block stand on, the spindle between, in a square guide with a lead-in.
+
+    The socket comes down between the posts before the guide has the block: it has more room than the guide's lead.
+    """
     d = dimensions()
     (x, y), height = d.all("rack.place"), d("rack.height")
-    for side in (-1, 1):
-        low, high = sorted(
-            (y + side * 0.0102, y + side * 0.0134)
-        )  # the socket hangs between, 9.2 wide, with play
-        shaper.box(
-            fixture.body, "solid", (x - 0.02, low, 0.006), (x + 0.02, high, height), "enamel"
-        ).group = 2
+    inner, outer = d("rack.posts") / 2, d("driver.width") / 2 + d("rack.play")
+    for across, along in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+        x0, x1 = sorted((x + across * inner, x + across * outer))
+        y0, y1 = sorted((y + along * inner, y + along * outer))
+        post = shaper.box(fixture.body, "solid", (x0, y0, 0.006), (x1, y1, height), "enamel")
+        post.group = 2
     near, lead = d("driver.width") / 2 + d("rack.play"), d("rack.lead")
     guide = Bore(radius=near, outer=near + lead + 0.002, height=0.028, above=lead, sectors=4)
     for wedge in shaper.ring(fixture.body, "guide", guide, (x, y, height - 0.02), lambda _: "solid"):
