@@ -4,9 +4,10 @@
 
 Sizes are those of dimensions.toml, errors those of the pump's table of worlds. No physics: in each world the tapped
 holes and those of both layers are drilled with errors of their own; two pins stand in tapped holes with play, and
-lean in them; the hand lays each layer down turned and displaced by the errors of its joints, and the layer comes to
-lie nearest to that where both pins are within its holes. A screw stands upright on the axis of its tapped hole and
-meets a layer if that axis is farther from the hole's than their radii differ.
+lean in them; the hand lays each layer down turned and displaced by the errors of its joints and the steps of their
+potentiometers, and the layer comes to lie nearest to that where both pins are within its holes. A screw stands
+upright on the axis of its tapped hole and meets a layer if that axis is farther from the hole's than their radii
+differ.
 
 "Worst lie" asks more, in a tenth of the worlds: of all places where the pins let a layer lie, the one whose farthest
 hole is farthest off.
@@ -137,7 +138,11 @@ def _hand(layer: str, worlds: int, rng: np.random.Generator) -> Array:
     X_WT = standard() @ hand(*{"gasket": (0.04, 0.0), "top": (0.0, 0.0)}[layer], 0.1, 0.0, np.pi / 2, 0.0)
     target = solve(STANFORD, X_WT, PARK).q
     assert target is not None
-    X = forward(STANFORD, _arm(worlds, rng).positions(np.broadcast_to(target, (worlds, 6))))
+    arm = _arm(worlds, rng)
+    read = target + arm.pot_step * rng.uniform(
+        -0.5, 0.5, (worlds, 6)
+    )  # anywhere within a step reads the same
+    X = forward(STANFORD, arm.positions(read))
     R = X[:, :3, :3] @ X_WT[:3, :3].T
     turn = np.arctan2(R[:, 1, 0], R[:, 0, 0]) - _drawn("fixtures.blocks.yaw", worlds, rng)
     return np.column_stack([X[:, :2, 3] - X_WT[:2, 3], turn])
@@ -150,9 +155,12 @@ def _arm(worlds: int, rng: np.random.Generator) -> ArmErrors:
     def joints(name: str) -> Array:
         return np.stack([_drawn(f"arm.{name}.{k}", worlds, rng) for k in range(1, 7)], -1)
 
-    wave = [variation(0).quantities[f"arm.wave.{k}"].distribution.spread for k in range(1, 7)]
+    wave, step = (
+        np.array([variation(0).quantities[f"arm.{name}.{k}"].distribution.spread for k in range(1, 7)]) * size
+        for name in ("wave", "pot_step")
+    )
     return replace(
-        ArmErrors.none(6), offset=joints("offset"), scale=joints("scale"), wave=np.array(wave) * size,
+        ArmErrors.none(6), offset=joints("offset"), scale=joints("scale"), wave=wave, pot_step=step,
         period=np.array(ARM_PERIOD) * size, phase=rng.uniform(0.0, 2 * np.pi, (worlds, 6)),
         centre=np.array(ARM_CENTRE) * size,
     )  # fmt: skip

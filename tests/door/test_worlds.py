@@ -94,6 +94,9 @@ def test_a_world_is_exported_as_it_is_drawn(tmp_path: Path) -> None:
     assert (scene.moment, scene.format, scene.world) == ("drawn", "mjcf", world.spec)
     assert mujoco.MjModel.from_xml_path(f"{scene.path}/scene.xml").nkey == 1
     solids = world.export(tmp_path / "pump.glb", part="pump")
+    assert {each.body for each in solids.weights if abs(each.by_volume / each.in_model - 1) > 0.01} == {
+        "rotor"
+    }
     assert (solids.solids, solids.open, {each.body for each in solids.weights} >= {"gasket"}) == (
         16,
         (),

@@ -30,6 +30,8 @@ _METAL: Final = {
     "rotor.density": ("crank_bar", "crank_pin", "shaft", "collar"),
 }
 """Figures of the table, and the solids that they are of."""
+_CAST: Final = ("base.", "top.")
+"""Figures of the parts whose mass differs from world to world."""
 _FASTENERS: Final = ("screw", "pin_nose", "pin_body")
 _MECHANISMS: Final = {
     "actuators": ("drive",),
@@ -56,18 +58,28 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     add_keyframe(spec, keyframe, data, threaded)
     _rename(spec)
     about = (scenes() / "water_pump" / "exported.md").read_text(encoding="utf-8")
-    return ExportedScene(spec=spec, about=about, parts=_parts(world.screws), densities=_densities(spec))
+    return ExportedScene(
+        spec=spec, about=about, parts=_parts(world.screws), densities=_densities(spec, world.part_mass)
+    )
 
 
 def _parts(screws: int) -> dict[str, tuple[str, ...]]:
     return {"pump": ("base", "gasket", "top", "rotor", *(f"screw{k}" for k in range(screws)))}
 
 
-def _densities(spec: mujoco.MjSpec) -> dict[str, float]:
-    """Of the solids that are of one metal, kg/m3: as the table has them, and of fasteners as the scene has them."""
+def _densities(spec: mujoco.MjSpec, cast: float) -> dict[str, float]:
+    """Of the solids that are of one metal, kg/m3: as the table has them, and of fasteners as the scene has them.
+
+    Args:
+        cast: how heavy the metal of base and top is in this world, against the table.
+    """
     steel = spec.find_default("shank")
     assert steel is not None
-    table = {solid: dimensions()(figure) for figure, names in _METAL.items() for solid in names}
+    table = {
+        solid: dimensions()(figure) * (cast if figure.startswith(_CAST) else 1.0)
+        for figure, names in _METAL.items()
+        for solid in names
+    }
     return {**table, **dict.fromkeys(_FASTENERS, float(steel.geom.density))}
 
 
