@@ -24,6 +24,7 @@ WATCHDOG: Final = 5
 SEARCH_EXHAUSTED: Final = 6
 WRONG_THICKNESS: Final = 7
 WRONG_TRAVEL: Final = 8
+WRONG_HEIGHT: Final = 9
 NO_FORCE: Final = 23
 NO_TORQUE: Final = 24
 NO_TOUCH: Final = 25
@@ -46,6 +47,7 @@ ERRORS: Final[dict[int, str]] = {
     SEARCH_EXHAUSTED: "the search has tried all its places",
     WRONG_THICKNESS: "the thing between the fingers is thicker than the maximum",
     WRONG_TRAVEL: "the last CHANGE or PLACE went too far, or not far enough",
+    WRONG_HEIGHT: "the hand has not come to the height it should over where a SAVE was",
     NO_FORCE: "the motion ended without meeting the force it was to stop on",
     NO_TORQUE: "the motion ended without meeting the torque it was to stop on",
     NO_TOUCH: "the motion ended without a finger touching anything",

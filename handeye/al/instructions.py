@@ -306,6 +306,14 @@ _TABLE = (
         ours=True,
     ),
     Instruction(
+        op="HEIGHT",
+        group=PLACES,
+        help="check how much higher (in) the hand has come to a stop than where SAVE took the name; error 9 outside "
+        "the range",
+        operands=(name_of("name", Refers.SAVED), number("minimum", IN), number("maximum", IN)),
+        ours=True,
+    ),
+    Instruction(
         op="TOOL",
         group=TOOL,
         help="run the screwdriver (rpm, positive drives in); 0 is off",

@@ -24,7 +24,7 @@ from handeye.program.flow_operations import (
     Wait,
     Where,
 )
-from handeye.program.motion_operations import Center, Change, Close, Move, Open, Restore, Travel, Turn
+from handeye.program.motion_operations import Center, Change, Close, Height, Move, Open, Restore, Travel, Turn
 from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
@@ -200,6 +200,7 @@ _STEPS: Final[dict[str, Callable[[Operands], AnyOperation]]] = {
     "HERE": lambda o: Here(position=o.name("name")),
     "WHERE": lambda _: Where(),
     "TRAVEL": lambda o: Travel(minimum=o.number("minimum"), maximum=o.number("maximum")),
+    "HEIGHT": lambda o: Height(name=o.name("name"), minimum=o.number("minimum"), maximum=o.number("maximum")),
     "TOOL": lambda o: Tool(speed=o.number("speed")),
     "LOAD": lambda o: Load(weight=o.number("weight")),
     "LENS": lambda o: Lens(focal_length=o.number("mm")),

@@ -65,6 +65,12 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met at all\nJUMP OUT\nTRAVEL .5 .6\n"
         'SKIPN 8 ;as deep as the hole\nOUT: WAIT "NOT IN ITS HOLE"\nOPEN 1',
     ),
+    errors.WRONG_HEIGHT: Remedy(
+        "HEIGHT compares two touches at one place, so that what the arm is off by cancels: a layer is missing, or it "
+        "is not the one that was meant.",
+        "OPEN 0\nMOVE T\nSTOP [0 0 -40]\nCHANGE [0 0 -1] .7 .5\nSAVE BARE\nPARK\nMOVE T\nSTOP [0 0 -40]\n"
+        'CHANGE [0 0 -1] .7 .5\nHEIGHT BARE .04 .08\nSKIPN 9 ;one gasket thick\nWAIT "SEE TO THE GASKET"\nPARK',
+    ),
     errors.NO_FORCE: Remedy(
         "It says that nothing was met. That may be what was hoped for: a pin that meets nothing is in its hole.",
         "MOVE T\nSTOP [0 0 -50]\nCHANGE [0 0 -1] .7\nSKIPE 23 ;nothing was met: the pin is in\n"
@@ -130,6 +136,7 @@ ACTIONS: Final = "\n".join(
     (
         *_MOTIONS, *(f"{guard}\n{motion}" for guard in ("STOP 9", "TORQUE 42", "TOUCH 3") for motion in _MOTIONS[:-1]),
         "SEARCH .1\nL: MOVE T\nRESTORE H\nAOJ L", "OPEN 1", "CLOSE .1 .3", "CENTER .1", "CHANGE Z 1\nTRAVEL .1 .9",
+        "SAVE H\nHEIGHT H .1 .9",
         "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V",
     )
 )  # fmt: skip

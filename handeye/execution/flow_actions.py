@@ -74,6 +74,7 @@ def save(run: ExecutionContext, operation: Save) -> None:
     if line is not None:  # CENTER measures along the finger line; the rest is servo error
         difference = (difference @ line) * line
     run.state.saved[operation.name] = difference
+    run.state.heights[operation.name] = run.drive.height
     run.emit(Saved(time=run.time, name=operation.name, difference=vector(difference)))
 
 

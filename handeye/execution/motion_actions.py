@@ -22,9 +22,9 @@ from handeye.planning.motions import (
     turn_samples,
 )
 from handeye.pose import Array, Pose, translated
-from handeye.program.causes import CurrentSilent, GuardsUnmet, TravelOutside
+from handeye.program.causes import CurrentSilent, GuardsUnmet, HeightOutside, HeightUnknown, TravelOutside
 from handeye.program.guards import GuardKind, Guards, unmet
-from handeye.program.motion_operations import Change, Move, Travel, Turn
+from handeye.program.motion_operations import Change, Height, Move, Travel, Turn
 from handeye.program.operation import Operation
 from handeye.record import Vector3
 from handeye.touch.guards import monitor
@@ -153,9 +153,24 @@ def travel(run: ExecutionContext, operation: Travel) -> Fault | None:
     return Fault(number=errors.WRONG_TRAVEL, cause=cause)
 
 
+def height(run: ExecutionContext, operation: Height) -> Fault | None:
+    """See how much higher the hand stands than where a difference was saved."""
+    saved = run.state.heights.get(operation.name)
+    if saved is None:
+        return Fault(number=errors.WRONG_HEIGHT, cause=HeightUnknown(name=operation.name))
+    over = run.drive.height - saved
+    if operation.minimum <= over <= operation.maximum:
+        return None
+    cause = HeightOutside(
+        name=operation.name, height=round(over, 6), minimum=operation.minimum, maximum=operation.maximum
+    )
+    return Fault(number=errors.WRONG_HEIGHT, cause=cause)
+
+
 MOTION_ACTIONS: Final[dict[type[Operation], Action]] = {
     Move: move,
     Change: change,
     Turn: turn,
     Travel: travel,
+    Height: height,
 }

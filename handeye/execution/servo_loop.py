@@ -56,7 +56,7 @@ class Outcome:
     cause: Cause | None = None
     """Cause of that error, if there is more to say of it."""
     off: float = 0.0
-    """Distance of the hand from its set-points on the way, m, if it is too far from the last."""
+    """Distance of the hand from its set-points in the middle of the way, m, if it is too far from the last."""
 
 
 REACHED = Outcome()
@@ -105,7 +105,7 @@ class ServoLoop:
         """Set the brakes; the set-point becomes where the arm then is."""
         for _ in range(self._periods(seconds)):
             yield from self._wait(None)
-        self.state.q = self.sensed.q.copy()
+        self.state.q, self.state.met = self.sensed.q.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
         """Let go of the arm: gravity and the load are borne, and whoever pushes the hand moves it.
@@ -116,7 +116,7 @@ class ServoLoop:
             q, qd = self.sensed.q, self.sensed.qd
             borne = gravity(self.arm, q) + jacobian(self.arm, q)[2] * self.state.load
             yield from self._wait(borne - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
-        self.state.q = self.sensed.q.copy()
+        self.state.q, self.state.met = self.sensed.q.copy(), None
 
     def following(
         self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
@@ -128,6 +128,7 @@ class ServoLoop:
         """
         if len(samples) == 0:
             return REACHED
+        self.state.met = None
         if guard is not None:
             zeroed = yield from self.zeroing()
             if zeroed.error is not None:
@@ -146,13 +147,14 @@ class ServoLoop:
             failed = self._doubted(sensors) or self._behind()
             if failed is not None:
                 return failed
-            off += self.sensed.q - self.state.q
+            if len(motion) <= 3 * i < 2 * len(motion):
+                off += 3 * (self.sensed.q - self.state.q) / len(motion)
             trip = guard.check(self._reading(along)) if guard is not None else None
             if trip is not None:
                 self._freeze(along)
                 return Outcome(trip=trip)
         yield from self.holding(self.arm.servo.settle)
-        return REACHED if guard is not None else self._arrived(off / len(motion))
+        return REACHED if guard is not None else self._arrived(off)
 
     def gliding(self, samples: Samples, guard: Monitor | None, direction: Array | None) -> Motion[Outcome]:
         """Follow set-points through free air; see `following`.
@@ -161,7 +163,7 @@ class ServoLoop:
         """
         self.state.in_air = False
         outcome = yield from self.following(samples, guard, direction)
-        if outcome.off > self.arm.servo.short / 2:
+        if outcome.off > self.arm.servo.short / 2:  # far more than what lags on the way of a free arm
             yield from self.zeroing()
             return self._force_in_air()
         self.state.in_air = outcome == REACHED
@@ -172,6 +174,7 @@ class ServoLoop:
 
         A position servo in which the measured force moves the set-point: it needs no joint to be slack.
         """
+        self.state.met = None
         zeroed = yield from self.zeroing()
         if zeroed.error is not None:
             return zeroed
@@ -203,6 +206,7 @@ class ServoLoop:
 
     def shifting(self, here: Dynamics, X_WT: Pose) -> Motion[Outcome]:
         """One period towards a pose close by."""
+        self.state.met = None
         step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
             return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
@@ -333,6 +337,7 @@ class ServoLoop:
 
     def _freeze(self, direction: Array) -> None:
         """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
+        self.state.met = forward(self.arm, self.state.q)[:3, 3]
         X_set, X_is = forward(self.arm, self.state.q), forward(self.arm, self.sensed.q)
         along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
@@ -379,7 +384,7 @@ class ServoLoop:
     # -- knowing ------------------------------------------------------------------------------------
 
     def _arrived(self, on_the_way: Array) -> Outcome:
-        """Check that the hand is at its set-point; `on_the_way`: by how much the joints were off theirs, shape (n,)."""
+        """Check that the hand is at its set-point; `on_the_way`: by how much joints were off theirs, shape (n,)."""
         off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
         if off < self.arm.servo.short:
             return REACHED
@@ -390,6 +395,16 @@ class ServoLoop:
     def sensed(self) -> Sensed:
         """Readings of all devices in this servo period."""
         return self.cell.sense()
+
+    @property
+    def height(self) -> float:
+        """Height in W (m) at which the hand has come to a stop, by its set-point.
+
+        A converter's steps are read as up to .05 in at the hand. A set-point has none; and an arm on its way goes by
+        many readings, whose steps even out, so that two motions that end on the same force end as high on average.
+        """
+        met = self.state.met
+        return float(forward(self.arm, self.state.q)[2, 3] if met is None else met[2])
 
     def hand(self) -> Pose:
         """`X_WT` by the arm's own sensors."""

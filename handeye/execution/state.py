@@ -98,6 +98,8 @@ class DriveState(MutableRecord, kw_only=True):
     lamp: bool = False
     cut: bool = False
     """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
+    met: Array | None = None
+    """Set-point of the hand in W (m) when a guard ended the motion that brought it where it is."""
     in_air: bool = False
     """A MOVE has brought the hand where it is, and met nothing."""
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
@@ -120,6 +122,8 @@ class ExecutionState(SystemState, kw_only=True):
     clock: float = -1.0
     """When the last step ended, s."""
     saved: dict[str, Array] = msgspec.field(default_factory=dict)
+    heights: dict[str, float] = msgspec.field(default_factory=dict)
+    """Height in W (m) at which each difference was saved."""
     counters: dict[str, int] = msgspec.field(default_factory=dict)
     search: SearchState | None = None
     restored: dict[str, Array] = msgspec.field(default_factory=dict)
@@ -173,7 +177,7 @@ def _fits_program(state: ExecutionState, plan: Plan) -> bool:
 
 def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
     vectors = [state.goal, *state.saved.values(), *state.restored.values()]
-    vectors += [] if state.finger_line is None else [state.finger_line]
+    vectors += [vector for vector in (state.finger_line, state.drive.met) if vector is not None]
     return (
         all(vector.shape == (3,) for vector in vectors)
         and state.drive.q.shape == (len(arm.joints),)

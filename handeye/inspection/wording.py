@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable
 from typing import Any, Final
 
-from handeye.errors import NOTHING_HELD, WRONG_THICKNESS, WRONG_TRAVEL
+from handeye.errors import NOTHING_HELD, WRONG_HEIGHT, WRONG_THICKNESS, WRONG_TRAVEL
 from handeye.program import guards as g
-from handeye.program.motion_operations import Center, Change, Close, Move, Travel
+from handeye.program.motion_operations import Center, Change, Close, Height, Move, Travel
 from handeye.program.operations import AnyOperation
 from handeye.record import Vector3
 from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
@@ -106,12 +106,18 @@ def _gone(operation: Travel) -> list[str]:
     return [f"went {way}, else error {WRONG_TRAVEL}"]
 
 
+def _stands(operation: Height) -> list[str]:
+    way = f"{inches(operation.minimum)} to {inches(operation.maximum)}"
+    return [f"stands {way} over {operation.name}, else error {WRONG_HEIGHT}"]
+
+
 _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
     Move: _via,
     Change: _with_force,
     Close: _closed,
     Center: lambda operation: [_held(operation)],
     Travel: _gone,
+    Height: _stands,
 }
 """More that is to be said of an operation than its guards."""
 

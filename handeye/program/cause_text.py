@@ -45,6 +45,11 @@ def cause_sentence(cause: Cause) -> str:
         case c.TravelOutside():
             went, least, most = _apart(cause.travel, cause.minimum, cause.maximum)
             return f"it went {went} in; allowed: {least} to {most} in"
+        case c.HeightOutside():
+            height, least, most = _apart(cause.height, cause.minimum, cause.maximum)
+            return f"it stands {height} in over {cause.name}; allowed: {least} to {most} in"
+        case c.HeightUnknown():
+            return f"{cause.name} was not saved"
         case c.GapTooSmall():
             gap, least = _apart(cause.gap, cause.minimum)
             return f"the gap is {gap} in, the minimum {least} in"

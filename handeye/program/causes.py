@@ -87,6 +87,21 @@ class TravelOutside(CauseRecord, frozen=True, kw_only=True):
     maximum: float
 
 
+class HeightOutside(CauseRecord, frozen=True, kw_only=True):
+    """The hand stands too high over where a difference was saved, or too low."""
+
+    name: str
+    height: float
+    minimum: float
+    maximum: float
+
+
+class HeightUnknown(CauseRecord, frozen=True, kw_only=True):
+    """The difference that a height should be compared with was not saved."""
+
+    name: str
+
+
 # -- the hand ---------------------------------------------------------------------------------------
 
 
@@ -273,7 +288,7 @@ SenseCause = (
 InspectionCause = NoGasket | GasketWrong
 """Causes for which a part does not pass its inspection."""
 Cause = (
-    BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside
+    BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
     | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
     | NoSearch | PlacesTried | Looping | Recorded
 )  # fmt: skip

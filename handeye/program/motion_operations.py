@@ -198,4 +198,18 @@ class Travel(Operation, frozen=True, kw_only=True):
     maximum: float
 
 
-MotionOperation = Move | Change | Turn | Open | Close | Center | Travel
+class Height(Operation, frozen=True, kw_only=True):
+    """Check how much higher the hand has come to a stop than where a difference was saved (m): else error 9."""
+
+    family: ClassVar = "test"
+    raising: ClassVar = action(errors.WRONG_HEIGHT)
+    only_checks: ClassVar = True
+    bounds: ClassVar = {"minimum": (-10.0, 10.0), "maximum": (-10.0, 10.0)}
+    reading: ClassVar = {"difference": ("name",)}
+
+    name: str
+    minimum: float
+    maximum: float
+
+
+MotionOperation = Move | Change | Turn | Open | Close | Center | Travel | Height

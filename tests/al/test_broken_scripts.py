@@ -81,7 +81,7 @@ MISTAKES = {
     "c14": ("wait-for-time", 5, "`WAIT` stops the run and calls the operator: it does not wait for a time"),
     "c15": ("wrong-operand", 6, "`DIRECT` comes too early"),
     "c16": ("wrong-operand", 4, "`CLOSE` takes a number as maximum, not a name"),
-    "c17": ("never-saved", 9, "no `SAVE` saves a difference `El`: the goal is not shifted"),
+    "c17": ("never-saved", 9, "no `SAVE` saves a difference `El`"),
     "c18": ("unknown-label", 15, "label `TRY` belongs to a macro"),
     "c19": ("number-out-of-range", 6, "`7` is too large for the step of `SEARCH`"),
     "c20": ("faint-force", 4, "a force of 0.2 oz is below the noise of joint friction"),

@@ -113,7 +113,7 @@ def test_a_label_before_a_modifier_stands_for_the_motion(macro: Plan) -> None:
     assert macro.program.steps[macro.program.labels["LY"][0]].text.startswith("CHANGE")
 
 
-NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32, 50, 51, 52, 53, 54, 55"
+NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 9, 23, 24, 25, 30, 31, 32, 50, 51, 52, 53, 54, 55"
 
 
 @pytest.mark.parametrize(
@@ -128,7 +128,7 @@ NUMBERS = "1, 2, 3, 4, 5, 6, 7, 8, 23, 24, 25, 30, 31, 32, 50, 51, 52, 53, 54, 5
          "did you mean `shut the hand`?"),
         ("zzz", "the program has no label, instruction or stage `zzz`"),
         ("", "give an error (error:23), a line, a label, an instruction or a stage"),
-        ("error:9", f"there is no error `9`; there are {NUMBERS}"),
+        ("error:10", f"there is no error `10`; there are {NUMBERS}"),
         ("error:", f"there is no error ``; there are {NUMBERS}"),
     ],
 )  # fmt: skip

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_runs import FakeRun, fake_run
+from fakes import Wall
 
 from handeye import errors
 from handeye.errors import ERRORS
@@ -134,6 +135,13 @@ def test_a_force_felt_in_free_air_is_told_where_it_bends_the_arm_or_should_be_fe
     run = pushed(fake_run(f"MOVE T\n{DOWN}"), force).go()
     assert run.errors == [errors.FORCE_WRONG]
     assert run.steps[-1].startswith(at)
+
+
+def test_a_hand_that_comes_to_stand_on_something_is_no_matter_of_the_force_sense() -> None:
+    run = fake_run("CHANGE Z 2\nMOVE T")
+    run.executor.step()
+    run.cell.arm.walls = [Wall(point=(0.0, 0.0, 6.3 * INCH))]
+    assert run.go().errors == [errors.SERVO_LAG]
 
 
 def test_a_load_that_was_not_declared_is_felt_in_free_air() -> None:

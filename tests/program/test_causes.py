@@ -35,6 +35,11 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.TravelOutside(travel=0.3 * INCH, minimum=0.1 * INCH, maximum=0.2 * INCH),
         "it went 0.30 in; allowed: 0.10 to 0.20 in",
     ),
+    (
+        c.HeightOutside(name="BARE", height=0.12 * INCH, minimum=0.04 * INCH, maximum=0.08 * INCH),
+        "it stands 0.12 in over BARE; allowed: 0.04 to 0.08 in",
+    ),
+    (c.HeightUnknown(name="BARE"), "BARE was not saved"),
     (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
     (c.GapTooSmall(gap=-0.002 * INCH, minimum=0.0), "the gap is -0.002 in, the minimum 0.000 in"),
     (c.GapTooLarge(gap=0.4 * INCH, maximum=0.3 * INCH), "the gap is 0.40 in, the maximum 0.30 in"),

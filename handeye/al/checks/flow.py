@@ -13,7 +13,7 @@ from handeye.diagnostics import Diagnostic, Label
 from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
 from handeye.program.flow_operations import Advance, Jump, Save, Search, Test, Wait
 from handeye.program.graph import Graph
-from handeye.program.motion_operations import Change, Move, Travel
+from handeye.program.motion_operations import Change, Height, Move, Travel
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import General, Specific
 from handeye.source import Span
@@ -77,6 +77,13 @@ _ORDERS = (
         needs=Change,
         message="no `CHANGE` comes before this `TRAVEL`: there is no motion to measure",
         help="`TRAVEL` checks how far the last `CHANGE` went",
+    ),
+    _Order(
+        code="never-saved",
+        of=Height,
+        needs=Save,
+        message="no `SAVE` comes before this `HEIGHT`: it would raise error 9",
+        help="`SAVE` keeps where the hand is, and `HEIGHT` compares with it",
     ),
     _Order(
         code="specific-without-general",

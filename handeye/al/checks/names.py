@@ -32,7 +32,7 @@ _MESSAGES = {
     Refers.PICTURE: "no `LOOK` takes a picture {}",
     Refers.VECTOR: "there is no vector {}",
     Refers.COUNTER: "no `ASSIGN` sets a counter {}",
-    Refers.SAVED: "no `SAVE` saves a difference {}: the goal is not shifted",
+    Refers.SAVED: "no `SAVE` saves a difference {}",
 }
 _DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 """Instructions that make what they name."""
