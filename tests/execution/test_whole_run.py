@@ -1,31 +1,28 @@
 """One whole run in one drawn world: eleven stages, their senses, their times, the referee's word, and a walk in it.
 
-The run is that of docs/stepping.md, the only one of the suite that assembles a pump: what needs one is claimed here.
+The run is that of docs/stepping.md; `teaching/test_seventh_screw.py` has the only other one that assembles a pump.
 """
 
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import pytest
 from figures import as_recorded
 from stepping_walk import SAID, SEED, commands, of_command, pieces, stands
+from whole_runs import STAGES, Whole, whole_run
 
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.formatting import MOST, as_text
 from handeye.debugger.stepper import Stepper
 from handeye.errors import NO_FORCE
 from handeye.events import (
-    CameraBusy,
     ErrorRaised,
     Event,
     GuardTripped,
     OperatorCalled,
     PartInspected,
     PartSeen,
-    StageFinished,
-    StageStarted,
     StepFinished,
     StepStarted,
 )
@@ -34,38 +31,13 @@ from handeye.resources import plans
 from handeye.runs.runner import Runner
 from handeye.tasks.water_pump.referee import judge
 from handeye.trace.account import account
-from handeye.trials.assembly import Finished, run_plan
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
-
-STAGES = (
-    "find the base", "feel for the grasp", "put the base in its standard position", "insert the aligning pins",
-    "put on the gasket", "check the gasket", "put on the top", "drive the first two screws",
-    "take out the aligning pins", "drive the last four screws", "turn the rotor",
-)  # fmt: skip
-"""The eleven steps of 1973."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Whole:
-    """A run that has ended, and everything that happened."""
-
-    finished: Finished
-    events: tuple[Event, ...]
-
-    def during(self, stage: str) -> list[Event]:
-        """Events of a stage."""
-        names = [e.stage if isinstance(e, StageStarted) else None for e in self.events]
-        start = names.index(stage)
-        ends = [i for i, e in enumerate(self.events) if isinstance(e, StageFinished) and i > start]
-        return list(self.events[start : ends[0]])
 
 
 @pytest.fixture(scope="module")
 def whole() -> Whole:
-    finished = run_plan(read_plan(plans() / "water_pump.plan.json"), world=WorldSpec(seed=SEED))
-    return Whole(finished=finished, events=tuple(finished.runner.events))
+    return whole_run(read_plan(plans() / "water_pump.plan.json"), SEED)
 
 
 def count(events: list[Event], kind: type[Event]) -> int:
@@ -74,9 +46,7 @@ def count(events: list[Event], kind: type[Event]) -> int:
 
 @pytest.mark.row(55, drawn=1)
 def test_row_55_the_eleven_stages_are_done_in_order(whole: Whole) -> None:
-    started = tuple(e.stage for e in whole.events if isinstance(e, StageStarted))
-    done = tuple(e.stage for e in whole.events if isinstance(e, StageFinished) and e.status == "done")
-    assert started == done == STAGES
+    assert whole.started() == whole.done() == STAGES
 
 
 def test_row_55_nobody_calls_the_operator(whole: Whole) -> None:
@@ -89,8 +59,7 @@ def test_row_55_nobody_calls_the_operator(whole: Whole) -> None:
     ("stage", "screws"), [("drive the first two screws", 2), ("drive the last four screws", 4)]
 )
 def test_row_55_every_screw_ends_by_torque(whole: Whole, stage: str, screws: int) -> None:
-    guards = [e.guard for e in whole.during(stage) if isinstance(e, GuardTripped)]
-    assert guards.count("torque") == screws
+    assert whole.torques(stage) == screws
 
 
 @pytest.mark.parametrize("stage", ["insert the aligning pins", "take out the aligning pins"])
@@ -121,18 +90,14 @@ def test_the_gasket_is_accepted_by_sight(whole: Whole) -> None:
 
 @pytest.mark.row(22, drawn=1)
 def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole: Whole) -> None:
-    """The labels K1 to K6 of the program are the six screw holes, L1 and L2 those of the pins."""
-    texts = [event.text for event in whole.events if isinstance(event, StepStarted)]
-    again = [m[1] for text in texts if (m := re.match(r"AOJ\s+([KL]\d)", text))]
-    assert {label for label in again if again.count(label) > 1} <= {"L1"}
+    assert whole.searched() <= {"L1"}
 
 
 @pytest.mark.row(58, drawn=1)
 def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> None:
     result, timing = whole.finished.result, whole.finished.result.timing
-    lens = sum(event.seconds for event in whole.events if isinstance(event, CameraBusy))
     assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
-    assert lens == pytest.approx(timing.lens_s, abs=0.01)
+    assert whole.lens() == pytest.approx(timing.lens_s, abs=0.01)
     assert timing.working_s == pytest.approx(timing.manipulation_s + timing.lens_s, abs=0.01)
 
 

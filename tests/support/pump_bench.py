@@ -250,9 +250,9 @@ def at_standard(x: float = 0.0, y: float = 0.0, turn: float = 0.0) -> dict[str, 
     return {"base": translated(standard(), (x * INCH, y * INCH, 1e-5)) @ planar(0, 0, 0, turn * DEGREE)}
 
 
-def stacked() -> dict[str, Pose]:
-    """Base, gasket and top in their places, held together by the two pins, nothing screwed."""
-    X_WP, seat = at_standard()["base"], base_top()
+def stacked(x: float = 0.0, y: float = 0.0) -> dict[str, Pose]:
+    """Base, gasket and top in their places, or off them (in), held together by the two pins, nothing screwed."""
+    X_WP, seat = at_standard(x, y)["base"], base_top()
     lay = {"base": X_WP, "gasket": X_WP @ planar(0, 0, seat, 0)}
     lay["top"] = X_WP @ planar(0, 0, seat + dimensions()("gasket.thickness"), 0)
     for pin, hole in zip(
@@ -262,11 +262,10 @@ def stacked() -> dict[str, Pose]:
     return lay
 
 
-def base_off(x: float, y: float) -> PumpWorld:
-    """A world in which nothing is wrong but the place of the base on the belt (in)."""
-    world = PumpWorld.nominal()
-    base = Placing(x=world.base.x + x * INCH, y=world.base.y + y * INCH, yaw=world.base.yaw)
-    return replace(world, base=base)
+def base_off(x: float, y: float, seed: int | None = None) -> PumpWorld:
+    """The world without errors, or a drawn one, with the base on the belt as planned, but for its place (in)."""
+    base, world = PumpWorld.nominal().base, world_of(seed)
+    return replace(world, base=Placing(x=base.x + x * INCH, y=base.y + y * INCH, yaw=base.yaw))
 
 
 def shifted(name: str, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Position:

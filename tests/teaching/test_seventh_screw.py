@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Command
-from pump_bench import bench, stacked, stage
+from whole_runs import STAGES, Whole, whole_run
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
@@ -73,18 +73,33 @@ def test_the_script_makes_a_plan_that_differs_by_one_screw(hole: Position) -> No
     assert more[:start] + more[start + added :] == texts
 
 
-@pytest.mark.row(57, nominal=1)
-def test_the_seventh_screw_goes_home_in_a_pump_of_the_later_make(hole: Position) -> None:
-    text = stage("drive the last four screws")
-    first, last = text.index("        SEARCH  .05\nM3:"), text.index("        SEARCH  .07\nD2:")
-    run = bench(
-        WHERE + text[:first] + SCREW + text[last:],
-        world=PumpWorld.nominal(7), positions={"H6": hole}, lay=stacked(),
-    ).go()  # fmt: skip
-    *others, seventh = holes_of(run.cell.truth)
-    assert (run.finished, seventh.screw, seventh.crossed) == (True, 6, False)
-    assert seventh.clamp > 40
-    assert [other.screw for other in others] == [None] * 6
+@pytest.fixture(scope="module")
+def whole(hole: Position) -> Whole:
+    """The pump of the later make, assembled by the program with what the exercise adds to it."""
+    return whole_run(planned(edited(), hole), SEVENTH)
+
+
+@pytest.mark.row(57, drawn=1)
+def test_the_seventh_screw_goes_home_in_the_pump_that_the_program_has_assembled(whole: Whole) -> None:
+    threads = holes_of(whole.finished.runner.cell.truth)
+    assert (threads[6].screw, sorted(thread.screw for thread in threads)) == (6, list(range(7)))
+    assert not any(thread.crossed for thread in threads)
+    assert min(thread.clamp for thread in threads) > 40
+    assert whole.finished.result.exit_code == 0
+
+
+@pytest.mark.row(55, drawn=1)
+def test_row_55_the_eleven_stages_are_done_in_order_and_five_screws_in_one(whole: Whole) -> None:
+    assert whole.started() == whole.done() == STAGES
+    assert [whole.torques(f"drive the {which} screws") for which in ("first two", "last four")] == [2, 5]
+
+
+@pytest.mark.row(58, drawn=1)
+def test_row_58_the_times_of_another_run_add_up(whole: Whole) -> None:
+    result, timing = whole.finished.result, whole.finished.result.timing
+    assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
+    assert timing.working_s == pytest.approx(timing.manipulation_s + whole.lens(), abs=0.01)
+    assert timing.vision_cpu_s < 0.02 * timing.working_s
 
 
 def test_worlds_below_the_later_make_have_six_screws() -> None:

@@ -1,0 +1,69 @@
+"""A whole run of the pump's program in a drawn world, and what the reference's rows ask of any."""
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+
+from handeye.events import (
+    CameraBusy,
+    Event,
+    GuardTripped,
+    StageFinished,
+    StageStarted,
+    StepStarted,
+)
+from handeye.planfile.plan import Plan
+from handeye.trials.assembly import Finished, run_plan
+from handeye.variation import WorldSpec
+
+STAGES = (
+    "find the base", "feel for the grasp", "put the base in its standard position", "insert the aligning pins",
+    "put on the gasket", "check the gasket", "put on the top", "drive the first two screws",
+    "take out the aligning pins", "drive the last four screws", "turn the rotor",
+)  # fmt: skip
+"""The eleven steps of 1973."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Whole:
+    """A run that has ended, and everything that happened."""
+
+    finished: Finished
+
+    @cached_property
+    def events(self) -> tuple[Event, ...]:
+        return tuple(self.finished.runner.events)
+
+    def during(self, stage: str) -> list[Event]:
+        """Events of a stage."""
+        names = [e.stage if isinstance(e, StageStarted) else None for e in self.events]
+        start = names.index(stage)
+        ends = [i for i, e in enumerate(self.events) if isinstance(e, StageFinished) and i > start]
+        return list(self.events[start : ends[0]])
+
+    def started(self) -> tuple[str, ...]:
+        """Stages that began, in order."""
+        return tuple(e.stage for e in self.events if isinstance(e, StageStarted))
+
+    def done(self) -> tuple[str, ...]:
+        """Stages that were done, in order."""
+        return tuple(e.stage for e in self.events if isinstance(e, StageFinished) and e.status == "done")
+
+    def torques(self, stage: str) -> int:
+        """Motions of a stage that ended by torque."""
+        return sum(isinstance(e, GuardTripped) and e.guard == "torque" for e in self.during(stage))
+
+    def searched(self) -> set[str]:
+        """Labels of the holes that needed more than one more try: K1 on are those of screws, L1 and L2 of pins."""
+        texts = [event.text for event in self.events if isinstance(event, StepStarted)]
+        again = [m[1] for text in texts if (m := re.match(r"AOJ\s+([KL]\d)", text))]
+        return {label for label in again if again.count(label) > 1}
+
+    def lens(self) -> float:
+        """Time that lenses, aiming and focusing took, s."""
+        return sum(event.seconds for event in self.events if isinstance(event, CameraBusy))
+
+
+def whole_run(plan: Plan, seed: int) -> Whole:
+    """The plan, carried out in the drawn world of a seed."""
+    return Whole(finished=run_plan(plan, world=WorldSpec(seed=seed)))
