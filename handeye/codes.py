@@ -88,15 +88,23 @@ CODES: Final[dict[str, Code]] = {
     ),
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
-    "faint-force": _warning("a force is below the noise of joint friction", "STOP [0 0 -.2]\nCHANGE Z -1"),
-    "faint-moment": _warning("a moment is below the noise of joint friction", "STOP NIL [5 0 0]\nCHANGE X 1"),
+    "faint-force": _planning(
+        "a force is less than three times what joint friction can be felt as",
+        "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
+        "warning",
+    ),
+    "faint-moment": _planning(
+        "a moment is less than three times what joint friction can be felt as",
+        "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
+        "warning",
+    ),
     "malformed-number": _error("a number is malformed", "OPEN 1.2.3"),
     "misplaced-comma": _error("a comma is not between two operands", "CLOSE .1,"),
     "missing-operand": _error("an instruction lacks an operand", "OPEN"),
     "modifier-misplaced": _error(
         "a modifier stands before a motion it cannot modify", "FORCE [0 0 -9]\nMOVE T"
     ),
-    "modifier-twice": _error("a motion has two modifiers of one kind", "STOP 9\nTORQUE 9\nMOVE T"),
+    "modifier-twice": _error("a motion has two modifiers of one kind", "STOP 50\nTORQUE 9\nMOVE T"),
     "modifier-without-motion": _error("a modifier is not followed by a motion", "STOP [0 0 -50]\nOPEN 1"),
     "never-saved": _warning("no SAVE saves a restored difference on any path to it", "MOVE T\nRESTORE H"),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
@@ -130,11 +138,11 @@ CODES: Final[dict[str, Code]] = {
     "save-without-move": _warning("no MOVE comes before a SAVE on any path to it", "CLOSE\nSAVE H"),
     "search-begun-anew": _warning(
         "a SEARCH starts anew in every round of its own loop",
-        "L: SEARCH .07\nMOVE T\nSTOP 9\nCHANGE Z -1\nSKIPE 23\nAOJ L",
+        "L: SEARCH .07\nMOVE T\nSTOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-stands-still": _warning(
         "a search has no MOVE between its label and its AOJ",
-        "MOVE T\nSEARCH .07\nL: STOP 9\nCHANGE Z -1\nSKIPE 23\nAOJ L",
+        "MOVE T\nSEARCH .07\nL: STOP 50\nCHANGE Z -1\nSKIPE 23\nAOJ L",
     ),
     "search-without-aoj": _warning("no AOJ comes after a SEARCH on any path from it", "SEARCH .07\nMOVE T"),
     "skip-at-end": _error("a skip has no instruction after it", "PARK\nSKIPE 23"),

@@ -7,7 +7,7 @@ import msgspec
 from msgspec import UNSET, UnsetType
 
 from handeye.ports.camera import Renderer
-from handeye.program.causes import Cause, InspectionCause, Recorded
+from handeye.program.causes import Cause, InspectionCause, JointName, Recorded
 from handeye.program.guards import GuardKind
 from handeye.record import Record
 from handeye.source import line_name
@@ -92,6 +92,28 @@ class Adjusted(Event, frozen=True, kw_only=True):
 
     goal: str
     shift: tuple[float, float, float]
+
+
+class JointFriction(Record, frozen=True, kw_only=True):
+    """Coulomb friction of a joint: N m, or N if it slides."""
+
+    joint: JointName
+    friction: float
+
+
+class FrictionMeasured(Event, frozen=True, kw_only=True):
+    """The arm has measured the friction of its joints, before the working phase; it took so many simulated seconds."""
+
+    joints: tuple[JointFriction, ...]
+    seconds: float
+
+
+class GuardFaint(Event, frozen=True, kw_only=True):
+    """A guard waits for less than three times what joint friction can be felt as where the motion begins (N, N m)."""
+
+    guard: GuardKind
+    limit: float
+    friction: float
 
 
 class GuardTripped(Event, frozen=True, kw_only=True):
@@ -228,7 +250,8 @@ class RunFinished(Event, frozen=True, kw_only=True):
 
 
 AnyEvent = (
-    RunStarted | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted | GuardTripped
+    RunStarted | FrictionMeasured | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted
+    | GuardFaint | GuardTripped
     | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
     | PictureTaken | PartSeen | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered
     | ExperimentMade | PanicStopped | WentBack | RunFinished

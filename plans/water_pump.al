@@ -120,7 +120,7 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         SEARCH  .05
 LG:     MOVE    GON
         RESTORE E2 LEVEL
-        STOP    [0 0 -12]
+        STOP    [0 0 -20]
         CHANGE  [0 0 -1] 2.3
         TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
         SKIPN   8

@@ -6,13 +6,13 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
 from conftest import Command
 
-from handeye.events import PanicStopped, RunStarted, StepStarted
+from handeye.events import AnyEvent, PanicStopped, RunStarted, StepStarted
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
 from handeye.runs.programs import ProgramSystem
@@ -544,7 +544,7 @@ def test_times_are_shown_and_typed_as_since_the_camera_was_calibrated(
 ) -> None:
     begin = ProgramSystem.begin
 
-    def later(system: ProgramSystem) -> RunStarted:
+    def later(system: ProgramSystem) -> Sequence[AnyEvent]:
         system.run.drive.brake(2.0)  # stands for the calibration
         return begin(system)
 

@@ -33,9 +33,9 @@ from handeye.units import INCH, OUNCE_FORCE
 
 PLACE_DEPTH: Final = 3.0 * INCH
 """Greatest distance that PLACE lowers the hand: the height of an approach."""
-PLACE_FORCE: Final = 12.0 * OUNCE_FORCE
-"""Force that PLACE stops on, N. The least with which the pump script stops a motion; friction is felt as up to 0.2 N,
-and an arm that moves as some ten times that."""
+PLACE_FORCE: Final = 20.0 * OUNCE_FORCE
+"""Force that PLACE stops on, N. The least with which the pump script stops a motion: over three times what joint
+friction can be felt as upright (4 oz; in a drawn world up to 6)."""
 PLACES: Final = 49
 """Of a search: three steps to each side."""
 _PLACES: Final = {

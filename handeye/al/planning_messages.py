@@ -14,6 +14,7 @@ from handeye.program.findings import (
     NoConfiguration,
     PlanningFinding,
     RunsInto,
+    TooFaint,
     TooHeavy,
     TooWeak,
 )
@@ -167,6 +168,19 @@ class _Phrases:
             help=f"{named(self.arm, found.joint)} reaches its limit at {found.most / si:.0f} {unit}",
         )  # fmt: skip
 
+    def too_faint(self, found: TooFaint) -> Diagnostic:
+        vector, turning = found.exerted
+        what, si, unit = ("moment", OUNCE_INCH, "oz-in") if turning else ("force", OUNCE_FORCE, "oz")
+        there = "about its axis" if turning else "along it"
+        felt, least = found.friction / si, math.ceil(found.margin * found.friction / si)
+        return Diagnostic(
+            code=found.code,
+            message=f"a {what} of {math.hypot(*vector) / si:g} {unit} is hard to tell from joint friction here",
+            primary=Label(span=self.modifier_span(found.step, "STOP" if found.guard else "FORCE")),
+            notes=(f"friction of the joints can be felt as {felt:.2g} {unit} {there}",),
+            help=f"use at least {least} {unit}",
+        )  # fmt: skip
+
     def at_position(
         self, found: PlanningFinding, message: str, *,
         help: str, notes: tuple[str, ...] = (), secondary: tuple[Label, ...] = (),
@@ -223,4 +237,5 @@ _PHRASES: Final[dict[type[PlanningFinding], Callable[[_Phrases, Any], Diagnostic
     RunsInto: _Phrases.runs_into,
     TooHeavy: _Phrases.too_heavy,
     TooWeak: _Phrases.too_weak,
+    TooFaint: _Phrases.too_faint,
 }

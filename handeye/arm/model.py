@@ -81,18 +81,17 @@ class ComplianceModel:
     """Speed per force, m/s/N."""
     speed: float
     """Greatest speed that force alone makes, m/s."""
-    deadband: float
-    """Force below which the hand does not give way, N."""
     turn_gain: float
     """Rate of turning per moment, rad/s/(N m)."""
     turn_speed: float
     """Greatest rate that a moment alone makes, rad/s."""
-    turn_deadband: float
-    """Moment below which the hand does not give way, N m."""
     turn_limit: float
     """The hand is turned no farther than this, rad."""
     ramp: int
     """Servo periods in which a motion that does not press reaches its speed."""
+    friction: tuple[float, ...]
+    """Coulomb friction that each joint is expected to have, N m or N: what forces are checked against before a run. A
+    run measures its own."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -119,8 +118,11 @@ class ArmModel:
         names = [joint.name for joint in self.joints]
         if len({*names}) < len(names) or not {*self.held} <= {*names}:
             raise ValueError(f"{self.name}: joints have names of their own, and only joints are held")
-        if {len(self.servo.frequency), len(self.servo.lag)} != {len(names)}:
-            raise ValueError(f"{self.name}: the servo has figures for other than {len(names)} joints")
+        figures = (self.servo.frequency, self.servo.lag, self.compliance.friction)
+        if {*map(len, figures)} != {len(names)}:
+            raise ValueError(
+                f"{self.name}: servo and friction have figures for other than {len(names)} joints"
+            )
 
     @property
     def lower(self) -> Array:
@@ -142,7 +144,7 @@ class ArmModel:
 
 
 _WORKING: Final = (ComplianceModel, GraspModel)
-"""Figures of the working phase alone: whatever they are, a plan can be carried out as it was made."""
+"""Figures that no plan rests on: whatever they are, a plan can be carried out as it was made."""
 
 
 def digest(arm: ArmModel) -> str:

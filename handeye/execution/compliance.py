@@ -33,6 +33,9 @@ class Course:
     """N m to exert about the tool centre point, turning until it does, shape (3,)."""
     spin: Array = field(default_factory=lambda: np.zeros(3))
     """1 about the axes of W about which the hand gives way, else 0, shape (3,)."""
+    friction: Array = field(default_factory=lambda: np.zeros(6))
+    """The most that friction of the joints is felt as along and about each axis of W, N and N m, shape (6,): the dead
+    band of giving way."""
 
     def patience(self, pressing: int, period: float) -> int:
         """Servo periods (s) the motion may take: `pressing` ones, beside those of an unhindered way."""
@@ -48,12 +51,12 @@ class Course:
     def yielding(self, wrench: Array) -> Array:
         """Velocity (m/s) with which the hand gives way, shape (3,)."""
         k = self.compliance
-        return np.clip(_beyond(self.free * wrench[:3], k.deadband) * k.gain, -k.speed, k.speed)
+        return np.clip(_beyond(self.free * wrench[:3], self.friction[:3]) * k.gain, -k.speed, k.speed)
 
     def turned(self, turn: Array, wrench: Array, period: float) -> Array:
         """Rotation vector (rad) of the hand one servo period (s) after `turn`, shape (3,)."""
         felt, k = wrench[3:], self.compliance
-        missing = _beyond(self.spin * felt, k.turn_deadband)
+        missing = _beyond(self.spin * felt, self.friction[3:])
         wanted = float(np.linalg.norm(self.moment))
         if wanted:
             axis = self.moment / wanted
@@ -62,6 +65,6 @@ class Course:
         return turn * (k.turn_limit / max(float(np.linalg.norm(turn)), k.turn_limit))
 
 
-def _beyond(felt: Array, deadband: float) -> Array:
-    """The force or moment that is felt, less the dead band."""
+def _beyond(felt: Array, deadband: Array) -> Array:
+    """The force or moment that is felt, less a dead band of each axis."""
     return np.asarray(np.sign(felt) * np.maximum(np.abs(felt) - deadband, 0.0))

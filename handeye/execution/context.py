@@ -4,6 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
+from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.events import AnyEvent
 from handeye.execution.drive import ArmDrive
@@ -12,6 +15,7 @@ from handeye.execution.stopwatch import Stopwatch
 from handeye.mutable_records import put_back
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
+from handeye.pose import Array
 from handeye.program.world_model import WorldModel
 from handeye.touch.spiral import SearchPattern, spiral
 from handeye.vision.camera_model import CameraModel
@@ -45,6 +49,14 @@ class ExecutionContext:
         """The cell's clock, rounded to its period so that it prints the same everywhere."""
         period = self.arm.servo.period
         return round(round(self.drive.sensed.time / period) * period, 6)
+
+    @property
+    def felt_friction(self) -> Array:
+        """What the hand feels here of the friction measured, a joint a column, shape (6, n); see `arm.friction`."""
+        friction = self.state.friction
+        return felt_friction(
+            self.arm, self.drive.state.q, np.zeros(len(self.arm.joints)) if friction is None else friction
+        )
 
     @property
     def planned(self) -> PlannedMotion:

@@ -1,14 +1,16 @@
 """Motions of the arm: what each operation does in the working phase."""
 
+import math
 from typing import Final
 
 import numpy as np
 
 from handeye import errors
+from handeye.arm.friction import faint
 from handeye.arm.ik import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.trajectory import Trajectory, four_three_four
-from handeye.events import Adjusted, GuardTripped, Restored
+from handeye.events import Adjusted, GuardFaint, GuardTripped, Restored
 from handeye.execution.compliance import Course
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.servo_loop import Outcome
@@ -56,6 +58,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
         return Fault(number=errors.NO_SOLUTION, cause=trajectory.why.cause(run.arm, trajectory.name))
     samples = trajectory.sample(run.drive.period)
     along = directions(samples, run.arm, run.drive.state.q)
+    _tell_faint(run, operation.guards, along[0])
     return _finish(run, run.drive.glide(samples, monitor(operation.guards), along), operation.guards)
 
 
@@ -83,6 +86,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
     guard = monitor(operation.guards)
+    _tell_faint(run, operation.guards, displacement)
     if not operation.complies:
         samples = change_samples(run.arm, run.drive.state.q, operation)
         if isinstance(samples, IKResult):
@@ -107,6 +111,7 @@ def _course(run: ExecutionContext, operation: Change) -> Course:
         free=_axes(operation.free),
         moment=np.zeros(3) if operation.moment is None else np.array(operation.moment),
         spin=_axes(operation.spin),
+        friction=np.abs(run.felt_friction).sum(axis=1),
     )
 
 
@@ -121,9 +126,30 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
     along = directions(samples, run.arm, run.drive.state.q)
+    _tell_faint(run, operation.guards, along[0])
     outcome = run.drive.follow(samples, monitor(operation.guards), along)
     run.drive.state.in_air = False
     return _finish(run, outcome, operation.guards)
+
+
+def _tell_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:
+    """Tell, once a statement, that what a guard waits for is hard to tell from the friction that was measured.
+
+    Args:
+        along: the way on which the motion begins, shape (3,), W.
+    """
+    assert run.state.at is not None
+    place = run.plan.program.steps[run.state.at].place
+    if not guards or place in run.state.faint:
+        return
+    felt = run.felt_friction
+    for guard in guards:
+        waited = guard.exerted(vector(along) if along.any() else None)
+        most = None if waited is None else faint(felt, waited)
+        if waited is not None and most is not None:
+            limit = round(math.hypot(*waited.vector), 6)
+            run.emit(GuardFaint(time=run.time, guard=guard.kind, limit=limit, friction=round(most, 6)))
+            run.state.faint = [*run.state.faint, place]
 
 
 def _finish(run: ExecutionContext, outcome: Outcome, guards: Guards) -> Fault | None:

@@ -146,6 +146,10 @@ class ExecutionState(SystemState, kw_only=True):
     found: dict[str, Found] = msgspec.field(default_factory=dict)
     """Findings of vision in each picture."""
     world: WorldState = msgspec.field(default_factory=WorldState)
+    friction: Array | None = None
+    """Coulomb friction of each joint as the arm has measured it, shape (n,), N m and N; None: nothing it does asks."""
+    faint: list[str] = msgspec.field(default_factory=list)
+    """Places of the statements whose guards were told to be hard to tell from friction."""
     drive: DriveState
 
 
@@ -180,11 +184,15 @@ def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
     vectors += [vector for vector in (state.finger_line, state.drive.met) if vector is not None]
     return (
         all(vector.shape == (3,) for vector in vectors)
-        and state.drive.q.shape == (len(arm.joints),)
+        and all(values.shape == (len(arm.joints),) for values in (state.drive.q, *_measured(state)))
         and all(values.shape == (6,) for values in (state.drive.tare, state.drive.wrench))
         and all(X.shape == (4, 4) for X in state.world.measured.values())
         and all(shot.picture.shape == (ROWS, COLUMNS) for shot in state.shots.values())
     )
+
+
+def _measured(state: ExecutionState) -> list[Array]:
+    return [] if state.friction is None else [state.friction]
 
 
 def _finite(value: object) -> bool:

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.arm.friction import MARGIN, faint, felt_friction
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.planning.collision import Surroundings, table_crossing
@@ -13,7 +14,7 @@ from handeye.planning.findings import FindingList
 from handeye.planning.grasp_state import GraspState
 from handeye.planning.strength import weakness
 from handeye.pose import Array
-from handeye.program.findings import RunsInto, TooHeavy, TooWeak
+from handeye.program.findings import RunsInto, TooFaint, TooHeavy, TooWeak
 from handeye.program.flow_operations import Load
 from handeye.program.guards import Exerted, Guards
 from handeye.program.motion_operations import Change
@@ -117,3 +118,15 @@ class Checks:
                     )
                 )
                 return
+
+    def clear_of_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
+        """Check that the forces asked for at a configuration can be told from the friction that is expected there."""
+        felt = felt_friction(self.arm, q, np.array(self.arm.compliance.friction)) if demands else None
+        for demand in demands:
+            most = None if felt is None else faint(felt, demand.exerted)
+            if most is not None:
+                self.findings.add(
+                    TooFaint(
+                        step=number, exerted=demand.exerted, guard=demand.guard, friction=most, margin=MARGIN
+                    )
+                )  # fmt: skip

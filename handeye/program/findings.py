@@ -114,4 +114,24 @@ class TooWeak:
         return "stop-beyond-arm" if self.guard else "force-beyond-arm"
 
 
-PlanningFinding = NoConfiguration | GoalBelowTable | RunsInto | TooHeavy | TooWeak
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TooFaint:
+    """A force or moment that is hard to tell from the friction that the joints are expected to have."""
+
+    step: int
+    exerted: Exerted
+    guard: bool
+    """A guard waits for it."""
+    friction: float
+    """What friction can be felt as there, N or N m."""
+    margin: float
+    """So many times that would be clear of it."""
+    position: None = None
+
+    @property
+    def code(self) -> str:
+        """Code of its diagnostic."""
+        return "faint-moment" if self.exerted.turning else "faint-force"
+
+
+PlanningFinding = NoConfiguration | GoalBelowTable | RunsInto | TooHeavy | TooWeak | TooFaint

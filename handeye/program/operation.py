@@ -86,6 +86,11 @@ class Operation(
         return False
 
     @property
+    def feels(self) -> bool:
+        """True if the force or moment of the hand decides how it goes."""
+        return self.complies or any(guard.exerted((0.0, 0.0, 1.0)) is not None for guard in self.guards)
+
+    @property
     def straight_way(self) -> Vector3 | None:
         """The way of the hand, m, table coordinates, if it goes straight from where it is."""
         return None

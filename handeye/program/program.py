@@ -154,6 +154,11 @@ class Program(Record, frozen=True, kw_only=True, omit_defaults=True):
                 found.setdefault(label, []).append(number)
         return found
 
+    @property
+    def feels(self) -> bool:
+        """True if a step goes by the force or moment of the hand."""
+        return any(step.operation.feels for step in self.steps)
+
     def written(self, kind: Kind) -> set[str]:
         """The names of what its steps write of a kind."""
         return {use.name for step in self.steps for use in step.operation.writes if use.kind == kind}

@@ -24,7 +24,7 @@ from handeye.planfile.store import written_digest
 from handeye.program.cause_text import call_sentence
 from handeye.report.kept_result import read_result
 from handeye.report.result import Result
-from handeye.report.summary import camera_report, interventions, stage_times, timing
+from handeye.report.summary import camera_report, interventions, stage_times, timing, warnings
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT
 from handeye.runs.host_seconds import HostSeconds, read_host_seconds
@@ -126,6 +126,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
         error=None if call is None else call.error,
         message=_message(events, call),
         interventions=tuple(interventions(events)),
+        warnings=tuple(warnings(events)),
         stages=stage_times(listing.stages, events),
         timing=timing(events, last.time, host),
         referee={},

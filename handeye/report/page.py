@@ -36,6 +36,7 @@ def page(result: Result) -> RenderableType:
     parts += [Text(f"broken: {told}", "yellow") for told in told_faults(result)]
     limits = (result.limits or {}).items()
     parts += [Text(f"limit of {name} set by the caller: {limit:g}", "yellow") for name, limit in limits]
+    parts += [Text(sentence, "yellow") for sentence in result.warnings]
     parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
     return Group(*parts, Text(), verdict(result))
 
@@ -96,6 +97,8 @@ def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[tuple[str, float, fl
     """Name, seconds here, and those of its day, if there are any; the one sum is of simulated seconds."""
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
+    if t.friction_s:
+        yield "friction of the joints", t.friction_s, None
     if t.calibration_s:
         yield "camera calibration", t.calibration_s, None
     worked = then["manipulation"] + then["lens"] if then else None

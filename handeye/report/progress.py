@@ -11,8 +11,9 @@ from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
 from rich.table import Column
 
-from handeye.events import AnyEvent, ErrorRaised, RunStarted, StageStarted, StepStarted
+from handeye.events import AnyEvent, ErrorRaised, GuardFaint, RunStarted, StageStarted, StepStarted
 from handeye.runs.observer import Observer
+from handeye.trace.sentences import sentence
 
 _CLOCK: Final = 7
 """Columns of the time."""
@@ -31,7 +32,7 @@ class Progress(Observer):
     def __init__(self, stages: tuple[str, ...], console: Console) -> None:
         self._stages = stages
         self._console = console
-        self._begun = 0.0
+        self._begun, self._place = 0.0, ""
         longest = max(map(len, (*stages, _CALIBRATING.format(100, 100))))
         self._bar = RichProgress(
             *_columns(console.width, longest),
@@ -86,7 +87,12 @@ class Progress(Observer):
             self.goes_on(event.stage)
             self._line(clock, event.stage)
         elif isinstance(event, StepStarted):
+            self._place = event.place
             self._bar.update(self._task, text=escape(event.text))
+        elif isinstance(event, GuardFaint):
+            self._console.print(
+                f"warning: line {self._place}: {sentence(event)}", markup=False, soft_wrap=True
+            )
         if isinstance(event, StageStarted | StepStarted | ErrorRaised | RunStarted):
             self._bar.update(self._task, clock=clock)
 

@@ -28,6 +28,9 @@ class Timing(Record, frozen=True, kw_only=True):
     clock) is the host's, is another each time, and is summed over all sessions of a run that was resumed.
     """
 
+    friction_s: float | None
+    """Simulated: the arm measured the friction of its joints, before the working phase. None: an older handeye, which
+    did not."""
     calibration_s: float | None
     """Simulated: the camera was calibrated, before the working phase. None, here and below: an older handeye did
     not record it."""
@@ -44,7 +47,7 @@ class Timing(Record, frozen=True, kw_only=True):
     run_wall_s: float
     """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
     real_time_factor: float
-    """Simulated seconds, calibration included, for one of `run_wall_s`: the host's, and another each time."""
+    """Simulated seconds, those of setting up included, for one of `run_wall_s`: the host's, and another each time."""
     host_from_step: int | None
     """Steps done before the host's seconds were counted; 0: they are those of the whole run."""
 
@@ -131,6 +134,8 @@ class Result(Record, frozen=True, kw_only=True):
     world: WorldSpec
     camera: CameraReport
     versions: dict[str, str]
+    warnings: tuple[str, ...] = ()
+    """What in the run may be other than it looks, a sentence each."""
     limits: dict[str, float] | UnsetType = UNSET
     """Limits that somebody put in the place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET

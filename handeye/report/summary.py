@@ -1,15 +1,18 @@
 """The result of a run, from what happened in it."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from handeye.events import (
     AnyEvent,
     CameraBusy,
     ExperimentMade,
+    FrictionMeasured,
+    GuardFaint,
     OperatorAnswered,
     RunStarted,
     StageFinished,
     StageStarted,
+    StepStarted,
     beginning,
 )
 from handeye.judge.finding import Findings, all_right
@@ -20,7 +23,7 @@ from handeye.runs.advance import Pause
 from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
-from handeye.trace.sentences import renderer_name
+from handeye.trace.sentences import renderer_name, sentence
 from handeye.units import INCH
 from handeye.versions import versions
 from handeye.vision.calibration import Calibration
@@ -44,6 +47,7 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
         error=pause.error,
         message=pause_sentence(pause),
         interventions=tuple(interventions(runner.events)),
+        warnings=tuple(warnings(runner.events)),
         stages=stage_times(names, runner.events),
         timing=timing(runner.events, runner.time, host),
         referee=checks,
@@ -65,6 +69,16 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
             yield f"{when} the operator chose: {event.choice}"
         elif isinstance(event, ExperimentMade):
             yield f"{when} {event.what} {event.name} was set by hand"
+
+
+def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
+    """Tell what in a run may be other than it looks, a sentence each."""
+    place = ""
+    for event in events:
+        if isinstance(event, StepStarted):
+            place = event.place
+        elif isinstance(event, GuardFaint):
+            yield f"line {place}: {sentence(event)}"
 
 
 def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
@@ -91,10 +105,12 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
 def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timing:
     """Times of a run of which these events have happened; `clock` is the cell's (s)."""
     begun = next((event.time for event in events if isinstance(event, RunStarted)), clock)
+    friction = sum((event.seconds for event in events if isinstance(event, FrictionMeasured)), 0.0)
     lens = sum((event.seconds for event in events if isinstance(event, CameraBusy)), 0.0)
     covered = max(clock - host.from_clock_s, 0.0)
     return Timing(
-        calibration_s=round(begun, 3),
+        friction_s=round(friction, 3),
+        calibration_s=round(begun - friction, 3),
         manipulation_s=round(clock - begun - lens, 3),
         lens_s=round(lens, 3),
         working_s=round(clock - begun, 3),

@@ -1,6 +1,6 @@
 """Executor of programs in the cell of a task: the first system that runs drive."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -9,16 +9,18 @@ from msgspec import UNSET
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.events import Choice, RunStarted
+from handeye.events import AnyEvent, Choice, FrictionMeasured, JointFriction, RunStarted
 from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
 from handeye.execution.context import ExecutionContext
 from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
+from handeye.execution.friction_measurement import FrictionUnknown, measure_friction
 from handeye.execution.state import DriveState, ExecutionState
 from handeye.mutable_records import put_back
 from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
+from handeye.program.causes import ArmNames
 from handeye.program.program import Position
 from handeye.runs.setup import Setup, plan_of
 from handeye.runs.system import Settable, Surroundings, System, SystemKind
@@ -75,9 +77,13 @@ class ProgramSystem(System):
 
     # -- going on -------------------------------------------------------------------------------------
 
-    def begin(self) -> RunStarted:
-        if self._eye is not None and self.plan.program.written("picture"):
+    def begin(self) -> Sequence[AnyEvent]:
+        seconds = self._measure_friction() if self.plan.program.feels else 0.0
+        if self._eye is not None and self.plan.program.written("picture") and self.trouble is None:
             self._calibrate(self._eye)
+        return [self._started(), *self._friction(seconds)]
+
+    def _started(self) -> RunStarted:
         return RunStarted(
             time=self.time,
             program=self.plan.program.name,
@@ -108,6 +114,23 @@ class ProgramSystem(System):
             raise InvalidInput("what the run remembers is not of the executor of programs")
         self.run.restore(state)
         self._take_calibration()
+
+    def _measure_friction(self) -> float:
+        """Let the arm measure the friction of its joints; simulated seconds that it took."""
+        before = self.time
+        try:
+            self.state.friction = measure_friction(self._cell.devices, self.arm, self.state.drive, self._halt)
+        except (FrictionUnknown, SimulationError) as error:
+            self.state.unable = str(error)
+        return round(self.time - before, 6)
+
+    def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
+        """The event of friction that was measured in so many seconds; none if it was not."""
+        if self.state.friction is not None:
+            joints = ArmNames.of(self.arm).joints
+            measured = zip(joints, self.state.friction.tolist(), strict=True)
+            found = tuple(JointFriction(joint=joint, friction=round(value, 6)) for joint, value in measured)
+            yield FrictionMeasured(time=self.time, joints=found, seconds=seconds)
 
     def _calibrate(self, eye: Eye) -> None:
         """Calibrate the camera; the arm is held where that leaves it."""

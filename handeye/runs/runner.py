@@ -94,15 +94,16 @@ class Runner:
         """Steps that were done then."""
         self.observers: list[Observer] = []
         self._broken: str | None = None
-        begun = None if start.snapshot is not None else self.system.begin()
+        begun = () if start.snapshot is not None else self.system.begin()
         if start.snapshot is not None:
             self.events += start.events
             self._put(start.snapshot)
             self.history.append(start.snapshot)
             self.started, self.first = self.time, self.position
         self.observers += observers(self)
-        if begun is not None:
-            self._emit(begun)
+        for event in begun:
+            self._emit(event)
+        if begun:
             self._settle()
 
     # -- knowing --------------------------------------------------------------------------------------

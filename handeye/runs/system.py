@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from handeye.cell.simulated import SimulatedCell
-from handeye.events import AnyEvent, Choice, RunStarted
+from handeye.events import AnyEvent, Choice
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
 from handeye.program.operation import Device
@@ -121,8 +121,8 @@ class System(Protocol):
     def trouble(self) -> str | None:
         """Why it cannot do any step, if it is not a matter for the operator."""
 
-    def begin(self) -> RunStarted:
-        """Prepare the first step; the event that begins the run.
+    def begin(self) -> Sequence[AnyEvent]:
+        """Prepare the first step; the events that begin the run, `RunStarted` first.
 
         Raises:
             Halted: the panic button was hit.

@@ -58,6 +58,8 @@ class _Teller:
         match event:
             case happened.RunStarted():
                 self.lines += [f"{sentence(event)}", _versions(event)]
+            case happened.FrictionMeasured():
+                self.lines.append(sentence(event))
             case happened.StageStarted():
                 self._begun, self._camera, self._heading = event.time, 0.0, len(self.lines) + 1
                 self.lines += ["", event.stage.upper()]

@@ -19,6 +19,8 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.StageStarted: Log.INFO,
     happened.StageFinished: Log.INFO,
     happened.StepStarted: Log.DEBUG,
+    happened.FrictionMeasured: Log.INFO,
+    happened.GuardFaint: Log.WARNING,
     happened.GuardTripped: Log.INFO,
     happened.ErrorRaised: Log.WARNING,
     happened.SearchAdvanced: Log.INFO,
@@ -89,6 +91,10 @@ def sentence(event: Event) -> str:
             return _ended(event)
         case happened.Adjusted():
             return f"{event.goal} is {inches(event.shift, 3)} from its planned place"
+        case happened.FrictionMeasured():
+            return _rubbing(event)
+        case happened.GuardFaint():
+            return _faint(event)
         case happened.GuardTripped():
             return _tripped(event)
         case happened.ErrorRaised():
@@ -131,6 +137,21 @@ def sentence(event: Event) -> str:
                 "the program came to its end" if event.completed else "the run ended before the program did"
             )
     raise AssertionError(event)
+
+
+def _rubbing(event: happened.FrictionMeasured) -> str:
+    def told(found: happened.JointFriction) -> str:
+        slides = found.joint.kind == "prismatic"
+        si, unit = (OUNCE_FORCE, "oz") if slides else (OUNCE_INCH, "oz-in")
+        return f"{found.joint.name} {found.friction / si:.1f} {unit}"
+
+    return f"friction of the joints: {', '.join(map(told, event.joints))}, measured in {event.seconds:.1f} s"
+
+
+def _faint(event: happened.GuardFaint) -> str:
+    si, unit = (OUNCE_INCH, "ounce-inches") if event.guard is GuardKind.MOMENT else (OUNCE_FORCE, "ounces")
+    limit, felt = f"{event.limit / si:.1f}", f"{event.friction / si:.1f}"
+    return f"a stop on {limit} {unit} is hard to tell from joint friction, which can be felt as {felt} here"
 
 
 def _tripped(event: happened.GuardTripped) -> str:

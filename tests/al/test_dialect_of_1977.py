@@ -147,23 +147,6 @@ def test_neither_force_nor_moment_is_reported(text: str) -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("text", "help"),
-    [
-        ("STOP NIL [19 0 0]", "use at least 20 oz-in about an axis that is not vertical"),
-        ("FORCE [0 0 -9] [1 1 1]", "use at least 20 oz-in about an axis that is not vertical"),
-        ("STOP NIL [0 0 1.5]", "use at least 2 oz-in about the vertical"),
-    ],
-)
-def test_moment_that_friction_hides_is_warned_of(text: str, help: str) -> None:
-    (diagnostic,) = diagnose(f"{text}\nCHANGE Z -1")
-    assert (diagnostic.code, diagnostic.help) == ("faint-moment", help)
-
-
-def test_moment_that_friction_does_not_hide_is_not() -> None:
-    assert codes("STOP NIL [20 0 0]\nCHANGE Z -1\nSTOP NIL [0 0 2]\nCHANGE Z -1") == []
-
-
 def test_via_names_what_is_passed_on_the_way() -> None:
     move = moves(compiled("VIA P,T\nMOVE T DIRECT"))[0]
     assert (move.via, move.goal, move.direct) == (("P", "T"), "T", True)

@@ -1,70 +1,21 @@
 """The servo loop runs every robot in physics: it follows, feels, bears a load and stops, whatever the structure."""
 
-import mujoco
 import numpy as np
 import pytest
+from robot_bench import START, TOP, Bench
 from robots import ROBOTS
 
-from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.line import straight
 from handeye.arm.samples import Samples
 from handeye.arm.trajectory import move
-from handeye.cell.arm import SimulatedArm
-from handeye.cell.device_errors import ArmErrors
-from handeye.cell.simulated import SimulatedCell
-from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_loop import REACHED
-from handeye.execution.servo_period import ServoPeriod
-from handeye.execution.state import DriveState
-from handeye.pose import Array, hand, translated
+from handeye.pose import translated
 from handeye.program.guards import Force, GuardKind
 from handeye.touch.guards import monitor
 from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
-
-TOP = 0.1
-"""Height of a plate on the table, m."""
-START = hand(0.635, 0.95, 0.2, np.pi / 2, np.pi / 2, 0.0)
-
-
-class Bench:
-    """A robot over a plate, its hand at `START`."""
-
-    def __init__(self, name: str) -> None:
-        robot = ROBOTS[name]
-        self.arm = robot.arm
-        spec, scene = mujoco.MjSpec.from_string(robot.mjcf), mujoco.MjSpec()
-        scene.option.timestep = self.arm.servo.period / 16
-        scene.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-        scene.worldbody.add_geom(
-            type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.5, 0.5, TOP / 2], pos=[0.635, 0.95, TOP / 2],
-            contype=1, conaffinity=2,
-        )  # fmt: skip
-        quat = np.zeros(4)
-        mujoco.mju_mat2Quat(quat, robot.X_WM[:3, :3].ravel())
-        scene.attach(spec, frame=scene.worldbody.add_frame(pos=robot.X_WM[:3, 3], quat=quat), prefix="it/")
-        model = scene.compile()
-        self.data, noise = mujoco.MjData(model), np.random.default_rng(0)
-        q = solve(self.arm, START, self.arm.middle).q
-        assert q is not None
-        arm = SimulatedArm(
-            model, self.data, "it/", arm=self.arm, posture=q, errors=ArmErrors.none(len(q)), noise=noise
-        )
-        cell = SimulatedCell(model, self.data, arm=arm, noise=noise)
-        self.link = model.joint(f"it/j{len(q)}").bodyid[0]
-        state = DriveState.holding(cell.devices.sense(), self.arm)
-        self.ticks: list[float] = []
-        self.drive = ArmDrive(cell=cell.devices, arm=self.arm, state=state, watch=self._watch)
-
-    def _watch(self, period: ServoPeriod) -> None:
-        self.ticks.append(period.sensed.time)
-
-    @property
-    def tool(self) -> Array:
-        """Where the tool centre point really is, m."""
-        return np.array(self.data.site("it/tool").xpos)
 
 
 @pytest.fixture(params=ROBOTS)

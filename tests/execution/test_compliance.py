@@ -9,15 +9,24 @@ from handeye.units import JIFFY
 
 DOWN = np.array([0.0, 0.0, -1.0])
 K = ComplianceModel(
-    gain=0.002, speed=0.02, deadband=0.5,
-    turn_gain=0.2, turn_speed=0.3, turn_deadband=0.1, turn_limit=0.25, ramp=4,
+    gain=0.002, speed=0.02, turn_gain=0.2, turn_speed=0.3, turn_limit=0.25, ramp=4, friction=(),
 )  # fmt: skip
 """An arm like none there is, so that figures of the Stanford arm would be seen."""
 
 
+FRICTION = np.array([0.5, 0.6, 0.7, 0.1, 0.2, 0.3])
+"""What joint friction is felt as along and about each axis, N and N m."""
+
+
 def course(force: float | None, free: tuple[float, float, float] = (0, 0, 0)) -> Course:
     return Course(
-        compliance=K, direction=DOWN, distance=0.01, speed=0.02, force=force, free=np.array(free, float)
+        compliance=K,
+        direction=DOWN,
+        distance=0.01,
+        speed=0.02,
+        force=force,
+        free=np.array(free, float),
+        friction=FRICTION,
     )
 
 
@@ -45,11 +54,12 @@ def test_a_motion_that_does_not_press_ramps_up_to_its_speed() -> None:
 
 def test_the_hand_gives_way_along_free_axes_only() -> None:
     given = course(6.0, free=(1, 0, 0)).yielding(felt(2.0, 2.0, 2.0))
-    assert given == pytest.approx([(2.0 - K.deadband) * K.gain, 0, 0])
+    assert given == pytest.approx([(2.0 - FRICTION[0]) * K.gain, 0, 0])
 
 
 def test_what_friction_is_felt_as_moves_nothing() -> None:
-    assert course(6.0, free=(1, 1, 1)).yielding(felt(K.deadband, -K.deadband, 0)) == pytest.approx([0, 0, 0])
+    assert course(6.0, free=(1, 1, 1)).yielding(felt(*FRICTION[:3])) == pytest.approx([0, 0, 0])
+    assert course(6.0, free=(1, 1, 1)).yielding(felt(*-FRICTION[:3])) == pytest.approx([0, 0, 0])
 
 
 def rate(moment: tuple[float, float, float] = (0, 0, 0), spin: tuple[float, float, float] = (0, 0, 0), *,
@@ -62,19 +72,20 @@ def rate(moment: tuple[float, float, float] = (0, 0, 0), spin: tuple[float, floa
         speed=0.02,
         moment=np.array(moment, float),
         spin=np.array(spin, float),
+        friction=FRICTION,
     )
     return course.turned(np.zeros(3), np.array([0.0, 0.0, 0.0, *felt]), JIFFY) / JIFFY
 
 
 def test_the_hand_turns_about_the_axes_it_may_spin_about_only() -> None:
     assert rate(spin=(1, 0, 0), felt=(0.5, 0.5, 0.5)) == pytest.approx(
-        [(0.5 - K.turn_deadband) * K.turn_gain, 0, 0]
+        [(0.5 - FRICTION[3]) * K.turn_gain, 0, 0]
     )
     assert rate(felt=(0.5, 0.5, 0.5)) == pytest.approx([0, 0, 0])
 
 
 def test_what_friction_is_felt_as_turns_nothing() -> None:
-    assert rate(spin=(1, 1, 1), felt=(K.turn_deadband, -K.turn_deadband, 0)) == pytest.approx([0, 0, 0])
+    assert rate(spin=(1, 1, 1), felt=tuple(FRICTION[3:] * [1, -1, 1])) == pytest.approx([0, 0, 0])
 
 
 def test_no_moment_makes_it_turn_faster_than_the_greatest_rate() -> None:
@@ -89,7 +100,7 @@ def test_turning_goes_on_while_moment_is_missing_and_back_beyond_it() -> None:
 
 def test_about_the_axis_of_a_moment_to_exert_the_hand_does_not_spin_besides() -> None:
     both = rate(moment=(0, 0, 0.5), spin=(1, 0, 1), felt=(0.5, 0, -0.8))
-    assert both == pytest.approx([(0.5 - K.turn_deadband) * K.turn_gain, 0, -0.3 * K.turn_gain])
+    assert both == pytest.approx([(0.5 - FRICTION[3]) * K.turn_gain, 0, -0.3 * K.turn_gain])
 
 
 def test_the_hand_turns_no_farther_than_the_most() -> None:

@@ -95,3 +95,25 @@ def test_ounces_are_those_of_the_script() -> None:
 )
 def test_a_moment_that_no_joint_can_bring_up_is_found_in_planning(modifier: str, said_of_it: str) -> None:
     assert message(f"MOVE T\n{modifier}\nCHANGE [0 0 -1] 1").startswith(said_of_it)
+
+
+@pytest.mark.parametrize(
+    ("stop", "code", "help"),
+    [
+        ("[0 0 -11]", "faint-force", "use at least 12 oz"),
+        ("NIL [19 0 0]", "faint-moment", "use at least 260 oz-in"),
+        ("NIL [0 0 10]", "faint-moment", "use at least 17 oz-in"),
+    ],
+)
+def test_a_stop_below_three_times_the_friction_expected_is_warned_of(stop: str, code: str, help: str) -> None:
+    (problem,) = said(f"MOVE T\nSTOP {stop}\nCHANGE Z -1")
+    assert (problem.code, problem.help) == (code, help)
+
+
+def test_a_force_to_press_with_is_warned_of_as_a_stop_is() -> None:
+    (problem,) = said("MOVE T\nFORCE [0 0 -5]\nCHANGE Z -1")
+    assert problem.message == "a force of 5 oz is hard to tell from joint friction here"
+
+
+def test_a_stop_clear_of_friction_is_not_warned_of() -> None:
+    assert said("MOVE T\nSTOP [0 0 -12] [0 0 18]\nCHANGE Z -1\nMOVE T\nPLACE") == []

@@ -54,6 +54,12 @@ def test_planning_is_timed_where_it_was_done(planning: float, told: bool) -> Non
     assert ("planning phase" in table(result(completed=True, assembled=None, planning=planning))) == told
 
 
+@pytest.mark.parametrize(("friction", "told"), [(0.0, False), (3.3, True)])
+def test_the_measurement_of_friction_has_a_row_of_its_own(friction: float, told: bool) -> None:
+    shown = table(result(completed=True, assembled=None, friction=friction))
+    assert ("friction of the joints" in shown, "3.30 s" in shown) == (told, told)
+
+
 @pytest.mark.parametrize(("calibration", "told"), [(0.0, False), (215.0, True)])
 def test_calibration_of_the_camera_has_a_row_of_its_own(calibration: float, told: bool) -> None:
     shown = table(result(completed=True, assembled=None, calibration=calibration))

@@ -13,6 +13,7 @@ def result(
     program: str = "water_pump",
     planning: float = 0.0,
     factor: float = 1.0,
+    friction: float = 0.0,
     calibration: float = 0.0,
     from_step: int = 0,
 ) -> Result:
@@ -22,7 +23,8 @@ def result(
         error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program,
         task="water_pump", seed=0, world=WorldSpec(seed=0), versions={},
         timing=Timing(
-            calibration_s=calibration, manipulation_s=0, lens_s=0, working_s=0, planning_cpu_s=planning,
+            friction_s=friction, calibration_s=calibration, manipulation_s=0, lens_s=0, working_s=0,
+            planning_cpu_s=planning,
             vision_cpu_s=0, run_cpu_s=1, run_wall_s=1, real_time_factor=factor, host_from_step=from_step,
         ),
         camera=CameraReport(renderer="ray casting", sightings_rms_px={}, residual_in=None),

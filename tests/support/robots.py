@@ -3,7 +3,7 @@
 The toys' models are written by hand in table axes, so that they judge the Denavit-Hartenberg rows beside them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 from typing import Literal
 
@@ -15,7 +15,7 @@ from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel, Stru
 from handeye.arm.robots.stanford import STANFORD
 from handeye.pose import Pose, pose
 from handeye.resources import scenes
-from handeye.units import DEGREE, OUNCE_INCH
+from handeye.units import DEGREE
 
 Triple = tuple[float, float, float]
 
@@ -27,10 +27,12 @@ SMALL_HAND = HandModel(
 )  # fmt: skip
 """Two fingers of 80 g, 6 cm long."""
 
-YIELDING = ComplianceModel(
-    gain=0.0015, speed=0.0127, deadband=0.4,
-    turn_gain=0.1, turn_speed=0.1, turn_deadband=20 * OUNCE_INCH, turn_limit=15 * DEGREE, ramp=6,
+_YIELDING = ComplianceModel(
+    gain=0.0015, speed=0.0127, turn_gain=0.1, turn_speed=0.1, turn_limit=15 * DEGREE, ramp=6, friction=(),
 )  # fmt: skip
+
+_RUBS = {"slide": 1.5, "turn": 0.1}
+"""Coulomb friction that a joint is expected to have, N or N m."""
 
 _ALONG_X = np.array([[0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]])
 """A base frame whose z, the first axis, is table x, and whose x is up."""
@@ -64,10 +66,11 @@ def _servo(*kinds: Literal["slide", "turn"]) -> ServoModel:
 def _arm(
     name: str, structure: Structure, base: Triple, joints: tuple[Joint, ...], held: dict[str, float] | None = None
 ) -> ArmModel:  # fmt: skip
-    kinds = ("slide" if joint.kind == "prismatic" else "turn" for joint in joints)
+    kinds = ["slide" if joint.kind == "prismatic" else "turn" for joint in joints]
     return ArmModel(
         name=name, structure=structure, joints=joints, X_WB=pose(_ALONG_X, base), hand=SMALL_HAND,
-        servo=_servo(*kinds), compliance=YIELDING, held=held or {},
+        servo=_servo(*kinds), compliance=replace(_YIELDING, friction=tuple(_RUBS[kind] for kind in kinds)),
+        held=held or {},
     )  # fmt: skip
 
 

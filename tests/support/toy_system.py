@@ -94,12 +94,13 @@ class CounterMachine(System):
     def time(self) -> float:
         return self._state.time
 
-    def begin(self) -> RunStarted:
+    def begin(self) -> list[RunStarted]:
         steps, plan = self._lines.steps, written_digest(encoded(self._lines))
-        return RunStarted(
+        begun = RunStarted(
             system="toy", time=0.0, program="toy", steps=len(steps), plan=plan, arm="", arm_digest="",
             world=self._setup.world, camera=Renderer(method="none"), versions={},
         )  # fmt: skip
+        return [begun]
 
     def step(self) -> None:
         at = self._state.at

@@ -3,7 +3,6 @@
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from handeye.al.checks.below_noise import faint
 from handeye.al.checks.flow import check_flow
 from handeye.al.checks.here import check_here
 from handeye.al.checks.layout import check_layout
@@ -38,7 +37,6 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
     """Everything that cannot be meant in a script or on a way through it; `positions` are those taught or written."""
     graph = Graph(whole.lowered.steps)
     found = check_flow(graph, whole.lowered.origins)
-    found += faint(whole.words, whole.vectors)
     found += check_sights(whole.words, taught)
     found += check_layout(whole.script, whole.source)
     found += check_restores(whole.lowered, graph)

@@ -11,7 +11,7 @@ from typing import Final, Literal
 from handeye.arm.hand import GraspModel, HandModel
 from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
 from handeye.pose import pose, rotation_z
-from handeye.units import DEGREE, GAP, INCH, JIFFY, OUNCE_INCH
+from handeye.units import DEGREE, GAP, INCH, JIFFY
 
 HAND_LENGTH: Final = 10 * INCH
 """Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""
@@ -126,12 +126,13 @@ _SERVO: Final = ServoModel(
     short=0.004, settle=8, drag=0.1,
 )  # fmt: skip
 
-# Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Dead band: twice what joint friction is felt as. Gain
-# of turning: slow for a wrist that gives some 160 N m a radian under its servo. Dead band of turning: joint friction is
-# felt as up to 17 ounce-inches. Limit of turning: what leans on the hand more has hit it.
+# Chosen. Gain: slow enough for the arm's 20 kg of felt inertia. Gain of turning: slow for a wrist that gives some 160
+# N m a radian under its servo. Limit of turning: what leans on the hand more has hit it. Friction: the data sheet has
+# none. Inferred from the paper, by which the arm that is let go of stays where it is: it bears what gravity is
+# misjudged by at joints 2 and 3; else placeholder, a half to one per cent of what a drive can do.
 _COMPLIANCE: Final = ComplianceModel(
-    gain=0.0015, speed=0.0127, deadband=0.4,
-    turn_gain=0.1, turn_speed=0.1, turn_deadband=20 * OUNCE_INCH, turn_limit=15 * DEGREE, ramp=6,
+    gain=0.0015, speed=0.0127, turn_gain=0.1, turn_speed=0.1, turn_limit=15 * DEGREE, ramp=6,
+    friction=(0.4, 2.2, 2.0, 0.1, 0.1, 0.05),
 )  # fmt: skip
 
 STANFORD: Final = ArmModel(

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.slow
 CLOSE = 0.02  # relative
 STUCK = 0.04  # relative: friction of a head that has come to rest is a little below its limit
 FALSE_FORCE, FALSE_MOMENT = 0.2, 17 * OUNCE_INCH
-"""What joint friction is felt as, N and N m: handeye/arm/robots/stanford.py, half its dead band of giving way."""
+"""What the joint friction of world 1 is felt as, N and N m."""
 DOCS = Path(__file__).parents[3] / "docs"
 
 

@@ -1,0 +1,116 @@
+"""The arm measures the friction of its joints before its first instruction."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pump_bench import Bench as PumpBench
+from pump_bench import bench, written
+from robot_bench import Bench, converted
+from robots import ROBOTS
+
+from handeye.arm.friction import felt_friction
+from handeye.arm.model import ArmModel
+from handeye.arm.robots.stanford import STANFORD
+from handeye.execution.friction_measurement import FrictionUnknown, measure_friction
+from handeye.execution.servo_loop import Halted
+from handeye.execution.state import DriveState
+from handeye.tasks.water_pump.cell import build_cell
+from handeye.tasks.water_pump.pump_world import PumpWorld
+
+pytestmark = pytest.mark.slow
+
+QUARTER = 0.25
+"""Of a step of the converter that the drives get their torques from: no torque is known better. Over 8 worlds and four
+robots a sixth is the most."""
+
+
+def stated(arm: ArmModel, friction: np.ndarray) -> np.ndarray:
+    """By how much what is measured may be wrong, N m and N."""
+    return QUARTER * converted(arm).torque_step + 0.02 * np.abs(friction)
+
+
+def drawn(name: str, seed: int) -> tuple[float, ...]:
+    """Friction that differs by half from what is expected of a robot."""
+    expected = np.array(ROBOTS[name].arm.compliance.friction)
+    return tuple(expected * np.random.default_rng(seed).uniform(0.5, 1.5, len(expected)))
+
+
+def measured(bench: Bench) -> np.ndarray:
+    return measure_friction(bench.drive.cell, bench.arm, bench.drive.state)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_any_robot_finds_the_friction_of_its_joints(name: str) -> None:
+    friction = drawn(name, seed=3)
+    found = measured(Bench(name, friction, converted(ROBOTS[name].arm)))
+    assert (np.abs(found - friction) < stated(ROBOTS[name].arm, np.array(friction))).all()
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_joints_without_friction_are_found_to_have_none(name: str) -> None:
+    np.testing.assert_allclose(measured(Bench(name)), 0.0, atol=0.01)
+
+
+@pytest.mark.parametrize("times", [None, 0.1, 1, 3])
+def test_the_pump_s_arm_finds_its_friction_with_wrong_masses_and_wrong_sensors(times: float | None) -> None:
+    world = PumpWorld.sample(4)
+    world = world if times is None else rubbing(world, times)
+    cell = build_cell(world, camera="ray").devices
+    found = measure_friction(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
+    off = np.abs(found - world.arm_build.friction)
+    assert (off < stated(STANFORD, world.arm_build.friction)).all()
+
+
+def rubbing(world: PumpWorld, times: float = 1.0) -> PumpWorld:
+    """A world with so many times the friction in the joints that is expected."""
+    return replace(
+        world, arm_build=replace(world.arm_build, friction=np.array(STANFORD.compliance.friction) * times)
+    )
+
+
+def test_the_arm_ends_where_it_began_within_four_seconds() -> None:
+    bench = Bench("gantry", drawn("gantry", seed=1))
+    q, began = bench.drive.state.q.copy(), bench.drive.sensed.time
+    measured(bench)
+    assert (bench.drive.state.q == q).all()
+    assert bench.drive.sensed.time - began < 4.0
+
+
+def test_a_joint_that_is_stuck_is_named() -> None:
+    stuck = Bench("planar", (500.0, 1.0))
+    with pytest.raises(
+        FrictionUnknown, match=r"^the friction of the joints could not be measured: the x does not move "
+    ):
+        measured(stuck)
+
+
+def test_the_panic_button_stops_the_measurement() -> None:
+    bench = Bench("planar")
+    with pytest.raises(Halted):
+        measure_friction(bench.drive.cell, bench.arm, bench.drive.state, halt=lambda: True)
+
+
+def gone_astray(run: PumpBench) -> float:
+    """How far (in) a hand that may give way has gone to the side in free air."""
+    return float(np.hypot(*(run.go().hand()[:2] - [25, 38])))
+
+
+FREE_AIR = "MOVE T\nFREE 2,X,Y\nCHANGE Z,-2"
+
+
+def test_a_hand_that_gives_way_goes_straight_by_the_friction_it_has_measured() -> None:
+    positions = {"T": written(25, 38, 6, 0)}
+    world = rubbing(PumpWorld.nominal())
+    knows, fooled = (bench(FREE_AIR, world=world, positions=positions) for _ in range(2))
+    fooled.run.state.friction = None
+    assert gone_astray(knows) < 0.02 < gone_astray(fooled)
+
+
+def test_the_dead_band_is_what_the_measured_friction_is_felt_as_here() -> None:
+    run = bench("MOVE T\nFREE 2,X,Y\nCHANGE Z,-2", positions={"T": written(25, 38, 6, 0)})
+    run.run.state.friction = friction = np.array([0.5, 0.4, 2.0, 0.1, 0.1, 0.05])
+    run.to("CHANGE")
+    here = felt_friction(STANFORD, run.run.drive.state.q, friction)
+    np.testing.assert_array_equal(run.run.felt_friction, here)
+    assert 0.5 < np.abs(here[:3]).sum(axis=1).min() < 3.0

@@ -1,0 +1,91 @@
+"""A run that goes by forces measures the friction of the joints first, and tells what cannot be told from it."""
+
+import pytest
+from short_runs import begin, plan_of, through
+
+from handeye.events import FrictionMeasured, GuardFaint, RunStarted
+from handeye.report.summary import timing, warnings
+from handeye.runs.host_seconds import HostSeconds
+from handeye.runs.programs import context_of
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.variation import Overrides, WorldSpec
+
+pytestmark = pytest.mark.slow
+
+FEELING = """
+        OPEN    1
+        MOVE    P1
+        CHANGE  Z 3
+        ASSIGN  N 3
+AGAIN:  STOP    [0 0 -5]
+        CHANGE  Z -.1
+        SKIPE   23
+        SKIPE   23
+        SOJG    N AGAIN
+        STOP    [0 0 -60]
+        CHANGE  Z -.1
+        SKIPE   23
+        PARK
+"""
+"""Feels softly for nothing, three times at one line, and once with force."""
+
+
+def stiff(script: str, times: float) -> Runner:
+    """A run with so many times the friction expected in each joint."""
+    joints = (0.4, 0.4, 1.6, 0.08, 0.08, 0.04)
+    wanted = {f"arm.friction.{number}": times * friction for number, friction in enumerate(joints, 1)}
+    world = WorldSpec(seed=0, overrides=Overrides(set=wanted))
+    return Runner(Checkpoint(setup=Setup(plan=plan_of(script), world=world, camera="ray")))
+
+
+@pytest.fixture(scope="module")
+def felt() -> Runner:
+    return through(stiff(FEELING, 1.0))
+
+
+def test_friction_is_measured_before_the_first_instruction(felt: Runner) -> None:
+    begun, measured, *_ = felt.events
+    assert isinstance(begun, RunStarted)
+    assert isinstance(measured, FrictionMeasured)
+    assert [each.joint.name for each in measured.joints][::2] == ["column", "boom", "wrist bend"]
+    assert [each.friction for each in measured.joints][::2] == pytest.approx([0.4, 1.6, 0.08], rel=0.05)
+
+
+def test_the_time_it_takes_stands_by_itself(felt: Runner) -> None:
+    told = timing(felt.events, felt.time, HostSeconds())
+    assert (told.friction_s, told.calibration_s) == (pytest.approx(3.333, abs=0.01), 0.0)
+
+
+def test_a_stop_that_friction_hides_is_told_once_a_line_and_no_other(felt: Runner) -> None:
+    (faint,) = (event for event in felt.events if isinstance(event, GuardFaint))
+    assert faint.friction < faint.limit < 3 * faint.friction
+    (told,) = warnings(felt.events)
+    assert told.startswith("line 7: a stop on 5.0 ounces is hard to tell from joint friction")
+
+
+def test_a_stop_clear_of_the_friction_measured_is_not_told() -> None:
+    events = through(stiff(FEELING, 0.1)).events
+    assert not any(isinstance(event, GuardFaint) for event in events)
+
+
+def test_what_friction_was_and_what_was_told_belong_to_the_state(felt: Runner) -> None:
+    again = Runner(felt.checkpoint())
+    state = context_of(again.system).state
+    assert state.friction is not None
+    assert state.friction.tolist() == context_of(felt.system).state.friction.tolist()
+    assert state.faint == ["7"]
+
+
+def test_a_program_that_feels_nothing_does_not_wait_for_it() -> None:
+    runner = Runner(begin("OPEN 1"))
+    assert (runner.time, len(runner.events)) == (0.0, 1)
+
+
+def test_a_run_whose_joints_do_not_move_says_so_and_does_nothing() -> None:
+    runner = stiff(FEELING, 100.0)
+    assert runner.ended
+    assert runner.trouble == (
+        "the friction of the joints could not be measured: the column does not move as it is driven"
+    )
