@@ -89,12 +89,12 @@ CODES: Final[dict[str, Code]] = {
     "macro-name-taken": _error("a macro has the name of an instruction", "DEFINE OPEN\nPARK\n\nPARK"),
     "macro-twice": _error("two macros have the same name", "DEFINE A\nPARK\n\nDEFINE A\nPARK\n\nA"),
     "faint-force": _planning(
-        "a force is less than three times what joint friction can be felt as",
+        "a stop waits for less than three times the force that joint friction can be felt as",
         "MOVE T\nSTOP [0 0 -5]\nCHANGE Z -1",
         "warning",
     ),
     "faint-moment": _planning(
-        "a moment is less than three times what joint friction can be felt as",
+        "a stop waits for less than three times the moment that joint friction can be felt as",
         "MOVE T\nSTOP NIL [5 0 0]\nCHANGE Z -1",
         "warning",
     ),

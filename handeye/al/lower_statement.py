@@ -33,9 +33,9 @@ from handeye.units import INCH, OUNCE_FORCE
 
 PLACE_DEPTH: Final = 3.0 * INCH
 """Greatest distance that PLACE lowers the hand: the height of an approach."""
-PLACE_FORCE: Final = 20.0 * OUNCE_FORCE
-"""Force that PLACE stops on, N. The least with which the pump script stops a motion: over three times what joint
-friction can be felt as upright (4 oz; in a drawn world up to 6)."""
+PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
+"""Force that PLACE stops on, N. The first stop of the pin insertion of 1973, over three times what joint friction can
+be felt as upright: in drawn worlds up to 15 oz."""
 PLACES: Final = 49
 """Of a search: three steps to each side."""
 _PLACES: Final = {

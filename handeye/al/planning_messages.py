@@ -172,11 +172,12 @@ class _Phrases:
         vector, turning = found.exerted
         what, si, unit = ("moment", OUNCE_INCH, "oz-in") if turning else ("force", OUNCE_FORCE, "oz")
         there = "about its axis" if turning else "along it"
+        stop = f"a stop on a {what} of {math.hypot(*vector) / si:g} {unit}"
         felt, least = found.friction / si, math.ceil(found.margin * found.friction / si)
         return Diagnostic(
             code=found.code,
-            message=f"a {what} of {math.hypot(*vector) / si:g} {unit} is hard to tell from joint friction here",
-            primary=Label(span=self.modifier_span(found.step, "STOP" if found.guard else "FORCE")),
+            message=f"{stop} is hard to tell from joint friction here",
+            primary=Label(span=self.modifier_span(found.step, "STOP")),
             notes=(f"friction of the joints can be felt as {felt:.2g} {unit} {there}",),
             help=f"use at least {least} {unit}",
         )  # fmt: skip

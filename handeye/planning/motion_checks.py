@@ -119,14 +119,15 @@ class Checks:
                 )
                 return
 
-    def clear_of_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
-        """Check that the forces asked for at a configuration can be told from the friction that is expected there."""
-        felt = felt_friction(self.arm, q, np.array(self.arm.compliance.friction)) if demands else None
-        for demand in demands:
+    def told_from_friction(self, number: int, q: Array, demands: Sequence[Demand]) -> None:
+        """Check that what guards wait for from a configuration on can be told from the friction expected there."""
+        guarded = [demand for demand in demands if demand.guard]
+        felt = felt_friction(self.arm, q, np.array(self.arm.compliance.friction)) if guarded else None
+        for demand in guarded:
             most = None if felt is None else faint(felt, demand.exerted)
             if most is not None:
                 self.findings.add(
                     TooFaint(
-                        step=number, exerted=demand.exerted, guard=demand.guard, friction=most, margin=MARGIN
+                        step=number, exerted=demand.exerted, friction=most, margin=MARGIN
                     )
                 )  # fmt: skip

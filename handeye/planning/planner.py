@@ -152,7 +152,7 @@ class _Walk:
         if not operation.guards:
             self.checks.clear(number, step, q)
         self.checks.strong(number, q, to_stop(operation.guards))
-        self.checks.clear_of_friction(number, q[0], to_stop(operation.guards))
+        self.checks.told_from_friction(number, q[0], to_stop(operation.guards))
         self.q, self.known = np.array(knots[-1]), True
 
     def _sampled(
@@ -169,7 +169,7 @@ class _Walk:
             if not guarded:
                 self.checks.clear(number, step, q)
             self.checks.strong(number, q, demands)
-            self.checks.clear_of_friction(number, q[0], demands)
+            self.checks.told_from_friction(number, q[0], demands)
         seconds = len(samples.q) * self.arm.servo.period
         self.motions[number] = PlannedMotion(knots=(_joints(self.q), _joints(q[-1])), times=(seconds,))
         self.q = q[-1]

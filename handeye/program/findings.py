@@ -116,12 +116,10 @@ class TooWeak:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TooFaint:
-    """A force or moment that is hard to tell from the friction that the joints are expected to have."""
+    """A guard waits for a force or moment that is hard to tell from the friction expected of the joints."""
 
     step: int
     exerted: Exerted
-    guard: bool
-    """A guard waits for it."""
     friction: float
     """What friction can be felt as there, N or N m."""
     margin: float
