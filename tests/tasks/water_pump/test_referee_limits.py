@@ -4,6 +4,7 @@ A right finished pump is spoilt as little as a finding needs: parts are moved in
 quantity that it measures has a given value. The referee looks at once, so that nothing falls back into its place.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -19,6 +20,7 @@ from handeye.cell.truth import Truth
 from handeye.judge.finding import Findings
 from handeye.judge.measured import Measured
 from handeye.pose import Array, Pose, inverse, planar, pose, rotation_x, translated
+from handeye.resources import plans
 from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top
@@ -280,6 +282,12 @@ def test_the_rotor_is_right_if_it_turns_before_its_limit(pump: Truth, friction: 
     pump.model.dof_frictionloss[pump.model.joint("rotor").dofadr[0]] = friction
     rotor = judge(pump)["rotor"]
     assert (rotor.ok, rotor.limit) == (right, 0.35)
+
+
+def test_the_rotor_is_swung_as_far_as_the_program_turns_it() -> None:
+    script = (plans() / "water_pump.al").read_text(encoding="utf-8")
+    turns = [abs(float(angle)) for angle in re.findall(r"\bTURN\s+ROTOR\s+(-?[\d.]+)", script)]
+    assert max(turns) == limits.ROTOR_SWING
 
 
 @pytest.mark.usefixtures("at_once")

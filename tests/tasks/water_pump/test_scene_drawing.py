@@ -7,11 +7,11 @@ from scene_bench import Bench
 
 from handeye.errors import InvalidInput
 from handeye.pose import planar
-from handeye.tasks.water_pump import scene
 from handeye.tasks.water_pump.dimensions import dimensions, parse
 from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import solids
+from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.scene.shapes import Bore
 from handeye.tasks.water_pump.stations import Station
 from handeye.units import INCH
@@ -146,4 +146,4 @@ def test_names_that_the_cell_needs_are_there(bench):
         assert model.equality(name) is not None
     for camera in ("tv", "studio", "pump", "belt"):
         assert model.camera(camera) is not None
-    assert scene.ARM == "stanford/"
+    assert ARM == "stanford/"
