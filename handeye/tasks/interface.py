@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from handeye.arm.model import ArmModel, digest
 from handeye.diagnostics import quoted
@@ -17,6 +17,7 @@ from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
 from handeye.pose import Array
 from handeye.program.program import Fixture
+from handeye.tasks.trial import Trial
 from handeye.variation import Variation, WorldSpec
 from handeye.vision.camera_model import CameraModel
 
@@ -46,21 +47,6 @@ class Period:
     """The program that these are the times of."""
     times: Mapping[str, float]
     """By the names `planning`, `manipulation`, `lens` and `vision`."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Count:
-    """Counts of one trial in many worlds."""
-
-    lines: tuple[str, ...]
-    """For people."""
-    wrong: int
-    """How often something wrong was taken for right."""
-
-
-Trial = Callable[[int, WorldSpec, str, str], Count]
-"""Tries one thing in some number of worlds, beginning with one; pictures made so (`auto`, `gl`, `ray`), by a camera of
-which the program knows so much (`true`, `drawn`, `calibrated`)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,7 +86,7 @@ class Task(ABC):
     photographs: tuple[str, ...] = ()
     """Cameras of the scene whose view of the end is kept for people."""
     period: Period | None = None
-    trials: Mapping[str, Trial] = MappingProxyType({})
+    trials: Mapping[str, Trial[Any]] = MappingProxyType({})
     """Trials in many worlds without carrying out a program."""
 
     def fixtures(self) -> Mapping[str, Fixture]:

@@ -15,6 +15,7 @@ from handeye.report.result import Result
 from handeye.trials.assembly import run_plan
 from handeye.variation import WorldSpec
 
+Item = TypeVar("Item")
 T = TypeVar("T")
 
 
@@ -29,7 +30,7 @@ def _result(plan: Plan, camera: str, limits: Limits | None, world: WorldSpec) ->
     return run_plan(plan, world=world, camera=camera, limits=limits).result
 
 
-def in_processes(trial: Callable[[WorldSpec], T], worlds: Sequence[WorldSpec], jobs: int) -> Iterator[T]:
+def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) -> Iterator[T]:
     """What a trial comes to in many worlds, in the order they come; each in a process of its own making, so that none
     can sway another.
 
@@ -79,16 +80,16 @@ def _deaf_to_interrupts() -> Iterator[None]:
         raise KeyboardInterrupt
 
 
-_trial: Callable[[WorldSpec], Any]
+_trial: Callable[[Any], Any]
 """What a process carries out in a world. It comes with the process and not with each world: a plan is too much for the
 pipe of a pool, whose writer would wait for ever for processes that were ended."""
 
 
-def _begin(trial: Callable[[WorldSpec], Any]) -> None:
+def _begin(trial: Callable[[Any], Any]) -> None:
     """Begin a process."""
     global _trial
     _trial = trial
 
 
-def _one(world: WorldSpec) -> Any:
+def _one(world: Any) -> Any:
     return _trial(world)

@@ -229,8 +229,8 @@ def _camera(world: World) -> CameraErrors:
         focal_scale=(1 + world["camera.focal_length.25mm"], 1 + world["camera.focal_length.50mm"]),
         pot_noise=world["camera.pot_noise"],
         lens_place=(
-            three("lens_place.25mm", "forward", "side", "up"),
-            three("lens_place.50mm", "forward", "side", "up"),
+            three("lens.25mm", "ahead", "side", "up"),
+            three("lens.50mm", "ahead", "side", "up"),
         ),
         raster=Raster(
             pincushion=world["camera.raster.pincushion"],

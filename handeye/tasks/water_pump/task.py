@@ -9,8 +9,10 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture
-from handeye.tasks.interface import Count, ExportedScene, Eye, Period, Task, Words
+from handeye.tasks.interface import ExportedScene, Eye, Period, Task, Words
+from handeye.tasks.water_pump.base_trial import BaseTrial
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
+from handeye.tasks.water_pump.gasket_trial import GasketTrial
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.stations import planned_fixtures
@@ -45,7 +47,7 @@ class WaterPump(Task):
     period = PERIOD
 
     def __init__(self) -> None:
-        self.trials = {"base": _base_trial, "gasket": _gasket_trial}
+        self.trials = {"base": BaseTrial(), "gasket": GasketTrial()}
 
     def fixtures(self) -> Mapping[str, Fixture]:
         return planned_fixtures()
@@ -77,18 +79,6 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.referee import judge
 
         return judge(truth)
-
-
-def _base_trial(count: int, first: WorldSpec, renderer: str, known: str) -> Count:
-    from handeye.tasks.water_pump.vision_trials import base_trial
-
-    return base_trial(count, first, renderer=renderer, camera=known)
-
-
-def _gasket_trial(count: int, first: WorldSpec, renderer: str, known: str) -> Count:
-    from handeye.tasks.water_pump.vision_trials import gasket_trial
-
-    return gasket_trial(count, first, renderer=renderer)
 
 
 WATER_PUMP: Final = WaterPump()

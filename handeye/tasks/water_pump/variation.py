@@ -256,7 +256,7 @@ def _camera() -> Iterator[Quantity]:
     )  # fmt: skip
     for lens in ("25mm", "50mm"):
         yield from _group(
-            f"camera.lens_place.{lens}", {way: Normal(0.1) for way in ("forward", "side", "up")}, "in",
+            f"camera.lens.{lens}", {way: Normal(0.1) for way in ("ahead", "side", "up")}, "in",
             "Where the middle of the lens is, against the drawing. Placeholder: the turret's own offset is one.",
         )  # fmt: skip
     yield from _group(

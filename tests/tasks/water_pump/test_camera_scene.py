@@ -6,15 +6,10 @@ import numpy as np
 import pytest
 
 from handeye.program.cause_text import cause_sentence
+from handeye.tasks.water_pump.base_trial import BaseTrial
+from handeye.tasks.water_pump.gasket_trial import ABSENT, RIGHT, SHIFTED, GasketTrial
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.vision_trials import (
-    StillPump,
-    base_trials,
-    gasket_trials,
-    locate,
-    look,
-    pump_base,
-)
+from handeye.tasks.water_pump.still_pump import StillPump, locate, look, pump_base
 from handeye.units import INCH
 from handeye.variation import WorldSpec
 from handeye.vision.base import Failure, SpecificLocation, locate_specific
@@ -24,8 +19,10 @@ from handeye.vision.marks import marks
 pytestmark = [pytest.mark.render, pytest.mark.slow]
 
 PART = pump_base()
-BASES, GASKETS = 4, 1
-"""Drawn worlds in which they are looked at."""
+CALIBRATED, GASKETS = 2, 4
+"""Drawn worlds in which the arm calibrates the camera, and in which gaskets are looked at."""
+POSES = 3
+"""At which the base is looked at in each."""
 
 
 def found(seed: int, renderer: str) -> SpecificLocation | Failure:
@@ -46,23 +43,34 @@ def test_the_base_is_found_to_a_fiftieth_of_an_inch_in_a_world_without_errors():
     assert location.pose[:2] == pytest.approx((base.x, base.y), abs=0.02 * INCH)
 
 
-@pytest.mark.row(46, drawn=BASES)
-def test_every_base_of_a_few_random_worlds_is_found_and_none_is_mistaken():
-    counts = base_trials(BASES, WorldSpec(seed=40), camera="calibrated")
-    assert (counts.found, counts.wrong) == (BASES, 0)
-    assert counts.within >= BASES - 1
+@pytest.mark.row(46, drawn=CALIBRATED)
+def test_every_base_is_found_and_none_mistaken_by_a_camera_that_the_arms_own_lamp_has_calibrated():
+    trial = BaseTrial()
+    tries = [
+        attempt
+        for seed in range(40, 40 + CALIBRATED)
+        for attempt in trial.attempts(WorldSpec(seed=seed), POSES, camera="auto", known="lamp")
+    ]
+    counted = trial.count(tries).figures
+    assert (counted["found"], counted["wrong"]) == (len(tries), 0)
+    assert counted["within"] >= len(tries) - 1
+
+
+def test_fresh_poses_of_the_base_lie_on_the_belt_and_the_first_is_that_of_the_world():
+    tries = list(BaseTrial().attempts(WorldSpec(seed=5), 3, camera="auto", known="true"))
+    assert [(a.seed, a.number, a.wrong) for a in tries] == [(5, 0, False), (5, 1, False), (5, 2, False)]
+    assert all(attempt.within for attempt in tries)
 
 
 @pytest.mark.row(51, drawn=GASKETS)
 @pytest.mark.row(52, drawn=GASKETS)
 @pytest.mark.row(53, drawn=GASKETS)
-def test_a_gasket_is_accepted_only_where_it_belongs():
-    assert gasket_trials(GASKETS, WorldSpec(seed=42)).accepted == {
-        "right": 1,
-        "shifted .15": 0,
-        "shifted .3": 0,
-        "absent": 0,
-    }
+@pytest.mark.parametrize("seed", range(42, 42 + GASKETS))
+def test_a_gasket_is_accepted_only_where_it_belongs(seed: int):
+    (tried,) = GasketTrial().attempts(WorldSpec(seed=seed), 1, camera="auto", known="sightings")
+    assert {case: tried.accepted[case] for case in (RIGHT, SHIFTED, ABSENT)} == {
+        RIGHT: True, SHIFTED: False, ABSENT: False,
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])

@@ -1,0 +1,121 @@
+"""Trial of the eye: the pump base on the belt."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.pose import Array
+from handeye.program.cause_text import cause_sentence
+from handeye.record import Vector3
+from handeye.tasks.trial import Attempt, Count, Known, Trial
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
+from handeye.units import DEGREE, INCH
+from handeye.variation import WorldSpec
+
+if TYPE_CHECKING:
+    from handeye.program.program import Part
+    from handeye.tasks.water_pump.still_pump import StillPump
+    from handeye.vision.base import SpecificLocation
+
+WITHIN: Final = (INCH / 3, INCH / 4)
+"""Accuracy of the eye by the paper, in X and in Y."""
+WRONG: Final = 5.0
+"""A hole found more than this many picture points off is another thing, whatever the camera's error."""
+
+
+class BaseAttempt(Attempt, frozen=True, kw_only=True):
+    """The base looked for once."""
+
+    error: Vector3 | None
+    """Of x, y (m) and yaw (rad) as found; None: not found."""
+    wrong: bool = False
+    """Something else was taken for it."""
+    failure: str | None = None
+    """Why it was not found, or the camera could not be calibrated."""
+
+    @property
+    def within(self) -> bool:
+        """It was found as exactly as the paper says."""
+        return self.error is not None and all(abs(e) <= w for e, w in zip(self.error, WITHIN, strict=False))
+
+
+class BaseTrial(Trial[BaseAttempt]):
+    """Find the base: first where a world has it, then at fresh poses on the belt."""
+
+    def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[BaseAttempt]:
+        from handeye.execution.camera_calibration import CalibrationFailed
+        from handeye.tasks.water_pump.calibrations import known_camera
+        from handeye.tasks.water_pump.still_pump import StillPump, locate, pump_base, put_base
+        from handeye.vision.base import Failure
+
+        still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base()
+        poses = list(_poses(still.world, number))
+        try:
+            model = known_camera(still, known, camera, part.at[:3])
+        except CalibrationFailed as error:
+            failure = str(error)
+            yield from (
+                BaseAttempt(seed=world.seed, number=k, error=None, failure=failure) for k in range(number)
+            )
+            return
+        for k, (x, y, yaw) in enumerate(poses):
+            put_base(still, (x, y, part.at[2], yaw), pins=False)
+            found, _ = locate(still.camera, model, part)
+            if isinstance(found, Failure):
+                yield BaseAttempt(seed=world.seed, number=k, error=None, failure=cause_sentence(found.cause))
+                continue
+            wrong = _is_wrong(found, still, part, (x, y, yaw))
+            yield BaseAttempt(seed=world.seed, number=k, error=_error(found.pose, (x, y, yaw)), wrong=wrong)
+
+    def sentence(self, attempt: BaseAttempt) -> str:
+        if attempt.error is None:
+            return attempt.failure or "not found"
+        x, y, turn = attempt.error
+        off = f"{x / INCH:+.3f} in, {y / INCH:+.3f} in, {turn / DEGREE:+.2f} deg"
+        return f"something else was taken for it, {off}" if attempt.wrong else f"found, {off}"
+
+    def count(self, attempts: Sequence[BaseAttempt]) -> Count:
+        errors = np.array([a.error for a in attempts if a.error is not None]).reshape(-1, 3)
+        tried, found, wrong = len(attempts), len(errors), sum(a.wrong for a in attempts)
+        within = sum(a.within for a in attempts)
+        x, y, turn = rms = [_rms(column) for column in errors.T]
+        return Count(
+            figures={"tried": tried, "found": found, "wrong": wrong, "within": within, "rms": rms},
+            lines=(
+                f"found {found} of {tried}, {wrong} of them wrong",
+                f"{within} within {WITHIN[0] / INCH:.2f} x {WITHIN[1] / INCH:.2f} in",
+                f"rms error {x / INCH:.3f} in, {y / INCH:.3f} in, {turn / DEGREE:.2f} deg",
+            ),
+            wrong=wrong,
+        )
+
+
+def _poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
+    """Where the base lies: x, y (m) and yaw (rad)."""
+    yield world.base.x, world.base.y, world.base.yaw
+    rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
+    for _ in range(number - 1):
+        x, y, yaw = rng.uniform(*ranges.T) * (INCH, INCH, DEGREE)
+        yield float(x), float(y), float(yaw)
+
+
+def _is_wrong(found: SpecificLocation, still: StillPump, part: Part, pose: Vector3) -> bool:
+    from handeye.vision.holes import hole_places
+
+    true = still.camera.shown(hole_places(part, pose))
+    seen = [(hole.u, hole.v) for hole in found.holes]
+    return bool(np.hypot(*(true - seen).T).max() > WRONG)
+
+
+def _error(pose: Vector3, truth: Vector3) -> Vector3:
+    dx, dy, turn = (a - b for a, b in zip(pose, truth, strict=True))
+    return dx, dy, math.remainder(turn, 2 * math.pi)
+
+
+def _rms(values: Array) -> float:
+    return math.sqrt(float(np.mean(values**2))) if len(values) else 0.0

@@ -1,0 +1,140 @@
+"""Trial of the eye: is the gasket on properly?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.pose import Pose, planar, translated, yaw
+from handeye.tasks.trial import Attempt, Count, Known, Trial
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, standard
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.units import DEGREE, INCH
+from handeye.variation import WorldSpec
+
+if TYPE_CHECKING:
+    from handeye.program.program import Part
+    from handeye.tasks.water_pump.still_pump import Place, StillPump
+    from handeye.vision.camera_model import View
+
+RIGHT: Final = "right"
+SHIFTED: Final = "shifted .3"
+ABSENT: Final = "absent"
+DOUBLED: Final = "doubled"
+REJECTED: Final = (SHIFTED, ABSENT)
+"""Cases that the eye has to reject. Two gaskets on each other look like one: the hand finds them, by their height."""
+SHIFT: Final = 0.3 * INCH
+BASE_OFF: Final = 0.03
+GASKET_OFF: Final = 0.02
+"""in, to either side, and .3 deg: how far off the blocks and the pins leave what is where it belongs."""
+
+
+class GasketAttempt(Attempt, frozen=True, kw_only=True):
+    """A gasket of every case inspected once."""
+
+    accepted: dict[str, bool]
+    """By the case; none if the camera could not be calibrated."""
+    failure: str | None = None
+
+
+class GasketTrial(Trial[GasketAttempt]):
+    """Inspect the gasket where it belongs, shifted, not there, and doubled."""
+
+    def attempts(
+        self, world: WorldSpec, number: int, *, camera: str, known: Known
+    ) -> Iterator[GasketAttempt]:
+        from handeye.execution.camera_calibration import CalibrationFailed
+        from handeye.ports.camera import CLOSE_UP
+        from handeye.tasks.water_pump.calibrations import known_camera
+        from handeye.tasks.water_pump.still_pump import StillPump, look, pump_base, put_base
+
+        still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base(_standard())
+        try:
+            model = known_camera(still, known, camera, part.at[:3])
+        except CalibrationFailed as error:
+            for k in range(number):
+                yield GasketAttempt(seed=world.seed, number=k, accepted={}, failure=str(error))
+            return
+        x, y, z, _ = part.at
+        rng = still.world.generator("trial.gasket")
+        for k in range(number):
+            base = _jittered(part.at, rng, BASE_OFF)
+            put_base(still, base, pins=True)
+            view = look(still.camera, model, CLOSE_UP, (x, y, z + part.face))
+            yield GasketAttempt(seed=world.seed, number=k, accepted=_inspected(still, base, part, view, rng))
+
+    def sentence(self, attempt: GasketAttempt) -> str:
+        accepted = [case for case, ok in attempt.accepted.items() if ok]
+        return attempt.failure or f"accepted: {', '.join(accepted) or 'none'}"
+
+    def count(self, attempts: Sequence[GasketAttempt]) -> Count:
+        tried = len(attempts)
+        accepted = {case: sum(a.accepted.get(case, False) for a in attempts) for case in _CASES}
+        return Count(
+            figures={"tried": tried, "accepted": accepted},
+            lines=tuple(f"{case:12} accepted {count} of {tried}" for case, count in accepted.items()),
+            wrong=sum(accepted[case] for case in REJECTED),
+        )
+
+
+def _inspected(
+    still: StillPump, base: Place, part: Part, view: View, rng: np.random.Generator
+) -> dict[str, bool]:
+    """Whether the gasket of each case is accepted, all compared with one picture before."""
+    from handeye.vision.gasket import inspect
+
+    before, _ = still.camera.digitise()
+    stand = still.pose("gasket")
+    X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
+    accepted = {}
+    for case, put in _CASES.items():
+        X_WG = put(X_WP, rng)
+        still.put("gasket", stand if X_WG is None else X_WG)
+        after, _ = still.camera.digitise(hold_target=True)
+        accepted[case] = inspect(before, after, view, part, (part.at[0], part.at[1], part.at[3])).ok
+    still.put("gasket", stand)
+    return accepted
+
+
+def _right(X_WP: Pose, rng: np.random.Generator) -> Pose:
+    x, y, z = (float(value) for value in X_WP[:3, 3])
+    return planar(*_jittered((x, y, z, yaw(X_WP)), rng, GASKET_OFF))
+
+
+def _shifted(X_WP: Pose, rng: np.random.Generator) -> Pose:
+    way = rng.uniform(0, 2 * math.pi)
+    return translated(X_WP, (SHIFT * math.cos(way), SHIFT * math.sin(way), 0.0))
+
+
+def _absent(X_WP: Pose, rng: np.random.Generator) -> None:
+    return None
+
+
+def _doubled(X_WP: Pose, rng: np.random.Generator) -> Pose:
+    """The upper one: the lower is hidden beneath it."""
+    return translated(_right(X_WP, rng), (0.0, 0.0, dimensions()("gasket.thickness")))
+
+
+_CASES: Final[dict[str, Callable[[Pose, np.random.Generator], Pose | None]]] = {
+    RIGHT: _right,
+    SHIFTED: _shifted,
+    ABSENT: _absent,
+    DOUBLED: _doubled,
+}
+"""Where the gasket is put on a base whose face is at a pose; None: it stays on its stand."""
+
+
+def _standard() -> Place:
+    X_WP = standard()
+    return float(X_WP[0, 3]), float(X_WP[1, 3]), float(X_WP[2, 3]), yaw(X_WP)
+
+
+def _jittered(place: Place, rng: np.random.Generator, amount: float) -> Place:
+    """Off by at most `amount` inches in x and y, and .3 degrees."""
+    x, y, z, turn = place
+    dx, dy = rng.uniform(-amount, amount, 2) * INCH
+    return x + float(dx), y + float(dy), z, turn + float(rng.uniform(-0.3, 0.3)) * DEGREE

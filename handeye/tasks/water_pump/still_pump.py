@@ -1,0 +1,93 @@
+"""The cell of the pump before it has moved, with parts put where one wants them, and the eye in it."""
+
+import math
+
+import numpy as np
+
+from handeye.cell.still_cell import StillCell
+from handeye.ports.camera import CLOSE_UP, WIDE, Picture, TvCamera
+from handeye.pose import planar
+from handeye.program.program import Hole, Part
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes
+from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.park import PARK
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.scene.arm import ARM
+from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
+from handeye.units import DEGREE, INCH
+from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
+from handeye.vision.camera_model import CameraModel, View
+
+Place = tuple[float, float, float, float]
+"""x, y, z (m) and yaw (rad) in W."""
+
+
+class StillPump(StillCell):
+    """The cell of a world before it has moved, its arm parked."""
+
+    def __init__(self, world: PumpWorld, *, renderer: str = "auto") -> None:
+        self.world = world
+        posture = {f"{ARM}j{number}": float(q) for number, q in enumerate(PARK, 1)}
+        super().__init__(
+            build(world), posture=posture, drawing=DRAWING, errors=world.camera,
+            noise=world.generator("camera"), renderer=renderer,
+        )  # fmt: skip
+
+
+def pump_base(at: Place | None = None) -> Part:
+    """The pump base as a program describes it, by the dimensions of the scene; on the belt by default."""
+    d = dimensions()
+    first = Hole(x=0.0, y=0.0, diameter=d("base.large_hole_1.diameter"))
+    second = Hole(x=d("base.large_hole_2.x"), y=0.0, diameter=d("base.large_hole_2.diameter"))
+    middle, length, width = d("base.plate.centre_x"), d("base.plate.length"), d("base.plate.width")
+    (x0, x1), (y0, y1) = BELT_X, BELT_Y
+    belt = ((x0 + x1) / 2 * INCH, (y0 + y1) / 2 * INCH, d("belt.height"), sum(BELT_LINE) / 2 * DEGREE)
+    return Part(
+        at=at or belt,
+        face=base_top(),
+        holes=(first, second),
+        screw_holes=tuple(
+            Hole(x=x, y=y, diameter=2 * d("base.screw_holes.radius")) for x, y in screw_holes()
+        ),
+        region=((x1 - x0) / 2 * INCH, (y1 - y0) / 2 * INCH),
+        outline=(middle - length / 2, -width / 2, middle + length / 2, width / 2),
+    )
+
+
+def put_base(still: StillPump, place: Place, *, pins: bool) -> None:
+    """Put the base somewhere, with the aligning pins in it or where they are."""
+    X_WP = planar(*place)
+    still.put("base", X_WP)
+    d = dimensions()
+    seat = base_top() + pin_seat(d("base.screw_holes.chamfer"), d("base.screw_holes.radius"))
+    for number, hole in enumerate(d.all("base.screw_holes.pinned") if pins else ()):
+        x, y = screw_holes()[int(hole)]
+        still.put(f"pin{number}", X_WP @ planar(x, y, seat, 0.0))
+
+
+def look(camera: TvCamera, known: CameraModel, lens: float, point: tuple[float, float, float]) -> View:
+    """Turn the lens, aim and focus as the executor does; what the program then believes to see."""
+    camera.lens(lens)
+    camera.aim(*known.aim(point, lens))
+    camera.focus(math.dist(point, known.mount))
+    return known.view(lens, *camera.pots())
+
+
+def locate(
+    camera: TvCamera, known: CameraModel, part: Part
+) -> tuple[SpecificLocation | Failure, list[tuple[Picture, View, GeneralLocation | None]]]:
+    """Both stages, with the pictures they used."""
+    x, y, z, _ = part.at
+    view = look(camera, known, WIDE, (x, y, z))
+    picture, _ = camera.digitise()
+    general = locate_general(picture, view, part)
+    if isinstance(general, Failure):
+        return general, [(picture, view, None)]
+    pictures: list[tuple[Picture, View, GeneralLocation | None]] = [(picture, view, general)]
+    middle = np.mean(general.corners, axis=0)
+    view = look(camera, known, CLOSE_UP, (float(middle[0]), float(middle[1]), float(middle[2])))
+    picture, _ = camera.digitise()
+    pictures.append((picture, view, None))
+    return locate_specific(picture, view, part, general), pictures
