@@ -48,7 +48,7 @@ def over_large_hole() -> Bench:
 
 
 REPEATABILITY = 0.08
-"""In a drawn world the hand comes back to within this (in): joint friction holds it up to a millimetre off, each time."""
+"""In a drawn world the hand comes back to within this (in): joint friction holds it up to 1 mm off, each time."""
 
 DEEP = 0.963
 """How far (in) the hand goes down from T until a pin is seated."""
