@@ -223,7 +223,11 @@ def test_the_cell_knows_nothing_of_seeing_but_how_a_camera_is_built(module: str)
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] != "tasks"])
 def test_nobody_knows_a_task_but_by_its_name(module: str) -> None:
-    assert {o for o in own(module) if o.split(".")[0] == "tasks"} <= {"tasks.__init__", "tasks.interface", "tasks.trial"}
+    assert {o for o in own(module) if o.split(".")[0] == "tasks"} <= {
+        "tasks.__init__",
+        "tasks.interface",
+        "tasks.trial",
+    }
 
 
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"arm", "tasks"}])

@@ -36,6 +36,8 @@ _JAM: Final = 20.0
 """N m of friction: more than the arm can turn."""
 _THREAD: Final = "thread"
 _SCARRED: Final = "scarred"
+METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
+"""Stiffness of what ends a hole. Measured: a thread drives its screw straight through MuJoCo's own limit of a joint."""
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
 
 
@@ -258,6 +260,7 @@ def _block(hole: int) -> Change:
             (x, y, floor, x, y, mouth - depth),
             dimensions()("base.screw_holes.radius"),
         )
-        spec.joint(f"thread_slide{hole}").range[0] = -depth
+        slide = spec.joint(f"thread_slide{hole}")
+        slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL
 
     return change

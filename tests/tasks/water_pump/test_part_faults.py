@@ -5,10 +5,11 @@ from functools import cache
 import mujoco
 import numpy as np
 import pytest
+from thread_bench import SPEED, STOP, ThreadBench
 
 from handeye.faults import Fault
 from handeye.pose import Array
-from handeye.tasks.water_pump.part_faults import GONE, part_faults, scarred_threads
+from handeye.tasks.water_pump.part_faults import GONE, METAL, part_faults, scarred_threads
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.variation import SEVENTH
@@ -127,6 +128,17 @@ def test_a_blocked_hole_ends_below_its_mouth_for_whatever_comes_in() -> None:
     top = data.geom("plug2").xpos[2] + model.geom("plug2").size[1]
     assert data.site("base_hole2").xpos[2] - top == pytest.approx(0.002)
     assert model.joint("thread_slide2").range[0] == -0.002
+    assert model.jnt_solimp[model.joint("thread_slide2").id].tolist() == [*METAL[1]]
+
+
+def test_no_torque_of_the_driver_turns_a_screw_through_the_end_of_a_blocked_hole() -> None:
+    bench = ThreadBench()
+    slide = bench.model.joint("thread_slide0").id
+    bench.model.jnt_range[slide, 0] = -0.002
+    bench.model.jnt_solref[slide], bench.model.jnt_solimp[slide] = METAL
+    bench.drive_until(lambda: bench.driver.torque() > STOP, speed=SPEED, press=6.0, seconds=4.0)
+    assert bench.thread.screw == 0
+    assert bench.head_gap > 0.006
 
 
 def test_a_jammed_rotor_and_a_smooth_bit_rub_otherwise() -> None:
