@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from handeye.faults import Fault, FaultKind, Size
-from handeye.pose import planar
+from handeye.pose import rotation_z
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point, base_top, web_centre
 from handeye.tasks.water_pump.variation import screws
@@ -193,13 +193,15 @@ def _reverse(spec: mujoco.MjSpec, part: str, middle: Point) -> None:
 
 
 def _turn(spec: mujoco.MjSpec, part: str, middle: Point, yaw: float) -> None:
-    """Turn a part that lies flat to a direction (rad) about a point of its own, m."""
+    """Turn a part about the vertical to a direction (rad) on a point of its own, m; it leans as it leant."""
     body = spec.body(part)
-    x, y, z = body.pos
-    centre = planar(x, y, z, _yaw(spec, part)) @ [*middle, 0.0, 1.0]
-    away = planar(0.0, 0.0, 0.0, yaw) @ [*middle, 0.0, 1.0]
-    body.pos[:2] = (centre - away)[:2]
-    body.quat[:] = (math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2))
+    angle = yaw - _yaw(spec, part)
+    w, *vector = body.quat
+    arm = np.array([*middle, 0.0])
+    away = arm + 2 * np.cross(vector, np.cross(vector, arm) + w * arm)  # from the origin to that point, in W
+    body.pos[:] += away - rotation_z(angle) @ away
+    c, s, (x, y, z) = math.cos(angle / 2), math.sin(angle / 2), vector
+    body.quat[:] = (c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w)
 
 
 def _yaw(spec: mujoco.MjSpec, part: str) -> float:
