@@ -45,6 +45,8 @@ class Expected:
 
     errors: tuple[int, ...] = ()
     """Errors that call it by its right name: whichever it meets first."""
+    calls: tuple[str, ...] = ()
+    """Words with which the program calls the operator for what no error tells: likewise."""
     at_setup: bool = False
     """The camera cannot be calibrated, before the first stage."""
     harmless: str = ""

@@ -95,9 +95,14 @@ def verdict(expected: Expected, result: Result) -> Verdict:
         return "silent"
     if result.exit_code == 0:
         return "harmless" if expected.harmless else "unnoticed"
-    at_setup = result.stopped_at is None and result.error is None
-    named = expected.at_setup if at_setup else result.error in expected.errors
-    return "noticed" if named else "stopped"
+    return "noticed" if _named(expected, result) else "stopped"
+
+
+def _named(expected: Expected, result: Result) -> bool:
+    """See whether a run stopped by something that calls the fault by its right name."""
+    if result.error is not None:
+        return result.error in expected.errors
+    return expected.at_setup if result.stopped_at is None else result.message in expected.calls
 
 
 def counted_verdicts(trials: Sequence[FaultTrial]) -> str:

@@ -11,6 +11,7 @@ from handeye.report.result import Result
 from handeye.trials.faults import chosen, counted_verdicts, trial_of, verdict
 
 STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
+CALLED = msgspec.structs.replace(STOPPED, error=None, message="THE ROTOR IS HARD TO TURN")
 SET_UP = msgspec.structs.replace(STOPPED, error=None, stopped_at=None)
 RIGHT, WRONG = (result(completed=True, assembled=assembled) for assembled in (True, False))
 
@@ -28,6 +29,8 @@ CATALOGUE = Catalogue(
         (Expected(errors=(23,)), STOPPED, "stopped"),
         (Expected(at_setup=True), SET_UP, "noticed"),
         (Expected(errors=(32,)), SET_UP, "stopped"),
+        (Expected(calls=("THE ROTOR IS HARD TO TURN",)), CALLED, "noticed"),
+        (Expected(at_setup=True, errors=(32,)), CALLED, "stopped"),
         (Expected(errors=(32,)), RIGHT, "unnoticed"),
         (Expected(harmless="It is."), RIGHT, "harmless"),
         (Expected(harmless="It is."), STOPPED, "stopped"),

@@ -54,7 +54,7 @@ EXPECTED: Final[dict[str, Expected]] = {
     "pin.2.missing": Expected(errors=(NOTHING_HELD,)),
     "pin.1.thick": Expected(errors=(SEARCH_EXHAUSTED,)),
     "pin.2.thick": Expected(errors=(SEARCH_EXHAUSTED,)),
-    "rotor": Expected(errors=(NO_FORCE, SERVO_LAG)),
+    "rotor": Expected(calls=("THE ROTOR IS HARD TO TURN",)),
     "thread": Expected(
         harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
     ),

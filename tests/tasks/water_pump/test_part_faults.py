@@ -35,8 +35,9 @@ TOGETHER = (
 
 @cache
 def scene(*faults: Fault) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    """A scene as it is drawn, with wrong parts."""
-    model = build(PumpWorld.draw(WorldSpec(seed=3, faults=faults)))
+    """A scene as it is in the plan, with wrong parts."""
+    level = PumpWorld.nominal().drawn.spec.overrides
+    model = build(PumpWorld.draw(WorldSpec(seed=3, overrides=level, faults=faults)))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     return model, data
