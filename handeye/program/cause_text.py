@@ -105,7 +105,7 @@ def _not_found(cause: c.SightCause) -> str:
         case c.NoHoles(blobs=0):
             return "no hole is found: is the picture in focus, and is the part in it?"
         case c.NoHoles(blobs=1):
-            return "only one hole is found; the part cannot be located by one"
+            return "only one hole is found, and the part cannot be located by one: is the picture in focus?"
         case c.NoHoles():
             found = f"{cause.blobs} dark blobs are found"
             return f"{found}, but no two are the part's largest holes: is the picture in focus?"

@@ -83,7 +83,10 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.NoOutline(), "nothing of the part's size stands out from the background where it should be"),
     (c.OutsidePicture(), "the part is not in the field of the close picture: is the camera aimed at it?"),
     (c.NoHoles(blobs=0), "no hole is found: is the picture in focus, and is the part in it?"),
-    (c.NoHoles(blobs=1), "only one hole is found; the part cannot be located by one"),
+    (
+        c.NoHoles(blobs=1),
+        "only one hole is found, and the part cannot be located by one: is the picture in focus?",
+    ),
     (
         c.NoHoles(blobs=3),
         "3 dark blobs are found, but no two are the part's largest holes: is the picture in focus?",
