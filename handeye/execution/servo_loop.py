@@ -14,6 +14,7 @@ import numpy as np
 
 from handeye import errors
 from handeye.arm.computed_torque import felt_wrench, prepare, torque
+from handeye.arm.converters import followed, sliding
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.joint_agreement import JointAgreement
@@ -37,6 +38,8 @@ from handeye.program.causes import (
 from handeye.touch.guards import ActiveGuard, Monitor, Reading, Trip
 from handeye.touch.senses import IN_AIR, off_zero
 
+DITHER = 2.0
+"""Torque that shakes a joint, over its friction. Chosen: as much again is left to move it."""
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
 
@@ -105,7 +108,7 @@ class ServoLoop:
         """Set the brakes; the set-point becomes where the arm then is."""
         for _ in range(self._periods(seconds)):
             yield from self._wait(None)
-        self.state.q, self.state.met = self.sensed.q.copy(), None
+        self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
         """Let go of the arm: gravity and the load are borne, and whoever pushes the hand moves it.
@@ -113,10 +116,10 @@ class ServoLoop:
         The set-point becomes where the arm then is.
         """
         for _ in range(self._periods(seconds)):
-            q, qd = self.sensed.q, self.sensed.qd
+            q, qd = self.state.here, self.sensed.qd
             borne = gravity(self.arm, q) + jacobian(self.arm, q)[2] * self.state.load
             yield from self._wait(borne - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
-        self.state.q, self.state.met = self.sensed.q.copy(), None
+        self.state.q, self.state.met = self.state.here.copy(), None
 
     def following(
         self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
@@ -140,7 +143,8 @@ class ServoLoop:
             here, along = Dynamics(M=motion.M[i], bias=motion.bias[i], J=J[i]), _row(direction, i)
             q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
             guards = _active(guard, along)
-            yield from self._servo(here, q, qd, qdd, estimate=guard is not None, guards=guards)
+            sense = sliding(self.arm, qd)
+            yield from self._servo(here, q, qd, qdd, estimate=guard is not None, sense=sense, guards=guards)
             if self.state.cut:
                 return CUT
             self.state.q = samples.q[i]
@@ -148,7 +152,7 @@ class ServoLoop:
             if failed is not None:
                 return failed
             if len(motion) <= 3 * i < 2 * len(motion):
-                off += 3 * (self.sensed.q - self.state.q) / len(motion)
+                off += 3 * (self.state.here - self.state.q) / len(motion)
             trip = guard.check(self._reading(along)) if guard is not None else None
             if trip is not None:
                 self._freeze(along)
@@ -179,6 +183,7 @@ class ServoLoop:
         if zeroed.error is not None:
             return zeroed
         X_start, sensors = forward(self.arm, self.state.q), self._sensors()
+        sense = self._sense(X_start, course)
         gone, given, turn = 0.0, np.zeros(3), np.zeros(3)
         for tick in range(course.patience(round(PRESS_TIME / self.period), self.period)):
             if gone >= course.distance:
@@ -190,7 +195,7 @@ class ServoLoop:
             if step.q is None:
                 return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
             guards = _active(guard, course.direction)
-            yield from self._approach(self.dynamics(), step.q, estimate=True, guards=guards)
+            yield from self._approach(self.dynamics(), step.q, estimate=True, sense=sense, guards=guards)
             if self.state.cut:
                 return CUT
             doubted = self._doubted(sensors)
@@ -204,13 +209,20 @@ class ServoLoop:
             return REACHED
         return Outcome(error=errors.SERVO_LAG, cause=HandStuck(moved=round(gone, 6)))
 
+    def _sense(self, X_WT: Pose, course: Course) -> Array:
+        """Which way the joints slide on a course that begins at a pose, shape (n,); see `sliding`."""
+        ahead = solve(self.arm, translated(X_WT, course.speed * self.period * course.direction), self.state.q)
+        goal = self.state.q if ahead.q is None else ahead.q
+        return sliding(self.arm, (goal - self.state.q) / self.period)
+
     def shifting(self, here: Dynamics, X_WT: Pose) -> Motion[Outcome]:
         """One period towards a pose close by."""
         self.state.met = None
         step = solve(self.arm, X_WT, self.state.q)
         if step.q is None:
             return Outcome(error=errors.JOINT_LIMIT, cause=step.cause(self.arm))
-        yield from self._approach(here, step.q, estimate=False)
+        sense = sliding(self.arm, (step.q - self.state.q) / self.period)
+        yield from self._approach(here, step.q, estimate=False, sense=sense)
         return CUT if self.state.cut else REACHED
 
     def holding(self, ticks: int) -> Motion[None]:
@@ -220,14 +232,21 @@ class ServoLoop:
             yield from self._approach(here, self.state.q, estimate=False)
 
     def zeroing(self) -> Motion[Outcome]:
-        """Hold still and take what is felt now as zero force; in free air that is next to none."""
-        here = self.dynamics()
+        """Hold still and take what is felt now as zero force; in free air that is next to none.
+
+        Where friction is known, dither keeps the joints sliding to and fro before: else they rest anywhere within their
+        friction, and the tare with it.
+        """
+        here, dither, settle = self.dynamics(), DITHER * self.state.friction, self.arm.servo.settle
         felt = []
         self.state.tare = np.zeros(6)
-        for _ in range(self.arm.servo.settle):
-            yield from self._approach(here, self.state.q, estimate=True, taring=True)
+        for tick in range(2 * settle if dither.any() else settle):
+            shaken = dither if tick % 2 else -dither
+            yield from self._approach(here, self.state.q, estimate=True, taring=True, dither=shaken)
             felt.append(self.state.wrench)
-        self.state.tare = np.mean(felt, axis=0)
+        if dither.any():
+            yield from self._approach(here, self.state.q, estimate=False)  # the joints come to rest
+        self.state.tare = np.mean(felt[-settle:], axis=0)
         self.state.wrench = np.zeros(6)
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
@@ -240,11 +259,16 @@ class ServoLoop:
         *,
         estimate: bool,
         taring: bool = False,
+        sense: Array | float = 0.0,
+        dither: Array | float = 0.0,
         guards: tuple[ActiveGuard, ...] = (),
     ) -> Motion[None]:
         """One servo period towards a set-point close by; see `_servo`."""
         qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
-        yield from self._servo(here, self.state.q, qd, rest, estimate=estimate, taring=taring, guards=guards)
+        yield from self._servo(
+            here, self.state.q, qd, rest,
+            estimate=estimate, taring=taring, sense=sense, dither=dither, guards=guards,
+        )  # fmt: skip
         self.state.q = q
 
     def _servo(
@@ -257,23 +281,29 @@ class ServoLoop:
         estimate: bool,
         guards: tuple[ActiveGuard, ...],
         taring: bool = False,
+        sense: Array | float = 0.0,
+        dither: Array | float = 0.0,
     ) -> Motion[None]:
         """One servo period in which the arm should begin at `q` with rates `qd`.
 
         Args:
             estimate: the force on the hand is estimated at its end.
+            sense: which way the joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
+            dither: torques beside those that the servo needs.
             guards: those that will look at what is then felt.
             taring: what is felt is no force yet, but what the tare is made of.
         """
-        before = self.sensed
+        q_was, qd_was = self.state.here, self.sensed.qd
         load = here.J[2] * self.state.load
-        tau = torque(self.arm, here.M, here.bias, q, qd, qdd, before.q, before.qd, exerted=load)
+        friction = self.state.friction * sense
+        bias = here.bias + friction
+        tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, qd_was, exerted=load + dither)
         effort = constants(self.arm).effort
         tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
 
         def feel(after: Sensed) -> None:
-            there = self._given_way(here, q, (before.q + after.q) / 2)
-            felt = felt_wrench(there.M, there.bias, there.J, tau, before.qd, after.qd, self.period)
+            there = self._given_way(here, q, (q_was + self.state.here) / 2)
+            felt = felt_wrench(there.M, there.bias + friction, there.J, tau, qd_was, after.qd, self.period)
             self.state.wrench = felt - self.state.tare
 
         yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
@@ -302,9 +332,12 @@ class ServoLoop:
         halted = self.halt()
         if halted:
             tau, self.state.tool = None, 0.0
+        before = self.sensed
         self._put_out(tau)
         yield
-        sensed = self.cell.sense()
+        sensed = self.sensed
+        moved = (before.qd + sensed.qd) / 2 * self.period
+        self.state.here = followed(self.arm, self.state.here, moved, sensed.q)
         self.state.cut = sensed.braked and tau is not None
         if self.state.tool:
             self.state.current = max(self.state.current, abs(sensed.tool_torque))
@@ -338,10 +371,10 @@ class ServoLoop:
     def _freeze(self, direction: Array) -> None:
         """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
         self.state.met = forward(self.arm, self.state.q)[:3, 3]
-        X_set, X_is = forward(self.arm, self.state.q), forward(self.arm, self.sensed.q)
+        X_set, X_is = forward(self.arm, self.state.q), forward(self.arm, self.state.here)
         along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
-        self.state.q = self.sensed.q.copy() if held.q is None else held.q
+        self.state.q = self.state.here.copy() if held.q is None else held.q
 
     # -- doubting -----------------------------------------------------------------------------------
 
@@ -364,7 +397,7 @@ class ServoLoop:
         found = sensors.step(self.sensed.q, self.sensed.qd)
         if found is None:
             return None
-        self.state.q = self.sensed.q.copy()
+        self.state.q = self.state.here.copy()
         joint = self.arm.joints[found.joint]
         cause = JointSensesApart(
             joint=JointName(name=joint.name, kind=joint.kind),
@@ -374,10 +407,10 @@ class ServoLoop:
 
     def _behind(self) -> Outcome | None:
         """See that every joint keeps up with its set-point, which else becomes where it is."""
-        lag = np.abs(self.sensed.q - self.state.q) > constants(self.arm).lag
+        lag = np.abs(self.state.here - self.state.q) > constants(self.arm).lag
         if not lag.any():
             return None
-        self.state.q = self.sensed.q.copy()
+        self.state.q = self.state.here.copy()
         joint = self.arm.joints[int(np.argmax(lag))].name
         return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
 
@@ -408,7 +441,7 @@ class ServoLoop:
 
     def hand(self) -> Pose:
         """`X_WT` by the arm's own sensors."""
-        return forward(self.arm, self.sensed.q)
+        return forward(self.arm, self.state.here)
 
     def dynamics(self) -> Dynamics:
         """Inertia, bias torques and Jacobian at rest at the present set-point."""

@@ -85,6 +85,10 @@ class DriveState(MutableRecord, kw_only=True):
 
     q: Array
     """Set-point the arm holds, shape (n,), rad and m."""
+    here: Array
+    """Where the arm is by potentiometers and tachometers together, shape (n,), rad and m."""
+    friction: Array
+    """Coulomb friction of each joint as far as it is known, shape (n,), N m and N; 0: unknown."""
     gap: float
     """Set-point of the finger gap, m."""
     grip: float
@@ -109,7 +113,8 @@ class DriveState(MutableRecord, kw_only=True):
     @classmethod
     def holding(cls, sensed: Sensed, arm: ArmModel) -> "DriveState":
         """Hold the arm and the fingers where they are, with all the grip its hand has."""
-        return cls(q=sensed.q.copy(), gap=sensed.gap, grip=arm.hand.grip)
+        q = sensed.q
+        return cls(q=q.copy(), here=q.copy(), friction=np.zeros(len(q)), gap=sensed.gap, grip=arm.hand.grip)
 
 
 class ExecutionState(SystemState, kw_only=True):
@@ -184,11 +189,15 @@ def _fits_sizes(state: ExecutionState, arm: ArmModel) -> bool:
     vectors += [vector for vector in (state.finger_line, state.drive.met) if vector is not None]
     return (
         all(vector.shape == (3,) for vector in vectors)
-        and all(values.shape == (len(arm.joints),) for values in (state.drive.q, *_measured(state)))
+        and all(values.shape == (len(arm.joints),) for values in (*_joints(state.drive), *_measured(state)))
         and all(values.shape == (6,) for values in (state.drive.tare, state.drive.wrench))
         and all(X.shape == (4, 4) for X in state.world.measured.values())
         and all(shot.picture.shape == (ROWS, COLUMNS) for shot in state.shots.values())
     )
+
+
+def _joints(drive: DriveState) -> tuple[Array, ...]:
+    return drive.q, drive.here, drive.friction
 
 
 def _measured(state: ExecutionState) -> list[Array]:

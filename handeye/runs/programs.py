@@ -120,6 +120,7 @@ class ProgramSystem(System):
         before = self.time
         try:
             self.state.friction = measure_friction(self._cell.devices, self.arm, self.state.drive, self._halt)
+            self.state.drive.friction = self.state.friction
         except (FrictionUnknown, SimulationError) as error:
             self.state.unable = str(error)
         return round(self.time - before, 6)
@@ -141,7 +142,9 @@ class ProgramSystem(System):
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, SimulationError) as error:
             self.state.unable = str(error)
+        friction = self.state.drive.friction
         put_back(self.state.drive, DriveState.holding(self._cell.devices.sense(), self.arm))
+        self.state.drive.friction = friction
         self._take_calibration()
 
     def _take_calibration(self) -> None:

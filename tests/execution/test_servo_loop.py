@@ -85,7 +85,7 @@ def test_a_joint_that_lags_too_far_behind_stops_the_motion() -> None:
     outcome = going(drive, 0.2)
     assert outcome.error == SERVO_LAG
     assert isinstance(outcome.cause, JointBehind)
-    np.testing.assert_array_equal(drive.state.q, drive.sensed.q)
+    np.testing.assert_array_equal(drive.state.q, drive.state.here)
 
 
 def test_a_hand_that_is_held_up_short_of_its_goal_is_an_error() -> None:

@@ -9,10 +9,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.model import constants
+from handeye.arm.converters import SENSE_BITS, TORQUE_BITS, position_step, rate_step, torque_step
 from handeye.arm.robots.stanford import STANFORD
 from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
-from handeye.pose import Array
 from handeye.tasks.water_pump.stations import stations
 from handeye.units import UNITS
 from handeye.variation import Quantity, Variation
@@ -26,10 +25,6 @@ BELT_X: Final = (41.5, 47.5)
 BELT_Y: Final = (23.0, 33.0)
 BELT_LINE: Final = (60.0, 120.0)
 """Where the base lies: its reference point (in) and the direction of its line of centres (deg)."""
-SENSE_BITS: Final = 12
-"""Of the converters that potentiometers and tachometers are read by: the arm's data sheet of 1974 (reference 2)."""
-TORQUE_BITS: Final = 8
-"""Of the converters that give the drives their torques: the same sheet has "8 bits or more"."""
 _TORQUES: Final = ("N m", "N m", "N", "N m", "N m", "N m")
 _RATES: Final = ("rad/s", "rad/s", "m/s", "rad/s", "rad/s", "rad/s")
 RUBBING: Final = ("pad", "table", "part", "thread")
@@ -135,13 +130,13 @@ def _arm() -> Iterator[Quantity]:
 
 
 def _sensors() -> Iterator[Quantity]:
-    k, size = constants(STANFORD), [UNITS[unit].size for unit in JOINT_UNITS]
+    size = [UNITS[unit].size for unit in JOINT_UNITS]
     yield from _group(
         "arm.pot_noise", _numbered(Noise, 0.004, 0.004, 0.002, 0.01, 0.01, 0.01), JOINT_UNITS,
         "Reading-to-reading noise of the potentiometers, before the converter. Placeholder: far inside a step.",
     )  # fmt: skip
     yield from _group(
-        "arm.pot_step", _numbered(Fixed, *_steps((k.upper - k.lower) / size, SENSE_BITS)), JOINT_UNITS,
+        "arm.pot_step", _numbered(Fixed, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
         f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of 1974.",
     )  # fmt: skip
     yield from _group(
@@ -149,7 +144,7 @@ def _sensors() -> Iterator[Quantity]:
         "Noise of the tachometers, before the converter. Placeholder: far inside a step.",
     )  # fmt: skip
     yield from _group(
-        "arm.tachometer_step", _numbered(Fixed, *_steps(2 * k.speed, SENSE_BITS)), _RATES,
+        "arm.tachometer_step", _numbered(Fixed, *rate_step(STANFORD).tolist()), _RATES,
         f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
         "Data sheet of 1974; that it reaches just the greatest speed is inferred.",
     )  # fmt: skip
@@ -157,7 +152,7 @@ def _sensors() -> Iterator[Quantity]:
 
 def _drives() -> Iterator[Quantity]:
     yield from _group(
-        "arm.torque_step", _numbered(Fixed, *_steps(2 * constants(STANFORD).effort, TORQUE_BITS)), _TORQUES,
+        "arm.torque_step", _numbered(Fixed, *torque_step(STANFORD).tolist()), _TORQUES,
         f"One step of the converter that a drive gets its torque from: {TORQUE_BITS} bits over its torques in both "
         'directions. Data sheet of 1974: "8 bits or more".',
     )  # fmt: skip
@@ -198,11 +193,6 @@ def _links() -> Iterator[Quantity]:
         "arm", {"hand_length": Uniform(0.02)}, "in",
         "By how much the hand is longer than the controller believes. Placeholder.",
     )  # fmt: skip
-
-
-def _steps(ranges: Array, bits: int) -> tuple[float, ...]:
-    """Steps of converters of so many bits over these ranges."""
-    return tuple(float(step) for step in ranges / 2**bits)
 
 
 def _hand() -> Iterator[Quantity]:
