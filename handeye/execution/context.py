@@ -4,8 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.events import AnyEvent
@@ -53,10 +51,7 @@ class ExecutionContext:
     @property
     def felt_friction(self) -> Array:
         """What the hand feels here of the friction measured, a joint a column, shape (6, n); see `arm.friction`."""
-        friction = self.state.friction
-        return felt_friction(
-            self.arm, self.drive.state.q, np.zeros(len(self.arm.joints)) if friction is None else friction
-        )
+        return felt_friction(self.arm, self.drive.state.q, self.drive.state.friction)
 
     @property
     def planned(self) -> PlannedMotion:

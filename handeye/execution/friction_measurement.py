@@ -1,10 +1,10 @@
-"""Friction of the joints, measured by the arm itself before its first instruction.
+"""Friction of the joints and weight of the links, measured by the arm itself before its first instruction.
 
 The method of the textbooks: each joint goes slowly out and back over the same way, at a constant rate. What drives it
 besides weight and inertia has one sign out and the other back, so that half the difference is friction. The part of it
 that grows with the rate is taken out by a second, quicker pass: the line through both meets rate 0 at the Coulomb
 friction (Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, on identification). All joints go at once,
-for the friction of a joint stays in it.
+for the friction of a joint stays in it. The mean of out and back is weight, whatever the friction.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,6 +16,7 @@ import numpy as np
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
+from handeye.arm.weighing import mass_factors
 from handeye.errors import HandeyeError
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
@@ -44,15 +45,25 @@ class Pass:
     """For which torques are averaged, each way."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Joints:
+    """What the arm has found of itself, shape (n,) each."""
+
+    friction: Array
+    """Coulomb friction of each joint, N m and (prismatic joints) N."""
+    links: Array
+    """How heavy each link is, times as heavy as its model's."""
+
+
 SLOW: Final = Pass(rate=0.01, seconds=0.4)
 QUICK: Final = Pass(rate=0.03, seconds=0.2)
 """Chosen: some twenty steps of a 12-bit tachometer, as slow as the hand presses; 3.3 s and a way of some 2 in."""
 
 
-def measure_friction(
+def measure_joints(
     cell: Workcell, arm: ArmModel, state: DriveState, halt: Callable[[], bool] = lambda: False
-) -> Array:
-    """Coulomb friction of each joint, shape (n,), N m and (prismatic joints) N. The arm ends where it began.
+) -> Joints:
+    """Friction of the joints and weight of the links. The arm ends where it began.
 
     Args:
         state: of the drive: the set-point about which the arm is moved.
@@ -65,12 +76,22 @@ def measure_friction(
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt)
     slow, quick = (_drag(drive, periods, way) for way in (SLOW, QUICK))
-    coulomb = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
-    return np.asarray(np.maximum(coulomb, 0.0))
+    coulomb = (QUICK.rate * slow.rubbing - SLOW.rate * quick.rubbing) / (QUICK.rate - SLOW.rate)
+    return Joints(friction=np.maximum(coulomb, 0.0), links=mass_factors(arm, state.q, slow.weight))
 
 
-def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> Array:
-    """Torques that oppose the joints in a pass, shape (n,). The drive tells `periods` what it does."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Drag:
+    """Torques beyond those of the model in a pass, shape (n,)."""
+
+    rubbing: Array
+    """They oppose the joint out and back."""
+    weight: Array
+    """They are the same out and back."""
+
+
+def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> _Drag:
+    """Torques of a pass. The drive tells `periods` what it does."""
     k, share = constants(drive.arm), _profile(way, drive.period)
     inwards = np.where(drive.state.q < (k.lower + k.upper) / 2, 1.0, -1.0)
     first, ramp = drive.state.q, round(RAMP / drive.period)
@@ -81,7 +102,8 @@ def _drag(drive: ArmDrive, periods: list[ServoPeriod], way: Pass) -> Array:
         _go(drive, samples, periods)
         driving.append(_unexplained(drive.arm, periods[2 * ramp - 1 : len(samples) - 2 * ramp], drive.period))
     drive.state.q = first  # to the last bit
-    return np.asarray(inwards * (driving[0] - driving[1]) / 2)
+    out, back = driving
+    return _Drag(rubbing=inwards * (out - back) / 2, weight=(out + back) / 2)
 
 
 def _profile(way: Pass, period: float) -> Array:

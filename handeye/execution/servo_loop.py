@@ -21,6 +21,7 @@ from handeye.arm.joint_agreement import JointAgreement
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
+from handeye.arm.weighing import weighed
 from handeye.execution.compliance import Course
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
@@ -98,6 +99,12 @@ class ServoLoop:
         """Servo period, s."""
         return self.arm.servo.period
 
+    @property
+    def built(self) -> ArmModel:
+        """The arm with links as heavy as it has found them to be."""
+        links = self.state.links
+        return self.arm if links is None else weighed(self.arm, tuple(links.tolist()))
+
     def _periods(self, seconds: float) -> int:
         """Servo periods in a time (s): one at least, if it is any time at all."""
         return max(1, round(seconds / self.period)) if seconds > 0 else 0
@@ -117,8 +124,8 @@ class ServoLoop:
         """
         for _ in range(self._periods(seconds)):
             q, qd = self.state.here, self.sensed.qd
-            borne = gravity(self.arm, q) + jacobian(self.arm, q)[2] * self.state.load
-            yield from self._wait(borne - mass_matrix(self.arm, q) @ qd / self.arm.servo.drag)
+            borne = gravity(self.built, q) + jacobian(self.arm, q)[2] * self.state.load
+            yield from self._wait(borne - mass_matrix(self.built, q) @ qd / self.arm.servo.drag)
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def following(
@@ -136,7 +143,7 @@ class ServoLoop:
             zeroed = yield from self.zeroing()
             if zeroed.error is not None:
                 return zeroed
-        motion = prepare(self.arm, self.state.q, samples)
+        motion = prepare(self.built, self.state.q, samples)
         J = jacobian(self.arm, motion.q) if guard is not None or self.state.load else _no_jacobian(motion.q)
         sensors, off = self._sensors(), np.zeros(len(self.state.q))
         for i in range(len(motion)):
@@ -310,7 +317,7 @@ class ServoLoop:
 
     def _given_way(self, here: Dynamics, q: Array, q_is: Array) -> Dynamics:
         """Dynamics at a set-point `q` with gravity and Jacobian of where the arm is: under a force it gives way."""
-        is_so, set_so = gravity(self.arm, np.stack((q_is, q)))
+        is_so, set_so = gravity(self.built, np.stack((q_is, q)))
         return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=jacobian(self.arm, q_is))
 
     def _wait(
@@ -446,8 +453,8 @@ class ServoLoop:
     def dynamics(self) -> Dynamics:
         """Inertia, bias torques and Jacobian at rest at the present set-point."""
         return Dynamics(
-            M=mass_matrix(self.arm, self.state.q),
-            bias=gravity(self.arm, self.state.q),
+            M=mass_matrix(self.built, self.state.q),
+            bias=gravity(self.built, self.state.q),
             J=jacobian(self.arm, self.state.q),
         )
 

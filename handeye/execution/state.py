@@ -95,6 +95,8 @@ class DriveState(MutableRecord, kw_only=True):
     """The most force each finger may press with, N."""
     load: float = 0.0
     """Weight that the servo bears, N."""
+    links: Array | None = None
+    """How heavy the links are by the arm's own weighing, over the model's, shape (n,); None: not weighed."""
     tool: float = 0.0
     """Speed of the screwdriver, rad/s."""
     current: float = 0.0
@@ -151,8 +153,6 @@ class ExecutionState(SystemState, kw_only=True):
     found: dict[str, Found] = msgspec.field(default_factory=dict)
     """Findings of vision in each picture."""
     world: WorldState = msgspec.field(default_factory=WorldState)
-    friction: Array | None = None
-    """Coulomb friction of each joint as the arm has measured it, shape (n,), N m and N; None: nothing it does asks."""
     faint: list[str] = msgspec.field(default_factory=list)
     """Places of the statements whose guards were told to be hard to tell from friction."""
     drive: DriveState
@@ -201,7 +201,7 @@ def _joints(drive: DriveState) -> tuple[Array, ...]:
 
 
 def _measured(state: ExecutionState) -> list[Array]:
-    return [] if state.friction is None else [state.friction]
+    return [] if state.drive.links is None else [state.drive.links]
 
 
 def _finite(value: object) -> bool:

@@ -14,7 +14,7 @@ from handeye.execution.camera_calibration import CalibrationFailed, calibrate_ca
 from handeye.execution.context import ExecutionContext
 from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
-from handeye.execution.friction_measurement import FrictionUnknown, measure_friction
+from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
 from handeye.execution.state import DriveState, ExecutionState
 from handeye.mutable_records import put_back
 from handeye.plain_text import counted
@@ -78,7 +78,7 @@ class ProgramSystem(System):
     # -- going on -------------------------------------------------------------------------------------
 
     def begin(self) -> Sequence[AnyEvent]:
-        seconds = self._measure_friction() if self.plan.program.feels else 0.0
+        seconds = self._measure_joints() if self.plan.program.feels else 0.0
         if self._eye is not None and self.plan.program.written("picture") and self.trouble is None:
             self._calibrate(self._eye)
         return [self._started(), *self._friction(seconds)]
@@ -115,21 +115,22 @@ class ProgramSystem(System):
         self.run.restore(state)
         self._take_calibration()
 
-    def _measure_friction(self) -> float:
-        """Let the arm measure the friction of its joints; simulated seconds that it took."""
+    def _measure_joints(self) -> float:
+        """Let the arm measure the friction of its joints and weigh its links; simulated seconds that it took."""
         before = self.time
         try:
-            self.state.friction = measure_friction(self._cell.devices, self.arm, self.state.drive, self._halt)
-            self.state.drive.friction = self.state.friction
+            found = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)
+            self.state.drive.friction, self.state.drive.links = found.friction, found.links
         except (FrictionUnknown, SimulationError) as error:
             self.state.unable = str(error)
         return round(self.time - before, 6)
 
     def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
         """The event of friction that was measured in so many seconds; none if it was not."""
-        if self.state.friction is not None:
+        drive = self.state.drive
+        if drive.links is not None:
             joints = ArmNames.of(self.arm).joints
-            measured = zip(joints, self.state.friction.tolist(), strict=True)
+            measured = zip(joints, drive.friction.tolist(), strict=True)
             found = tuple(JointFriction(joint=joint, friction=round(value, 6)) for joint, value in measured)
             yield FrictionMeasured(time=self.time, joints=found, seconds=seconds)
 

@@ -12,7 +12,7 @@ from robots import ROBOTS
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
-from handeye.execution.friction_measurement import FrictionUnknown, measure_friction
+from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
 from handeye.execution.servo_loop import Halted
 from handeye.execution.state import DriveState
 from handeye.tasks.water_pump.cell import build_cell
@@ -37,7 +37,7 @@ def drawn(name: str, seed: int) -> tuple[float, ...]:
 
 
 def measured(bench: Bench) -> np.ndarray:
-    return measure_friction(bench.drive.cell, bench.arm, bench.drive.state)
+    return measure_joints(bench.drive.cell, bench.arm, bench.drive.state).friction
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -57,7 +57,7 @@ def test_the_pump_s_arm_finds_its_friction_with_wrong_masses_and_wrong_sensors(t
     world = PumpWorld.sample(4)
     world = world if times is None else rubbing(world, times)
     cell = build_cell(world, camera="ray").devices
-    found = measure_friction(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
+    found = measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD)).friction
     off = np.abs(found - world.arm_build.friction)
     assert (off < stated(STANFORD, world.arm_build.friction)).all()
 
@@ -88,7 +88,7 @@ def test_a_joint_that_is_stuck_is_named() -> None:
 def test_the_panic_button_stops_the_measurement() -> None:
     bench = Bench("planar")
     with pytest.raises(Halted):
-        measure_friction(bench.drive.cell, bench.arm, bench.drive.state, halt=lambda: True)
+        measure_joints(bench.drive.cell, bench.arm, bench.drive.state, halt=lambda: True)
 
 
 def gone_astray(run: PumpBench) -> float:
@@ -103,13 +103,13 @@ def test_a_hand_that_gives_way_goes_straight_by_the_friction_it_has_measured() -
     positions = {"T": written(25, 38, 6, 0)}
     world = rubbing(PumpWorld.nominal())
     knows, fooled = (bench(FREE_AIR, world=world, positions=positions) for _ in range(2))
-    fooled.run.state.friction = None
+    fooled.run.state.drive.friction = np.zeros(6)
     assert gone_astray(knows) < 0.02 < gone_astray(fooled)
 
 
 def test_the_dead_band_is_what_the_measured_friction_is_felt_as_here() -> None:
     run = bench("MOVE T\nFREE 2,X,Y\nCHANGE Z,-2", positions={"T": written(25, 38, 6, 0)})
-    run.run.state.friction = friction = np.array([0.5, 0.4, 2.0, 0.1, 0.1, 0.05])
+    run.run.state.drive.friction = friction = np.array([0.5, 0.4, 2.0, 0.1, 0.1, 0.05])
     run.to("CHANGE")
     here = felt_friction(STANFORD, run.run.drive.state.q, friction)
     np.testing.assert_array_equal(run.run.felt_friction, here)

@@ -73,8 +73,11 @@ def test_a_stop_clear_of_the_friction_measured_is_not_told() -> None:
 def test_what_friction_was_and_what_was_told_belong_to_the_state(felt: Runner) -> None:
     again = Runner(felt.checkpoint())
     state = context_of(again.system).state
-    assert state.friction is not None
-    assert state.friction.tolist() == context_of(felt.system).state.friction.tolist()
+    before = context_of(felt.system).state.drive
+    assert state.drive.friction.tolist() == before.friction.tolist() != [0.0] * 6
+    assert before.links is not None
+    assert state.drive.links is not None
+    assert state.drive.links.tolist() == before.links.tolist()
     assert state.faint == ["7"]
 
 

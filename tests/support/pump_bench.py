@@ -20,7 +20,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
-from handeye.execution.friction_measurement import measure_friction
+from handeye.execution.friction_measurement import measure_joints
 from handeye.planning.planner import make_plan
 from handeye.pose import Array, Pose, planar, pose, translated
 from handeye.program.cause_text import call_sentence
@@ -228,7 +228,8 @@ def bench(
     events: list[Event] = []
     run = ExecutionContext(plan=plan, arm=STANFORD, cell=cell.devices, camera=DRAWING, emit=events.append)
     if program.feels and world is not None and world.arm_build.friction.any():
-        run.state.friction = measure_friction(cell.devices, STANFORD, run.state.drive)
+        found = measure_joints(cell.devices, STANFORD, run.state.drive)
+        run.state.drive.friction, run.state.drive.links = found.friction, found.links
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
 

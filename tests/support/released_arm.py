@@ -10,6 +10,7 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
 from handeye.execution.drive import ArmDrive
+from handeye.execution.friction_measurement import measure_joints
 from handeye.execution.state import DriveState
 from handeye.pose import Array
 from handeye.tasks.water_pump.park import PARK
@@ -41,9 +42,10 @@ class Drift:
 
 
 def let_go(world: PumpWorld, seconds: float, push: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Drift:
-    """Let go of the arm of a world while its hand is pushed (N, along the axes of W), and see how far it goes."""
+    """Let go of an arm that has weighed itself, while its hand is pushed (N, axes of W), and see how far it goes."""
     cell = arm_alone(world)
     data, arm, state = cell.truth.data, cell.arm, DriveState.holding(cell.devices.sense(), STANFORD)
+    state.links = measure_joints(cell.devices, STANFORD, state).links
     hand = data.site(f"{ARM}tool").xpos.copy()
     data.xfrc_applied[arm.last_link, :3] = push
     ArmDrive(cell=cell.devices, arm=STANFORD, state=state).float(seconds)

@@ -27,7 +27,7 @@ SMALL_HAND = HandModel(
 )  # fmt: skip
 """Two fingers of 80 g, 6 cm long."""
 
-_YIELDING = ComplianceModel(
+YIELDING = ComplianceModel(
     gain=0.0015, speed=0.0127, turn_gain=0.1, turn_speed=0.1, turn_limit=15 * DEGREE, ramp=6, friction=(),
 )  # fmt: skip
 
@@ -69,7 +69,7 @@ def _arm(
     kinds = ["slide" if joint.kind == "prismatic" else "turn" for joint in joints]
     return ArmModel(
         name=name, structure=structure, joints=joints, X_WB=pose(_ALONG_X, base), hand=SMALL_HAND,
-        servo=_servo(*kinds), compliance=replace(_YIELDING, friction=tuple(_RUBS[kind] for kind in kinds)),
+        servo=_servo(*kinds), compliance=replace(YIELDING, friction=tuple(_RUBS[kind] for kind in kinds)),
         held=held or {},
     )  # fmt: skip
 

@@ -161,13 +161,13 @@ def _drives() -> Iterator[Quantity]:
         "True torque of a drive over the torque put out. Placeholder: a linear current amplifier with 1 % resistors.",
         least=-90.0,
     )  # fmt: skip
-    friction = (0.4, 2.2, 2.0, 0.1, 0.1, 0.05)
+    friction = STANFORD.compliance.friction
     yield from _group(
         "arm.friction", _numbered(Uniform, *(mean / 4 for mean in friction)), _TORQUES,
         "Coulomb friction of the joints, varied by a quarter. Switched off, it is the mean; set to 0, there is none. "
-        "Inferred of joints 2 and 3 from the paper, by which the released arm stays where it is: it bears what the "
-        "errors of masses, mass centres, gains and steps leave of gravity (at the parked posture, in the worst of 100 "
-        "worlds, 1.6 N m and 1.2 N). Of the wrist: it bears half a step of the torques. Of joint 1: placeholder.",
+        "Inferred from the paper, by which the released arm stays where it is: joints 2 and 3 bear half a step of "
+        "their torques and what is left of gravity when the arm has weighed its links (at the parked posture, in the "
+        "worst of 200 worlds, .25 N m and .7 N); the wrist bears half a step. Of joint 1: placeholder.",
         nominal=friction, least=0.0,
     )  # fmt: skip
     yield from _group(

@@ -44,7 +44,7 @@ def slides(names: tuple[str, ...]) -> ArmModel:
     servo = ServoModel(period=1 / 60, frequency=figures, lag=figures, short=0.004, settle=8, drag=0.1)
     return ArmModel(
         name="slides", structure="cartesian", joints=tuple(joints), X_WB=X_WB, hand=SMALL_HAND, servo=servo,
-        compliance=YIELDING,
+        compliance=replace(YIELDING, friction=(1.0,) * len(names)),
     )  # fmt: skip
 
 
