@@ -246,7 +246,7 @@ def test_a_fault_sets_in_with_a_stage_by_a_piece_of_its_name_or_not_at_all(comma
     assert (code, err) == (2, "handeye: a fault is there from the beginning here; leave out `@2`\n")
 
 
-@pytest.mark.parametrize("columns", ["60", "120"])
+@pytest.mark.parametrize("columns", ["80", "120"])
 def test_every_fault_is_listed_with_its_size(
     command: Command, monkeypatch: pytest.MonkeyPatch, columns: str
 ) -> None:

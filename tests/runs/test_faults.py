@@ -48,7 +48,7 @@ def defect(runner: Runner) -> DefectState:
 
 
 def test_a_fault_sets_in_with_the_first_step_of_its_stage() -> None:
-    runner = Runner(start(STUCK))
+    runner = Runner(start(Fault(name="lamp.dead", stage=2)))
     seconds = []
     while not runner.ended:
         runner.step()
