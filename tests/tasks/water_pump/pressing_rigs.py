@@ -67,7 +67,7 @@ class Pressing:
         course = Course(compliance=k, direction=direction, distance=0.1, speed=speed, force=force)
         motion, period = self.drive.complying(course, None), STANFORD.servo.period
         for number in range(round(seconds / period)):
-            if number == 2 * STANFORD.servo.settle:
+            if number == 3 * STANFORD.servo.settle:
                 then()
             next(motion)
             self.cell.advance(period)
@@ -102,7 +102,7 @@ def pressing(world: PumpWorld, X_WT: Pose, gap: float, added: Callable[[mujoco.M
     cell = SimulatedCell(model, data, arm=arm, hand=fingers, noise=noise)
     tick(cell.devices, Drive(gap=gap, grip=80.0), 12)
     state, seen = DriveState.holding(cell.devices.sense(), STANFORD), []
-    state.gap = gap
+    state.gap, state.friction = gap, world.arm_build.friction
     drive = ArmDrive(cell=cell.devices, arm=STANFORD, state=state, watch=seen.append)
     drive.hold(30)
     return Pressing(cell=cell, drive=drive, seen=seen)
