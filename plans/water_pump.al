@@ -108,6 +108,12 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
         OPEN    1
+        MOVE    FACE            ;over the web of the base
+        OPEN    0
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .5
+        SAVE    BARE            ;how high its face is
+        CHANGE  [0 0 1] 1
 
         STAGE   "put on the gasket"
         PARK
@@ -126,6 +132,13 @@ LG:     MOVE    GON
         SKIPN   8
         AOJ     LG
         OPEN    1.9
+        CHANGE  [0 0 1] 1
+        MOVE    FACE
+        OPEN    0
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .5
+        HEIGHT  BARE .02 .09    ;none is 0 in thick, two are .12
+        CHANGE  [0 0 1] 1
 
         STAGE   "check the gasket"
         PARK
@@ -176,7 +189,9 @@ M1:     MOVE    S1
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
-        TRAVEL  .22 .35         ;socket over the head, or beside it?
+        SKIPN   23
+        WAIT    "NO SCREW AT S1"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M1
         STOP    [0 0 -45]
@@ -224,7 +239,9 @@ M2:     MOVE    S2
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
-        TRAVEL  .22 .35         ;socket over the head, or beside it?
+        SKIPN   23
+        WAIT    "NO SCREW AT S2"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M2
         STOP    [0 0 -45]
@@ -336,7 +353,9 @@ M3:     MOVE    S3
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
-        TRAVEL  .22 .35         ;socket over the head, or beside it?
+        SKIPN   23
+        WAIT    "NO SCREW AT S3"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M3
         STOP    [0 0 -45]
@@ -385,7 +404,9 @@ M4:     MOVE    S4
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
-        TRAVEL  .22 .35         ;socket over the head, or beside it?
+        SKIPN   23
+        WAIT    "NO SCREW AT S4"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M4
         STOP    [0 0 -45]
@@ -434,7 +455,9 @@ M5:     MOVE    S5
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
-        TRAVEL  .22 .35         ;socket over the head, or beside it?
+        SKIPN   23
+        WAIT    "NO SCREW AT S5"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M5
         STOP    [0 0 -45]
@@ -483,7 +506,9 @@ M6:     MOVE    S6
         STOP    [0 0 -25]
         FREE    [1 1 0]         ;let the head guide the socket
         CHANGE  [0 0 -1] .5 .4
-        TRAVEL  .22 .35         ;socket over the head, or beside it?
+        SKIPN   23
+        WAIT    "NO SCREW AT S6"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M6
         STOP    [0 0 -45]

@@ -63,6 +63,7 @@ def depends(pump: Plan, line: int) -> list[str]:
         ("VIA T T\nMOVE T", "by way of T, T"),
         ("CLOSE 2 2.4", "holds 2 in or more, else error 2; 2.4 in or less, else error 7"),
         ("TRAVEL 1.6 2.2", "went 1.6 in to 2.2 in, else error 8"),
+        ("HEIGHT B .04 .08", "stands 0.04 in to 0.08 in over B, else error 9"),
     ],
 )
 def test_guards_are_told_in_the_units_of_the_script(statements: str, said: str) -> None:
@@ -111,8 +112,8 @@ def test_a_goal_on_a_part_never_seen_is_as_planned(pump: Plan) -> None:
 
 
 def test_a_restored_goal_depends_on_what_was_saved_last_on_every_way_there(pump: Plan) -> None:
-    assert "DS level, never saved before" in depends(pump, 172)  # the first screw
-    assert "DS level saved at line 185" in depends(pump, 220)  # the second follows the first
+    assert "DS level, never saved before" in depends(pump, 185)  # the first screw
+    assert "DS level saved at line 200" in depends(pump, 235)  # the second follows the first
 
 
 def test_a_loop_carries_what_was_saved_in_it_back_to_its_head() -> None:
@@ -133,7 +134,7 @@ def test_the_listing_fits_every_step_of_a_stage_on_a_line(pump: Plan) -> None:
 def test_inspect_as_json_has_every_step_once(command: Command) -> None:
     code, out, _ = command("inspect", str(plans() / "water_pump.plan.json"), "--json")
     steps = [step["step"] for stage in json.loads(out)["stages"] for step in stage["steps"]]
-    assert (code, steps) == (0, list(range(382)))
+    assert (code, steps) == (0, list(range(405)))
 
 
 def test_inspect_shows_one_stage_by_its_name(command: Command) -> None:
