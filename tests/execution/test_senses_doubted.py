@@ -60,7 +60,7 @@ def gripping(script: str, thickness: float, told: Callable[[HandReading], HandRe
 def test_switches_that_are_closed_on_nothing_are_told_when_the_hand_opens(
     stuck: tuple[bool, bool], who: str
 ) -> None:
-    run = gripping("OPEN 2.5\nCENTER .1", 0.0, lambda read: replace(read, touch=stuck))
+    run = gripping("OPEN 2.5", 0.0, lambda read: replace(read, touch=stuck))
     assert run.errors == [errors.SWITCH_WRONG]
     assert run.told == f"{ERRORS[errors.SWITCH_WRONG]} ({who} closed although the fingers are open)"
 
