@@ -143,9 +143,10 @@ class ProgramSystem(System):
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, SimulationError) as error:
             self.state.unable = str(error)
-        friction = self.state.drive.friction
-        put_back(self.state.drive, DriveState.holding(self._cell.devices.sense(), self.arm))
-        self.state.drive.friction = friction
+        drive = self.state.drive
+        measured = drive.friction, drive.links
+        put_back(drive, DriveState.holding(self._cell.devices.sense(), self.arm))
+        drive.friction, drive.links = measured
         self._take_calibration()
 
     def _take_calibration(self) -> None:

@@ -19,6 +19,7 @@ from handeye.errors import NO_FORCE
 from handeye.events import (
     ErrorRaised,
     Event,
+    FrictionMeasured,
     GuardTripped,
     OperatorCalled,
     PartInspected,
@@ -75,6 +76,10 @@ def test_row_55_the_rotor_is_turned_without_resistance(whole: Whole) -> None:
     assert [event.number for event in turning if isinstance(event, ErrorRaised)] == [NO_FORCE]
     assert math.degrees(whole.finished.runner.cell.truth.data.joint("rotor").qpos[0]) > 50
     assert whole.finished.result.referee["rotor"].ok
+
+
+def test_what_the_arm_has_measured_of_itself_outlasts_the_calibration_of_the_camera(whole: Whole) -> None:
+    assert count(whole.events, FrictionMeasured) == 1
 
 
 def test_the_base_is_found_by_sight_and_refined_by_touch(whole: Whole) -> None:
