@@ -81,12 +81,6 @@ def test_what_friction_was_and_what_was_told_belong_to_the_state(felt: Runner) -
     assert state.faint == ["7"]
 
 
-def test_the_drive_overcomes_the_friction_that_was_measured(felt: Runner) -> None:
-    state = context_of(felt.system).state
-    assert state.friction is not None
-    assert state.drive.friction.tolist() == state.friction.tolist()
-
-
 def test_a_program_that_feels_nothing_does_not_wait_for_it() -> None:
     runner = Runner(begin("OPEN 1"))
     assert (runner.time, len(runner.events)) == (0.0, 1)

@@ -142,7 +142,7 @@ def test_without_the_arm_the_hand_is_where_the_controller_thinks() -> None:
     world = PumpWorld.draw(WorldSpec(seed=3, overrides=Overrides(without=("arm",))))
     q = work_area()
     assert np.array_equal(world.arm.readings(q), q)
-    assert world.arm_build.friction == pytest.approx([0.4, 2.2, 2.0, 0.1, 0.1, 0.05])
+    assert world.arm_build.friction == pytest.approx(STANFORD.compliance.friction)
 
 
 def test_every_quantity_says_where_its_figures_come_from() -> None:
