@@ -35,7 +35,7 @@ PLACE_DEPTH: Final = 3.0 * INCH
 """Greatest distance that PLACE lowers the hand: the height of an approach."""
 PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
 """Force that PLACE stops on, N. The first stop of the pin insertion of 1973, over three times what joint friction can
-be felt as upright: in drawn worlds up to 15 oz."""
+be felt as upright."""
 PLACES: Final = 49
 """Of a search: three steps to each side."""
 _PLACES: Final = {

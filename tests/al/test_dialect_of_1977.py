@@ -174,10 +174,10 @@ def test_touch_enables_one_finger_or_either() -> None:
     assert codes("TOUCH 1\nSTOP 5\nMOVE T") == ["modifier-twice"]
 
 
-def test_place_is_a_short_way_down_that_stops_on_a_light_touch() -> None:
+def test_place_is_a_short_way_down_that_stops_on_the_table() -> None:
     place = only("PLACE", Change)
     assert place.displacement == pytest.approx((0, 0, -3 * INCH))
-    assert place.guards == (Force(force=(0.0, 0.0, -12 * OUNCE_FORCE)),)
+    assert place.guards == (Force(force=(0.0, 0.0, -50 * OUNCE_FORCE)),)
     assert codes("STOP 5\nPLACE") == ["modifier-misplaced"]
 
 

@@ -54,7 +54,7 @@ def test_error_the_action_can_raise_may_be_tested(text: str) -> None:
         (f"{DOWN}SKIPE 25\nPARK", "a motion raises error 25 if a `TOUCH` before it feels nothing"),
         ("CLOSE .1\nSKIPE 7\nPARK", "`CLOSE` raises error 7 if it has a maximum"),
         ("CLOSE .1\nSKIPE 23\nPARK", "a motion raises error 23 if a `STOP` before it meets no force"),
-        ("CLOSE .1\nSKIPE 8\nPARK", "errors that can occur here: 2, 5"),
+        ("CLOSE .1\nSKIPE 8\nPARK", "errors that can occur here: 2, 5, 50, 51"),
     ],
 )
 def test_error_the_action_cannot_raise_is_told_with_what_would(text: str, help: str) -> None:

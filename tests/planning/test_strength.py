@@ -101,19 +101,19 @@ def test_a_moment_that_no_joint_can_bring_up_is_found_in_planning(modifier: str,
     ("stop", "message", "help"),
     [
         (
-            "[0 0 -11]",
-            "a stop on a force of 11 oz is hard to tell from joint friction here",
-            "use at least 12 oz",
+            "[0 0 -18]",
+            "a stop on a force of 18 oz is hard to tell from joint friction here",
+            "use at least 19 oz",
         ),
         (
             "NIL [19 0 0]",
             "a stop on a moment of 19 oz-in is hard to tell from joint friction here",
-            "260 oz-in",
+            "332 oz-in",
         ),
         (
             "NIL [0 0 10]",
             "a stop on a moment of 10 oz-in is hard to tell from joint friction here",
-            "17 oz-in",
+            "22 oz-in",
         ),
     ],
 )
@@ -125,4 +125,4 @@ def test_a_stop_below_three_times_the_friction_expected_is_warned_of(
 
 
 def test_a_stop_clear_of_friction_is_not_warned_of() -> None:
-    assert said("MOVE T\nSTOP [0 0 -12] [0 0 18]\nCHANGE Z -1\nMOVE T\nPLACE") == []
+    assert said("MOVE T\nSTOP [0 0 -20] [0 0 24]\nCHANGE Z -1\nMOVE T\nPLACE") == []

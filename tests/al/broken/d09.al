@@ -6,7 +6,7 @@
         MOVE    SHELF
         WHERE
         MOVE    P1UP
-        STOP    [0 0 -20]
+        STOP    [0 0 -30]
         CHANGE  [0 0 -1] 1.2
         OPEN    1
         PARK

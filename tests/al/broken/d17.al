@@ -5,7 +5,7 @@
         CHANGE  [0 0 1] 1
         SEARCH  .05
 LG:     MOVE    GON
-        STOP    [0 0 -12]
+        STOP    [0 0 -20]
         CHANGE  [0 0 -1] 1.3
         TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
         SKIPN   8

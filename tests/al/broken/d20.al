@@ -7,7 +7,7 @@
         CLOSE   .7
         CHANGE  [0 0 1] 1
         MOVE    GON
-        STOP    [0 0 -12]
+        STOP    [0 0 -20]
         CHANGE  [0 0 -1] 2.3
         OPEN    1.9
         PARK
