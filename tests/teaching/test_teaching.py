@@ -51,6 +51,11 @@ def hand(pupil: TeachSession) -> np.ndarray:
     return pupil.teacher.workplace.run.drive.hand()[:3, 3] / INCH
 
 
+SHORT = 0.04
+"""How far the boom may stop from where it is to be, in: two steps of its potentiometer, before and after, and what its
+friction, which nobody has measured here, leaves of a soft servo (.02)."""
+
+
 # -- moving ---------------------------------------------------------------------------------------------
 
 
@@ -60,9 +65,9 @@ def test_a_joint_moves_by_so_much_with_a_sign_and_to_there_without(pupil: TeachS
     before = joints.sensed.q.copy()
     say(pupil, "j3 +1")
     drive = pupil.teacher.workplace.run.drive
-    assert (drive.sensed.q - before)[2] / INCH == pytest.approx(1, abs=0.02)
+    assert (drive.sensed.q - before)[2] / INCH == pytest.approx(1, abs=SHORT)
     say(pupil, "j3 18")
-    assert drive.sensed.q[2] / INCH == pytest.approx(18, abs=0.02)
+    assert drive.sensed.q[2] / INCH == pytest.approx(18, abs=SHORT)
 
 
 def test_the_hand_moves_along_an_axis_of_the_table(pupil: TeachSession) -> None:
