@@ -77,7 +77,7 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         SAVE    E1
         OPEN    .5
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
-        STOP    [0 30 0]
+        STOP    [0 36 0]
         CHANGE  [0 1 0] .3 .5   ;a push: its hole leaves it .02 in of play, the large hole 2 in
         OPEN    .5
         CENTER  .1
@@ -102,7 +102,7 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         SAVE    E2
         OPEN    .5
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
-        STOP    [-30 0 0]
+        STOP    [-36 0 0]
         CHANGE  [-1 0 0] .3 .5  ;it should resist a push, too
         OPEN    .5
         CENTER  .1
@@ -126,7 +126,7 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         SEARCH  .05
 LG:     MOVE    GON
         RESTORE E2 LEVEL
-        STOP    [0 0 -20]
+        STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
         SKIPN   8
