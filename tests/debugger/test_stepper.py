@@ -152,7 +152,7 @@ def test_an_answer_says_what_was_done_and_where_the_run_now_stands(say: Say) -> 
     assert as_text(say("s 2")[0]).splitlines() == [
         "   10 CHANGE [0 0 -1] .1             error 23: the motion ended without meeting the force it was to stop on",
         "   11 SKIPE 23                       error 23 occurred: continue at line 13",
-        "── stage 2, search in the air, step 7; 6 steps done, 3.07 s",
+        "── stage 2, search in the air, step 7; 6 steps done, 3.22 s",
         "    11          SKIPE   23",
         "    12          JUMP    L1",
         "  → 13          SAVE    H",
@@ -456,7 +456,7 @@ def test_a_file_that_is_no_checkpoint_is_left_alone(say: Say, tmp_path: Path) ->
 
 
 def test_the_panic_button_is_told_and_the_step_can_be_done_again(tmp_path: Path, whole: bytes) -> None:
-    pressed = iter([False] * 30 + [True])
+    pressed = iter([False] * 230 + [True])  # behind the measurement of friction
     runner = Runner(begin(AIR), halt=lambda: next(pressed, False))
     stepper = Stepper(runner, pictures=tmp_path)
     stopped = stepper.do("s 2")

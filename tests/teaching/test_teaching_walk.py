@@ -15,8 +15,8 @@ PROMPTS = {"repl": "*", "teach": "teach>"}
 
 
 def without_figures(text: str) -> str:
-    """Text in which every figure with a point is a `#`: the last digit is the processor's."""
-    return re.sub(r"-?\d+\.\d+|-0\b", "#", text)
+    """Text in which every figure with a point, and 0, is a `#`: the last digit is the processor's."""
+    return re.sub(r"-?\d+\.\d+|-?\b0\b", "#", text)
 
 
 def test_the_page_has_two_talks_with_repl_and_one_with_teach() -> None:

@@ -155,7 +155,7 @@ def test_solids_are_written_and_what_is_wrong_with_them_is_said(
     first, count, *weights = out.splitlines()
     assert first.startswith("pump.glb: pump, short in the world of seed 0, after")
     assert count == "16 solids, all closed"
-    assert any("in the model: base" in line for line in weights)
+    assert any("in the model: rotor" in line for line in weights)
     assert Path("pump.glb").read_bytes().startswith(b"glTF")
 
 
