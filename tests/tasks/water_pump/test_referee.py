@@ -72,7 +72,7 @@ def fallen_pin(truth: Truth) -> Truth:
 
 CHANGES: dict[str, tuple[Callable[[Truth], Truth], set[str]]] = {
     "a pin that lies on the table": (fallen_pin, {"pins", "pins_tilt"}),
-    "a driver that falls beside its rack": (moved("driver", 0.1, 0.0, 0.0), {"rack", "overlap"}),
+    "a driver that falls beside its rack": (moved("driver", 0.1, 0.0, 0.0), {"rack"}),
     "a crossed screw": (crossed, {"screws_crossed"}),
     "a screw that stands high": (high_screw, {"screws_depth", "screws_thread", "screws_clamp"}),
     "a jammed rotor": (jammed, {"rotor"}),
