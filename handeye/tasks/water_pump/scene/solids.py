@@ -138,7 +138,9 @@ def revolved(profile: list[tuple[float, float]], segments: int = 32) -> Manifold
 def surface(solid: Manifold) -> Surface:
     """The whole surface of a solid."""
     mesh = solid.to_mesh()
-    return np.asarray(mesh.vert_properties, np.float64)[:, :3], np.asarray(mesh.tri_verts, np.int32)
+    return np.array(mesh.vert_properties[:, :3], np.float64), np.array(
+        mesh.tri_verts, np.int32
+    )  # copies: no mesh stays
 
 
 def volume_moments(closed: Surface) -> tuple[float, Array, Array]:
