@@ -19,7 +19,7 @@ from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
 from handeye.events import beginning
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.host_time import HostTimer
 from handeye.report.cautions import cautions, losses
 from handeye.report.finishing import finished

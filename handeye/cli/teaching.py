@@ -177,7 +177,7 @@ def _workplace(
     Raises:
         InvalidInput: a file or an option cannot be used, or the camera cannot work as asked.
     """
-    from handeye.execution.servo_loop import Halted
+    from handeye.execution.servo import Halted
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.teaching.workplace import Workplace
 

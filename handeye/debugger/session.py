@@ -10,7 +10,7 @@ from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
 from handeye.errors import InvalidInput
 from handeye.events import StepStarted
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.runs.advance import Pause, advance, ended
 from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner

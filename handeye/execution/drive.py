@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from handeye.arm.samples import Samples
 from handeye.execution.compliance import Course
-from handeye.execution.servo_loop import Dynamics, Motion, Outcome, ServoLoop, T
+from handeye.execution.servo import Dynamics, Motion, T
+from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.ports.clock import Clock
 from handeye.pose import Array, Pose
 from handeye.touch.guards import Monitor

@@ -1,31 +1,25 @@
-"""The servo loop: puts torques out along set-points, a servo period at a time, while guards watch.
+"""The servo loop: motions of an arm along set-points, a servo period at a time, while guards watch.
 
-Everything here goes through the ports: positions are the potentiometers', forces are what the joint torques
-leave unexplained. A motion does not let time pass. It is an iterator that has put out everything for a period when it
-yields, and reads the cell when it is asked to go on; whoever asks lets the clock advance in between. So any number of
-arms move under one clock.
+A motion does not let time pass. It is an iterator that has put out everything for a period when it yields, and reads
+the cell when it is asked to go on; whoever asks lets the clock advance in between. So any number of arms move under
+one clock.
 """
 
-from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 
 from handeye import errors
-from handeye.arm.computed_torque import felt_wrench, prepare, torque
-from handeye.arm.converters import followed, sliding
+from handeye.arm.computed_torque import prepare
+from handeye.arm.converters import sliding
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.joint_agreement import JointAgreement
 from handeye.arm.kinematics import forward, jacobian
-from handeye.arm.model import ArmModel, constants
+from handeye.arm.model import constants
 from handeye.arm.samples import Samples
-from handeye.arm.weighing import weighed
 from handeye.execution.compliance import Course
-from handeye.execution.servo_period import ServoPeriod
-from handeye.execution.state import DriveState
-from handeye.ports.workcell import Sensed, Workcell
+from handeye.execution.servo import Dynamics, Motion, Servo
 from handeye.pose import Array, Pose, displaced, translated
 from handeye.program.causes import (
     Cause,
@@ -36,17 +30,13 @@ from handeye.program.causes import (
     JointName,
     JointSensesApart,
 )
-from handeye.touch.guards import ActiveGuard, Monitor, Reading, Trip
+from handeye.touch.guards import ActiveGuard, Monitor, Trip
 from handeye.touch.senses import IN_AIR, off_zero
 
 DITHER = 2.0
 """Torque that shakes a joint, over its friction. Chosen: as much again is left to move it."""
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
-
-
-class Halted(Exception):
-    """The panic button was hit: drives are off and brakes set since this servo period."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,43 +57,9 @@ REACHED = Outcome()
 CUT = Outcome(error=errors.WATCHDOG)
 
 
-T = TypeVar("T")
-Motion = Generator[None, None, T]
-"""A motion under way: it yields once a servo period, and returns how it ended."""
-
-
 @dataclass(slots=True, kw_only=True)
-class Dynamics:
-    """Inertia, gravity and Jacobian at a set-point, reused while the hand hardly moves."""
-
-    M: Array
-    bias: Array
-    J: Array
-
-
-@dataclass(slots=True, kw_only=True)
-class ServoLoop:
-    """The servo of one arm, and what its cell is told with every torque."""
-
-    cell: Workcell
-    arm: ArmModel
-    state: DriveState
-    """Its state: set-points, load and felt wrench."""
-    watch: Callable[[ServoPeriod], None] = lambda _: None
-    """Called after every servo period."""
-    halt: Callable[[], bool] = lambda: False
-    """The panic button, asked at every servo period."""
-
-    @property
-    def period(self) -> float:
-        """Servo period, s."""
-        return self.arm.servo.period
-
-    @property
-    def built(self) -> ArmModel:
-        """The arm with links as heavy as it has found them to be."""
-        links = self.state.links
-        return self.arm if links is None else weighed(self.arm, tuple(links.tolist()))
+class ServoLoop(Servo):
+    """The motions of one arm, and what ends them."""
 
     def _periods(self, seconds: float) -> int:
         """Servo periods in a time (s): one at least, if it is any time at all."""
@@ -257,123 +213,17 @@ class ServoLoop:
         self.state.wrench = np.zeros(6)
         return self._force_in_air() if self.state.in_air and off_zero(self._unloaded()) else REACHED
 
-    # -- one servo period ------------------------------------------------------------------------------
-
-    def _approach(
-        self,
-        here: Dynamics,
-        q: Array,
-        *,
-        estimate: bool,
-        taring: bool = False,
-        sense: Array | float = 0.0,
-        dither: Array | float = 0.0,
-        guards: tuple[ActiveGuard, ...] = (),
-    ) -> Motion[None]:
-        """One servo period towards a set-point close by; see `_servo`."""
-        qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
-        yield from self._servo(
-            here, self.state.q, qd, rest,
-            estimate=estimate, taring=taring, sense=sense, dither=dither, guards=guards,
-        )  # fmt: skip
-        self.state.q = q
-
-    def _servo(
-        self,
-        here: Dynamics,
-        q: Array,
-        qd: Array,
-        qdd: Array,
-        *,
-        estimate: bool,
-        guards: tuple[ActiveGuard, ...],
-        taring: bool = False,
-        sense: Array | float = 0.0,
-        dither: Array | float = 0.0,
-    ) -> Motion[None]:
-        """One servo period in which the arm should begin at `q` with rates `qd`.
-
-        Args:
-            estimate: the force on the hand is estimated at its end.
-            sense: which way the joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
-            dither: torques beside those that the servo needs.
-            guards: those that will look at what is then felt.
-            taring: what is felt is no force yet, but what the tare is made of.
-        """
-        q_was, qd_was = self.state.here, self.sensed.qd
-        load = here.J[2] * self.state.load
-        friction = self.state.friction * sense
-        bias = here.bias + friction
-        tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, qd_was, exerted=load + dither)
-        effort = constants(self.arm).effort
-        tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
-
-        def feel(after: Sensed) -> None:
-            there = self._given_way(here, q, (q_was + self.state.here) / 2)
-            felt = felt_wrench(there.M, there.bias + friction, there.J, tau, qd_was, after.qd, self.period)
-            self.state.wrench = felt - self.state.tare
-
-        yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
-
-    def _given_way(self, here: Dynamics, q: Array, q_is: Array) -> Dynamics:
-        """Dynamics at a set-point `q` with gravity and Jacobian of where the arm is: under a force it gives way."""
-        is_so, set_so = gravity(self.built, np.stack((q_is, q)))
-        return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=jacobian(self.arm, q_is))
-
-    def _wait(
-        self,
-        tau: Array | None,
-        feel: Callable[[Sensed], None] | None = None,
-        guards: tuple[ActiveGuard, ...] = (),
-        *,
-        taring: bool = False,
-    ) -> Motion[None]:
-        """One servo period under a torque, or (None) the brakes.
-
-        Args:
-            feel: estimates the force on the hand by what is sensed at its end.
-
-        Raises:
-            Halted: behind it, if the panic button is down.
-        """
-        halted = self.halt()
-        if halted:
-            tau, self.state.tool = None, 0.0
-        before = self.sensed
-        self._put_out(tau)
-        yield
-        sensed = self.sensed
-        moved = (before.qd + sensed.qd) / 2 * self.period
-        self.state.here = followed(self.arm, self.state.here, moved, sensed.q)
-        self.state.cut = sensed.braked and tau is not None
-        if self.state.tool:
-            self.state.current = max(self.state.current, abs(sensed.tool_torque))
-        if feel is not None and not halted:
-            feel(sensed)
-        unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear
-        self.watch(
-            ServoPeriod(
-                sensed=sensed,
-                effort=np.zeros(len(self.state.q)) if tau is None else tau,
-                wrench=None if unfelt else -self.state.wrench,
-                guards=() if unfelt else guards,
-            )
-        )
-        if halted:
-            raise Halted
-
-    def _put_out(self, tau: Array | None) -> None:
-        """Tell every device of the cell what to do for the next servo period."""
-        cell = self.cell
-        cell.arm.drive(tau)
-        if cell.hand is not None:
-            cell.hand.drive(self.state.gap, self.state.grip)
-        if cell.screwdriver is not None:
-            cell.screwdriver.drive(self.state.tool)
-        if cell.lamp is not None:
-            cell.lamp.switch(self.state.lamp)
-
     # -- stopping -----------------------------------------------------------------------------------
+
+    @property
+    def height(self) -> float:
+        """Height in W (m) at which the hand has come to a stop, by its set-point.
+
+        A converter's steps are read as up to .05 in at the hand. A set-point has none; and an arm on its way goes by
+        many readings, whose steps even out, so that two motions that end on the same force end as high on average.
+        """
+        met = self.state.met
+        return float(forward(self.arm, self.state.q)[2, 3] if met is None else met[2])
 
     def _freeze(self, direction: Array) -> None:
         """Hold where the hand is along `direction`, with no reference velocity left to kick it back."""
@@ -382,6 +232,14 @@ class ServoLoop:
         along = float((X_is[:3, 3] - X_set[:3, 3]) @ direction)
         held = solve(self.arm, translated(X_set, along * direction), self.state.q)
         self.state.q = self.state.here.copy() if held.q is None else held.q
+
+    def _arrived(self, on_the_way: Array) -> Outcome:
+        """Check that the hand is at its set-point; `on_the_way`: by how much joints were off theirs, shape (n,)."""
+        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
+        if off < self.arm.servo.short:
+            return REACHED
+        before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))
+        return Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)), off=before)
 
     # -- doubting -----------------------------------------------------------------------------------
 
@@ -420,50 +278,6 @@ class ServoLoop:
         self.state.q = self.state.here.copy()
         joint = self.arm.joints[int(np.argmax(lag))].name
         return Outcome(error=errors.SERVO_LAG, cause=JointBehind(joint=joint))
-
-    # -- knowing ------------------------------------------------------------------------------------
-
-    def _arrived(self, on_the_way: Array) -> Outcome:
-        """Check that the hand is at its set-point; `on_the_way`: by how much joints were off theirs, shape (n,)."""
-        off = float(np.linalg.norm(self.hand()[:3, 3] - forward(self.arm, self.state.q)[:3, 3]))
-        if off < self.arm.servo.short:
-            return REACHED
-        before = float(np.linalg.norm((jacobian(self.arm, self.state.q) @ on_the_way)[:3]))
-        return Outcome(error=errors.SERVO_LAG, cause=HandAstray(distance=round(off, 6)), off=before)
-
-    @property
-    def sensed(self) -> Sensed:
-        """Readings of all devices in this servo period."""
-        return self.cell.sense()
-
-    @property
-    def height(self) -> float:
-        """Height in W (m) at which the hand has come to a stop, by its set-point.
-
-        A converter's steps are read as up to .05 in at the hand. A set-point has none; and an arm on its way goes by
-        many readings, whose steps even out, so that two motions that end on the same force end as high on average.
-        """
-        met = self.state.met
-        return float(forward(self.arm, self.state.q)[2, 3] if met is None else met[2])
-
-    def hand(self) -> Pose:
-        """`X_WT` by the arm's own sensors."""
-        return forward(self.arm, self.state.here)
-
-    def dynamics(self) -> Dynamics:
-        """Inertia, bias torques and Jacobian at rest at the present set-point."""
-        return Dynamics(
-            M=mass_matrix(self.built, self.state.q),
-            bias=gravity(self.built, self.state.q),
-            J=jacobian(self.arm, self.state.q),
-        )
-
-    def _reading(self, direction: Array) -> Reading:
-        """Reading for the guards."""
-        return Reading(
-            force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
-            tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,
-        )  # fmt: skip
 
 
 def _no_jacobian(q: Array) -> Array:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Literal
 
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.program.causes import Cause
 from handeye.record import Record
 from handeye.runs.runner import Runner

@@ -8,7 +8,7 @@ from typing import Literal, Protocol
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import Choice, OperatorAnswered, OperatorCalled, StageStarted, StepFinished
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.record import Record
 from handeye.runs.advance import Pause, advance, keep, paused_before
 from handeye.runs.runner import Runner

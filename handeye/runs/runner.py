@@ -22,7 +22,7 @@ from handeye.events import (
     StepStarted,
     beginning,
 )
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
 from handeye.mutable_records import copied

@@ -14,7 +14,8 @@ from handeye.arm.samples import Samples
 from handeye.cell.pushing import pushed
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.execution.servo_loop import Halted, Outcome
+from handeye.execution.servo import Halted
+from handeye.execution.servo_loop import Outcome
 from handeye.files import write_whole
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED

@@ -10,7 +10,7 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.program.guards import Force, GuardKind

@@ -13,7 +13,7 @@ from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld

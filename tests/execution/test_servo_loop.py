@@ -14,7 +14,8 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.errors import SERVO_LAG
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
-from handeye.execution.servo_loop import Halted, Outcome
+from handeye.execution.servo import Halted
+from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import DriveState
 from handeye.pose import Array
 from handeye.program.causes import HandAstray, JointBehind

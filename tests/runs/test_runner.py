@@ -6,7 +6,7 @@ from short_runs import GRASP, begin, history, through
 
 from handeye.errors import InvalidInput
 from handeye.events import ExperimentMade, OperatorCalled, PanicStopped, Restored
-from handeye.execution.servo_loop import Halted
+from handeye.execution.servo import Halted
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 

@@ -1,0 +1,208 @@
+"""A servo: one period of the control of an arm, in which torques are put out and force on the hand is felt.
+
+Everything here goes through the ports: positions are the potentiometers', refined by tachometers; forces are what the
+joint torques leave unexplained. A period does not let time pass: it yields when it has put out everything, and reads
+the cell when it is asked to go on.
+"""
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from handeye.arm.computed_torque import felt_wrench, torque
+from handeye.arm.converters import followed
+from handeye.arm.dynamics import gravity, mass_matrix
+from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.model import ArmModel, constants
+from handeye.arm.weighing import weighed
+from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.state import DriveState
+from handeye.ports.workcell import Sensed, Workcell
+from handeye.pose import Array, Pose
+from handeye.touch.guards import ActiveGuard, Reading
+
+T = TypeVar("T")
+Motion = Generator[None, None, T]
+"""A motion under way: it yields once a servo period, and returns how it ended."""
+
+
+class Halted(Exception):
+    """The panic button was hit: drives are off and brakes set since this servo period."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Dynamics:
+    """Inertia, gravity and Jacobian at a set-point, reused while the hand hardly moves."""
+
+    M: Array
+    bias: Array
+    J: Array
+
+
+@dataclass(slots=True, kw_only=True)
+class Servo:
+    """The servo of one arm, and what its cell is told with every torque."""
+
+    cell: Workcell
+    arm: ArmModel
+    state: DriveState
+    """Its state: set-points, load and felt wrench."""
+    watch: Callable[[ServoPeriod], None] = lambda _: None
+    """Called after every servo period."""
+    halt: Callable[[], bool] = lambda: False
+    """The panic button, asked at every servo period."""
+
+    @property
+    def period(self) -> float:
+        """Servo period, s."""
+        return self.arm.servo.period
+
+    @property
+    def built(self) -> ArmModel:
+        """The arm with links as heavy as it has found them to be."""
+        links = self.state.links
+        return self.arm if links is None else weighed(self.arm, tuple(links.tolist()))
+
+    # -- knowing ------------------------------------------------------------------------------------
+
+    @property
+    def sensed(self) -> Sensed:
+        """Readings of all devices in this servo period."""
+        return self.cell.sense()
+
+    def hand(self) -> Pose:
+        """`X_WT` by the arm's own sensors."""
+        return forward(self.arm, self.state.here)
+
+    def dynamics(self) -> Dynamics:
+        """Inertia, bias torques and Jacobian at rest at the present set-point."""
+        return Dynamics(
+            M=mass_matrix(self.built, self.state.q),
+            bias=gravity(self.built, self.state.q),
+            J=jacobian(self.arm, self.state.q),
+        )
+
+    def _reading(self, direction: Array) -> Reading:
+        """Reading for the guards."""
+        return Reading(
+            force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
+            tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,
+        )  # fmt: skip
+
+    # -- one servo period ------------------------------------------------------------------------------
+
+    def _approach(
+        self,
+        here: Dynamics,
+        q: Array,
+        *,
+        estimate: bool,
+        taring: bool = False,
+        sense: Array | float = 0.0,
+        dither: Array | float = 0.0,
+        guards: tuple[ActiveGuard, ...] = (),
+    ) -> Motion[None]:
+        """One servo period towards a set-point close by; see `_servo`."""
+        qd, rest = (q - self.state.q) / self.period, np.zeros(len(self.state.q))
+        yield from self._servo(
+            here, self.state.q, qd, rest,
+            estimate=estimate, taring=taring, sense=sense, dither=dither, guards=guards,
+        )  # fmt: skip
+        self.state.q = q
+
+    def _servo(
+        self,
+        here: Dynamics,
+        q: Array,
+        qd: Array,
+        qdd: Array,
+        *,
+        estimate: bool,
+        guards: tuple[ActiveGuard, ...],
+        taring: bool = False,
+        sense: Array | float = 0.0,
+        dither: Array | float = 0.0,
+    ) -> Motion[None]:
+        """One servo period in which the arm should begin at `q` with rates `qd`.
+
+        Args:
+            estimate: the force on the hand is estimated at its end.
+            sense: which way the joints slide, -1 to 1: friction that opposes it is overcome, and not felt.
+            dither: torques beside those that the servo needs.
+            guards: those that will look at what is then felt.
+            taring: what is felt is no force yet, but what the tare is made of.
+        """
+        q_was, qd_was = self.state.here, self.sensed.qd
+        load = here.J[2] * self.state.load
+        friction = self.state.friction * sense
+        bias = here.bias + friction
+        tau = torque(self.arm, here.M, bias, q, qd, qdd, q_was, qd_was, exerted=load + dither)
+        effort = constants(self.arm).effort
+        tau = np.clip(tau, -effort, effort)  # else force that the drives could not give would be felt
+
+        def feel(after: Sensed) -> None:
+            there = self._given_way(here, q, (q_was + self.state.here) / 2)
+            felt = felt_wrench(there.M, there.bias + friction, there.J, tau, qd_was, after.qd, self.period)
+            self.state.wrench = felt - self.state.tare
+
+        yield from self._wait(tau, feel if estimate else None, guards, taring=taring)
+
+    def _given_way(self, here: Dynamics, q: Array, q_is: Array) -> Dynamics:
+        """Dynamics at a set-point `q` with gravity and Jacobian of where the arm is: under a force it gives way."""
+        is_so, set_so = gravity(self.built, np.stack((q_is, q)))
+        return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=jacobian(self.arm, q_is))
+
+    def _wait(
+        self,
+        tau: Array | None,
+        feel: Callable[[Sensed], None] | None = None,
+        guards: tuple[ActiveGuard, ...] = (),
+        *,
+        taring: bool = False,
+    ) -> Motion[None]:
+        """One servo period under a torque, or (None) the brakes.
+
+        Args:
+            feel: estimates the force on the hand by what is sensed at its end.
+
+        Raises:
+            Halted: behind it, if the panic button is down.
+        """
+        halted = self.halt()
+        if halted:
+            tau, self.state.tool = None, 0.0
+        before = self.sensed
+        self._put_out(tau)
+        yield
+        sensed = self.sensed
+        moved = (before.qd + sensed.qd) / 2 * self.period
+        self.state.here = followed(self.arm, self.state.here, moved, sensed.q)
+        self.state.cut = sensed.braked and tau is not None
+        if self.state.tool:
+            self.state.current = max(self.state.current, abs(sensed.tool_torque))
+        if feel is not None and not halted:
+            feel(sensed)
+        unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear
+        self.watch(
+            ServoPeriod(
+                sensed=sensed,
+                effort=np.zeros(len(self.state.q)) if tau is None else tau,
+                wrench=None if unfelt else -self.state.wrench,
+                guards=() if unfelt else guards,
+            )
+        )
+        if halted:
+            raise Halted
+
+    def _put_out(self, tau: Array | None) -> None:
+        """Tell every device of the cell what to do for the next servo period."""
+        cell = self.cell
+        cell.arm.drive(tau)
+        if cell.hand is not None:
+            cell.hand.drive(self.state.gap, self.state.grip)
+        if cell.screwdriver is not None:
+            cell.screwdriver.drive(self.state.tool)
+        if cell.lamp is not None:
+            cell.lamp.switch(self.state.lamp)
