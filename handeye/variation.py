@@ -8,7 +8,6 @@ quantity moves no other, and one can be switched off or set while all others sta
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from operator import index
 from typing import Annotated, Final, Literal
 from zlib import crc32
 
@@ -21,6 +20,7 @@ from handeye.errors import InvalidInput
 from handeye.faults import Fault
 from handeye.record import Record
 from handeye.units import UNITS, Unit
+from handeye.whole_numbers import whole
 
 DRAWING: Final = 4
 """How a world comes from its seed: raised when equal seeds give other worlds than before."""
@@ -207,11 +207,8 @@ def checked_seed(seed: object) -> int:
     Raises:
         InvalidInput: it is none.
     """
-    try:
-        number = -1 if isinstance(seed, bool) else index(seed)  # type: ignore[arg-type]
-    except TypeError:
-        number = -1
-    if number < 0:
+    number = whole(seed)
+    if number is None or number < 0:
         raise InvalidInput(f"a seed is a whole number from 0 up; {seed!r} is not")
     if number > LARGEST_SEED:
         raise InvalidInput(f"the largest seed is {LARGEST_SEED}; {seed} is larger")

@@ -29,6 +29,7 @@ FOUNDATIONS = {
     "faults",
     "fault_options",
     "versions",
+    "whole_numbers",
     "mutable_records",
     "plain_text",
     "host_time",

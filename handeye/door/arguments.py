@@ -2,12 +2,11 @@
 
 import os
 from collections.abc import Iterable
-from operator import index
 from pathlib import Path
-from typing import SupportsIndex
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
+from handeye.whole_numbers import whole
 
 
 def given_file(given: object, what: str) -> Path:
@@ -58,8 +57,8 @@ def given_count(given: object, what: str) -> int:
     Raises:
         InvalidInput: it is none.
     """
-    count = index(given) if isinstance(given, SupportsIndex) and not isinstance(given, bool) else 0
-    if count < 1:
+    count = whole(given)
+    if count is None or count < 1:
         raise InvalidInput(f"{what} are a whole number from 1 up, not {given!r}")
     return count
 

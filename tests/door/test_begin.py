@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import Command
 
@@ -66,6 +67,7 @@ def test_a_run_is_taken_up_in_its_world(folder: Path) -> None:
         ({"seed": -1}, r"^a seed is a whole number from 0 up; -1 is not$"),
         ({"seed": "3"}, r"^a seed is a whole number from 0 up; '3' is not$"),
         ({"seed": 1.5}, r"^a seed is a whole number from 0 up; 1\.5 is not$"),
+        ({"seed": np.array([1, 2])}, r"^a seed is a whole number from 0 up; array\(\[1, 2\]\) is not$"),
         ({"seed": True}, r"^a seed is a whole number from 0 up; True is not$"),
         ({"seed": 1 << 63}, r"^the largest seed is 9223372036854775807; "),
         ({"seed": 1, "world": handeye.World(1)}, r"^give a seed or a world, not both: "),

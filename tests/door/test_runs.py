@@ -133,6 +133,10 @@ def test_the_stepper_is_spoken_to(run: handeye.Run) -> None:
         (lambda run: run.step(0), r"^steps are a whole number from 1 up, not 0$"),
         (lambda run: run.step("2"), r"^steps are a whole number from 1 up, not '2'$"),
         (
+            lambda run: run.step(np.array([1, 2])),
+            r"^steps are a whole number from 1 up, not array\(\[1, 2\]\)$",
+        ),
+        (
             lambda run: run.until("L9"),
             r"^the program has no label, instruction or stage `L9`; did you mean `L1`",
         ),
