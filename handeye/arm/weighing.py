@@ -19,6 +19,8 @@ from handeye.pose import Array
 
 MASS_DOUBT: Final = 0.05
 """Of the mass of a link. Chosen."""
+PLAUSIBLE: Final = 6 * MASS_DOUBT
+"""By which the weight of a link may be off. Chosen: 9 % are found in worlds, 17 % in those with twice the errors."""
 TORQUE_DOUBT: Final = 0.002
 """Of the greatest torque of a drive: half a step of a converter of 8 bits."""
 

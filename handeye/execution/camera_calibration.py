@@ -41,6 +41,7 @@ class CalibrationFailed(HandeyeError):
 def calibrate_camera(
     cell: Workcell,
     arm: ArmModel,
+    state: DriveState,
     drawing: CameraModel,
     looks: Sequence[CalibrationLook],
     halt: Callable[[], bool] = lambda: False,
@@ -49,6 +50,7 @@ def calibrate_camera(
     """Show the lamp to the camera, and fit the camera to where the arm says the lamp was.
 
     Args:
+        state: of the drive; what the arm has measured of itself helps it to carry the lamp.
         drawing: the camera as the program knows it so far.
         looks: where the lamp is shown, in order.
         halt: the panic button.
@@ -58,7 +60,7 @@ def calibrate_camera(
         CalibrationFailed: the lamp was seen too few times, or the camera's picture does not change.
         Halted: the panic button was hit.
     """
-    drive = ArmDrive(cell=cell, arm=arm, state=DriveState.holding(cell.sense(), arm), halt=halt)
+    drive = ArmDrive(cell=cell, arm=arm, state=state, halt=halt)
     home = drive.state.q.copy()
     numbers, views = count(1), sum(len(look.places) for look in looks)
     sightings: list[Sighting] = []

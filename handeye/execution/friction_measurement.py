@@ -16,7 +16,7 @@ import numpy as np
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
-from handeye.arm.weighing import mass_factors
+from handeye.arm.weighing import PLAUSIBLE, mass_factors
 from handeye.errors import HandeyeError
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
@@ -32,7 +32,7 @@ LEAST: Final = 0.5
 
 
 class FrictionUnknown(HandeyeError):
-    """The arm did not move as it must for its friction to be measured."""
+    """The arm did not move as it must for its friction to be measured, or has links of a weight that cannot be."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,14 +70,27 @@ def measure_joints(
         halt: the panic button.
 
     Raises:
-        FrictionUnknown: a joint did not move as it should.
+        FrictionUnknown: a joint did not move as it should, or a link would be too light or too heavy.
         Halted: the panic button was hit.
     """
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt)
     slow, quick = (_drag(drive, periods, way) for way in (SLOW, QUICK))
     coulomb = (QUICK.rate * slow.rubbing - SLOW.rate * quick.rubbing) / (QUICK.rate - SLOW.rate)
-    return Joints(friction=np.maximum(coulomb, 0.0), links=mass_factors(arm, state.q, slow.weight))
+    links = mass_factors(arm, state.q, slow.weight)
+    _check_weighed(arm, links)
+    return Joints(friction=np.maximum(coulomb, 0.0), links=links)
+
+
+def _check_weighed(arm: ArmModel, links: Array) -> None:
+    """Raises FrictionUnknown if it cannot be weight alone that the drives bore."""
+    doubted = int(np.argmax(np.abs(links - 1)))
+    if abs(links[doubted] - 1) > PLAUSIBLE:
+        joint = arm.joints[doubted].name
+        raise FrictionUnknown(
+            f"the links could not be weighed: that of the {joint} would be {links[doubted]:.2f} times as heavy as "
+            f"drawn, so that a drive does not give the torque it is told"
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

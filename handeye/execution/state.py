@@ -11,7 +11,7 @@ import numpy as np
 
 from handeye.arm.model import ArmModel
 from handeye.errors import InvalidInput
-from handeye.mutable_records import MutableRecord
+from handeye.mutable_records import MutableRecord, put_back
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
@@ -117,6 +117,12 @@ class DriveState(MutableRecord, kw_only=True):
         """Hold the arm and the fingers where they are, with all the grip its hand has."""
         q = sensed.q
         return cls(q=q.copy(), here=q.copy(), friction=np.zeros(len(q)), gap=sensed.gap, grip=arm.hand.grip)
+
+    def hold_anew(self, sensed: Sensed, arm: ArmModel) -> None:
+        """Be as one that begins to hold the arm; what it has measured of itself stays known."""
+        anew = DriveState.holding(sensed, arm)
+        anew.friction, anew.links = self.friction, self.links
+        put_back(self, anew)
 
 
 class ExecutionState(SystemState, kw_only=True):

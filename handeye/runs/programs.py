@@ -15,8 +15,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
-from handeye.execution.state import DriveState, ExecutionState
-from handeye.mutable_records import put_back
+from handeye.execution.state import ExecutionState
 from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
@@ -136,17 +135,15 @@ class ProgramSystem(System):
 
     def _calibrate(self, eye: Eye) -> None:
         """Calibrate the camera; the arm is held where that leaves it."""
+        cell, drive = self._cell.devices, self.state.drive
         try:
             self.state.calibration = calibrate_camera(
-                self._cell.devices, self.arm, eye.drawing, eye.looks, self._halt, self._viewed
+                cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed
             )
             self.state.lens = eye.looks[-1].lens
         except (CalibrationFailed, SimulationError) as error:
             self.state.unable = str(error)
-        drive = self.state.drive
-        measured = drive.friction, drive.links
-        put_back(drive, DriveState.holding(self._cell.devices.sense(), self.arm))
-        drive.friction, drive.links = measured
+        drive.hold_anew(cell.sense(), self.arm)
         self._take_calibration()
 
     def _take_calibration(self) -> None:

@@ -15,8 +15,11 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
 from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
+from handeye.faults import Fault
+from handeye.tasks import task
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 
@@ -83,6 +86,15 @@ def test_a_joint_that_is_stuck_is_named() -> None:
         FrictionUnknown, match=r"^the friction of the joints could not be measured: the x does not move "
     ):
         measured(stuck)
+
+
+def test_a_pull_that_no_weight_of_a_link_explains_is_told() -> None:
+    pulled = WorldSpec(seed=3, faults=(Fault(name="force.off_zero.z", value=20.0),))
+    cell = task().cell(pulled, "ray").devices
+    with pytest.raises(
+        FrictionUnknown, match=r"^the links could not be weighed: that of the wrist roll would be 0\.34 times"
+    ):
+        measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD))
 
 
 def test_the_panic_button_stops_the_measurement() -> None:

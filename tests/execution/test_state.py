@@ -2,9 +2,14 @@
 
 import dataclasses
 
+import numpy as np
+from fakes import FakeCell
+
+from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.context import ExecutionContext
 from handeye.execution.drive import ArmDrive
 from handeye.execution.executor import Executor
+from handeye.execution.state import DriveState
 from handeye.program.world_model import WorldModel
 
 GIVEN = {
@@ -24,3 +29,13 @@ def test_what_works_holds_what_it_is_given_and_its_state() -> None:
         ArmDrive: {"state"},
         WorldModel: {"state"},
     }
+
+
+def test_an_arm_that_is_held_anew_forgets_what_it_felt_and_not_what_it_has_measured_of_itself() -> None:
+    sensed = FakeCell(np.zeros(6)).devices.sense()
+    drive = DriveState.holding(sensed, STANFORD)
+    drive.friction, drive.links = np.arange(6.0), np.arange(6.0) + 1
+    drive.wrench, drive.q, drive.cut, drive.in_air = np.ones(6), np.ones(6), True, True
+    drive.hold_anew(sensed, STANFORD)
+    assert (drive.friction.tolist(), drive.links.tolist()) == ([*range(6)], [*range(1, 7)])
+    assert [drive.wrench.any(), drive.q.any(), drive.cut, drive.in_air] == [False] * 4

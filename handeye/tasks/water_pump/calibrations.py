@@ -7,6 +7,8 @@ import numpy as np
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.camera import CameraState
 from handeye.execution.camera_calibration import calibrate_camera
+from handeye.execution.friction_measurement import measure_joints
+from handeye.execution.state import DriveState
 from handeye.ports.camera import LENSES
 from handeye.tasks.trial import Known
 from handeye.tasks.water_pump.cell import build_cell
@@ -42,7 +44,7 @@ def known_camera(
 
 
 def by_lamp(still: StillPump, renderer: str) -> Calibration:
-    """Calibrate as every run does: in the cell of the world the arm carries its lamp through the camera's view.
+    """Calibrate as runs do: in the cell of the world the arm measures itself, then carries its lamp through the view.
 
     The camera of the still scene goes on as that leaves it: with its lens, its aim, and the noise to come.
 
@@ -50,11 +52,14 @@ def by_lamp(still: StillPump, renderer: str) -> Calibration:
         CalibrationFailed: the lamp was seen too few times.
     """
     cell = build_cell(still.world, camera=renderer)
-    found = calibrate_camera(cell.devices, STANFORD, DRAWING, LOOKS)
+    drive = DriveState.holding(cell.devices.sense(), STANFORD)
+    found = measure_joints(cell.devices, STANFORD, drive)
+    drive.friction, drive.links = found.friction, found.links
+    calibration = calibrate_camera(cell.devices, STANFORD, drive, DRAWING, LOOKS)
     state = cell.truth.states["camera"]
     assert isinstance(state, CameraState)
     still.camera.restore(state)
-    return found
+    return calibration
 
 
 def by_sightings(still: StillPump, about: tuple[float, float, float]) -> Calibration:
