@@ -87,7 +87,8 @@ def test_row_24_center_leaves_the_object_where_it_is() -> None:
 def test_in_a_drawn_world_the_object_goes_with_the_hand_by_half_a_step_of_the_potentiometers_at_most() -> (
     None
 ):
-    assert closed("CENTER", 1).run.moved("top") < HALF_STEP
+    """Shown where it goes farthest of seeds 1 to 6: by .022 in, and by .01 in the others."""
+    assert closed("CENTER", 2).run.moved("top") < HALF_STEP
 
 
 @pytest.mark.row(25, **COUNT)
@@ -112,12 +113,15 @@ def test_row_26_center_on_nothing_raises_error_2_at_the_minimum_gap(seed: int | 
 @IN_WORLDS
 def test_row_27_center_measures_along_the_finger_line_only(seed: int | None) -> None:
     closing = closed("CENTER", seed, across=0.1)
-    assert closing.run.saved("D") == pytest.approx([0.0, -closing.off, 0.0], abs=HALF_STEP)
+    assert closing.run.saved("D") == pytest.approx([0.0, -closing.off, 0.0], abs=0.02)
     assert closing.run.saved("D")[[0, 2]] == pytest.approx([0.0, 0.0], abs=1e-3)
 
 
 FEELING = (None, 1, 2, 3)
 """Worlds in which the base is felt for."""
+TURNED = 0.75 * DEGREE
+"""By how much it may turn, rad. Chosen: closing beside its middle turns it by .63 degrees in seed 2, by .28 without
+errors, and by .07 in seeds 1 and 3."""
 
 
 @pytest.mark.row(28, nominal=1, drawn=len(FEELING) - 1)
@@ -130,5 +134,5 @@ def test_row_28_two_grasp_points_give_the_place_of_the_base_within_a_tenth(seed:
 def test_row_28_feeling_leaves_the_base_as_it_was(seed: int | None) -> None:
     feeling = felt(seed)
     assert feeling.run.finished
-    assert feeling.run.moved("base") < 0.04
-    assert yaw(feeling.run.pose("base")) == pytest.approx(feeling.turn, abs=1.0 * DEGREE)
+    assert feeling.run.moved("base") < 0.02
+    assert yaw(feeling.run.pose("base")) == pytest.approx(feeling.turn, abs=TURNED)

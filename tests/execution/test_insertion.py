@@ -47,9 +47,6 @@ def over_large_hole() -> Bench:
     return inserting(written(25.0, 38.0, 3.931, -90))
 
 
-REPEATABILITY = 0.08
-"""In a drawn world the hand comes back to within this (in): joint friction holds it up to 1 mm off, each time."""
-
 DEEP = 0.963
 """How far (in) the hand goes down from T until a pin is seated."""
 
@@ -159,7 +156,7 @@ def test_row_19_restoring_brings_the_hand_back_to_the_hole_without_a_search(seed
     inserted, tries = run.hand(), run.tries
     run.go()
     assert run.finished
-    assert run.hand() == pytest.approx(inserted, abs=0.02 if seed is None else REPEATABILITY)
+    assert run.hand() == pytest.approx(inserted, abs=PLAY)
     assert run.tries == tries
 
 

@@ -18,8 +18,6 @@ pytestmark = pytest.mark.slow
 
 PLAY = 0.04
 """Play (in) of a screw's tip in a mouth, and of the hand that holds the driver."""
-ARM = 0.03
-"""By how much (in) the error of a drawn arm differs between two holes."""
 MOVED = (0.1, 0.0)
 """How far the base is moved between two screws (in)."""
 CENTRED = "OPEN .6\nMOVE Q1\nCENTER .1\nSAVE Y1\nOPEN 1\nMOVE Q2\nOPEN .6\nCENTER .1\nSAVE X2\nOPEN 1\n"
@@ -76,8 +74,7 @@ def test_row_23_the_holes_after_it_use_the_new_place(seed: int | None) -> None:
     run = moved(seed).to("SAVE NOTHING")
     X_WB, (x, y) = run.pose("base"), screw_holes()[5]
     hole = X_WB @ planar(x, y, 0.0, 0.0)
-    near = PLAY if seed is None else PLAY + ARM
-    assert run.hand()[:2] == pytest.approx(hole[:2, 3] / INCH, abs=near)
+    assert run.hand()[:2] == pytest.approx(hole[:2, 3] / INCH, abs=PLAY)
 
 
 @pytest.mark.row(60, **COUNT)

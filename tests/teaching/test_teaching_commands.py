@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -82,7 +83,9 @@ def test_repl_finds_programs_and_what_is_taught_beside_a_script(command: Command
     Path("other.al").write_text("        MOVE    LOW\n")
     code, out, _ = command("repl", "job.al", typed="DO other\n")
     assert code == 0
-    assert out.startswith("    1 MOVE LOW                       hand at (")
+    line, place = out.split("hand at ")
+    assert line.split() == ["1", "MOVE", "LOW"]
+    assert [float(x) for x in re.findall(r"[\d.]+", place)] == pytest.approx([25, 30, 6], abs=0.05)
 
 
 @pytest.mark.parametrize("word", ["QUIT", "exit"])
