@@ -56,9 +56,10 @@ class Felt:
 
     @property
     def off(self) -> Array:
-        """How far (in) the felt place is from where the base truly is, shape (2,)."""
+        """How far (in) the felt place is from that of the base, as this arm tells places there, shape (2,)."""
         felt = self.planned + (self.run.saved("DA") + self.run.saved("DB"))[:2]
-        return felt - self.run.place("base")[:2]
+        error_of_arm = self.run.run.drive.hand()[:3, 3] / INCH - self.run.hand()
+        return felt - (self.run.place("base") + error_of_arm)[:2]
 
 
 @cache
@@ -117,11 +118,11 @@ def test_row_27_center_measures_along_the_finger_line_only(seed: int | None) -> 
     assert closing.run.saved("D")[[0, 2]] == pytest.approx([0.0, 0.0], abs=1e-3)
 
 
-FEELING = (None, 1, 2, 3)
-"""Worlds in which the base is felt for."""
+FEELING = (None, 1, 2, 4)
+"""Worlds in which the base is felt for. In seed 4 the arm itself is .11 in off there, which no touch can tell it."""
 TURNED = 0.75 * DEGREE
-"""By how much it may turn, rad. Chosen: closing beside its middle turns it by .63 degrees in seed 2, by .28 without
-errors, and by .07 in seeds 1 and 3."""
+"""By how much it may turn, rad. Chosen: closing beside its middle turns it by .63 degrees in seed 2, by .53 in seed 4,
+and by .28 without errors."""
 
 
 @pytest.mark.row(28, nominal=1, drawn=len(FEELING) - 1)
