@@ -15,6 +15,7 @@
         SPECIFIC BASE CLOSE_UP
 
         STAGE   "feel for the grasp"
+        OPEN    0               ;shut, they must read nothing
         OPEN    1.775
         SEARCH  .2
 LA:     MOVE    A
@@ -111,7 +112,7 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         MOVE    FACE            ;over the web of the base
         OPEN    0
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .5
+        CHANGE  [0 0 -1] .6 .1  ;slowly: .002 in a servo period
         SAVE    BARE            ;how high its face is
         CHANGE  [0 0 1] 1
 
@@ -120,7 +121,12 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         AIM     PUMP
         LOOK    BEFORE
         OPEN    1.9
-        MOVE    G
+        MOVE    GUP
+        STOP    [0 0 -25]
+        CHANGE  [0 0 -1] .7
+        SKIPE   23              ;no resistance: a finger is in each large hole
+        WAIT    "THE GASKET LIES OFF ITS PLACE"
+        MOVE    G DIRECT
         CLOSE   .7
         CHANGE  [0 0 1] 1
         SEARCH  .05
@@ -136,8 +142,9 @@ LG:     MOVE    GON
         MOVE    FACE
         OPEN    0
         STOP    [0 0 -40]
-        CHANGE  [0 0 -1] .6 .5
-        HEIGHT  BARE .02 .09    ;none is 0 in thick, two are .12
+        CHANGE  [0 0 -1] .6 .1
+        HEIGHT  BARE .045 .075  ;one gasket, .06 in thick
+        SAVE    LAID            ;how high it lies
         CHANGE  [0 0 1] 1
 
         STAGE   "check the gasket"
@@ -163,6 +170,12 @@ LT:     MOVE    TOPON
         LOAD    0
         OPEN    2.8
         CHANGE  [0 0 1] 3
+        MOVE    FLANGE          ;over the web, beside the hub
+        OPEN    0
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .1
+        HEIGHT  LAID .28 .32    ;its flange is .3 in thick: nothing is under it
+        CHANGE  [0 0 1] 1
 
         STAGE   "drive the first two screws"
         OPEN    1.6
@@ -211,17 +224,19 @@ K1:     MOVE    H0
         AOJ     K1
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .6 .4  ;down to the thread
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
         SKIPN   23
-        AOJ     K1
+        WAIT    "SCREW 1 IS NOT ON THE BIT"
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        WAIT    "SCREW 1 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
         TOOL    0
-        TRAVEL  .15 .35         ;a crossed thread stops high
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPE   8
         JUMP    N1
         TOOL    -190
@@ -229,7 +244,7 @@ K1:     MOVE    H0
         TOOL    0
         CHANGE  [0 0 1] .6
         SOJG    N K1            ;and once more
-        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+        WAIT    "SCREW 1 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 N1:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M2:     MOVE    S2
@@ -262,17 +277,22 @@ K2:     MOVE    H2
         AOJ     K2
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .6 .4  ;down to the thread
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
         SKIPN   23
-        AOJ     K2
+        WAIT    "SCREW 2 IS NOT ON THE BIT"
+        HEIGHT  HS -.06 .06     ;as high as the one before
+        SKIPN   9
+        WAIT    "SCREW 2 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        WAIT    "SCREW 2 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
         TOOL    0
-        TRAVEL  .15 .35         ;a crossed thread stops high
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPE   8
         JUMP    N2
         TOOL    -190
@@ -280,7 +300,7 @@ K2:     MOVE    H2
         TOOL    0
         CHANGE  [0 0 1] .6
         SOJG    N K2            ;and once more
-        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+        WAIT    "SCREW 2 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 N2:     CHANGE  [0 0 1] 1
         SEARCH  .07
 D1:     MOVE    DUP
@@ -376,17 +396,22 @@ K3:     MOVE    H5
         AOJ     K3
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .6 .4  ;down to the thread
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
         SKIPN   23
-        AOJ     K3
+        WAIT    "SCREW 3 IS NOT ON THE BIT"
+        HEIGHT  HS -.06 .06     ;as high as the one before
+        SKIPN   9
+        WAIT    "SCREW 3 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        WAIT    "SCREW 3 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
         TOOL    0
-        TRAVEL  .15 .35         ;a crossed thread stops high
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPE   8
         JUMP    N3
         TOOL    -190
@@ -394,7 +419,7 @@ K3:     MOVE    H5
         TOOL    0
         CHANGE  [0 0 1] .6
         SOJG    N K3            ;and once more
-        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+        WAIT    "SCREW 3 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 N3:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M4:     MOVE    S4
@@ -427,17 +452,22 @@ K4:     MOVE    H1
         AOJ     K4
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .6 .4  ;down to the thread
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
         SKIPN   23
-        AOJ     K4
+        WAIT    "SCREW 4 IS NOT ON THE BIT"
+        HEIGHT  HS -.06 .06     ;as high as the one before
+        SKIPN   9
+        WAIT    "SCREW 4 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        WAIT    "SCREW 4 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
         TOOL    0
-        TRAVEL  .15 .35         ;a crossed thread stops high
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPE   8
         JUMP    N4
         TOOL    -190
@@ -445,7 +475,7 @@ K4:     MOVE    H1
         TOOL    0
         CHANGE  [0 0 1] .6
         SOJG    N K4            ;and once more
-        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+        WAIT    "SCREW 4 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 N4:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M5:     MOVE    S5
@@ -478,17 +508,22 @@ K5:     MOVE    H4
         AOJ     K5
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .6 .4  ;down to the thread
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
         SKIPN   23
-        AOJ     K5
+        WAIT    "SCREW 5 IS NOT ON THE BIT"
+        HEIGHT  HS -.06 .06     ;as high as the one before
+        SKIPN   9
+        WAIT    "SCREW 5 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        WAIT    "SCREW 5 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
         TOOL    0
-        TRAVEL  .15 .35         ;a crossed thread stops high
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPE   8
         JUMP    N5
         TOOL    -190
@@ -496,7 +531,7 @@ K5:     MOVE    H4
         TOOL    0
         CHANGE  [0 0 1] .6
         SOJG    N K5            ;and once more
-        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+        WAIT    "SCREW 5 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 N5:     CHANGE  [0 0 1] 1
         SEARCH  .05
 M6:     MOVE    S6
@@ -529,17 +564,22 @@ K6:     MOVE    H3
         AOJ     K6
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .6 .4  ;down to the thread
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
         SKIPN   23
-        AOJ     K6
+        WAIT    "SCREW 6 IS NOT ON THE BIT"
+        HEIGHT  HS -.06 .06     ;as high as the one before
+        SKIPN   9
+        WAIT    "SCREW 6 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
         SAVE    HS
         TOOL    190
         TORQUE  42
         FORCE   [0 0 -22]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        WAIT    "SCREW 6 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
         TOOL    0
-        TRAVEL  .15 .35         ;a crossed thread stops high
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
         SKIPE   8
         JUMP    N6
         TOOL    -190
@@ -547,7 +587,7 @@ K6:     MOVE    H3
         TOOL    0
         CHANGE  [0 0 1] .6
         SOJG    N K6            ;and once more
-        WAIT    "A SCREW CROSSES ITS THREAD AGAIN AND AGAIN"
+        WAIT    "SCREW 6 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
 N6:     CHANGE  [0 0 1] 1
         SEARCH  .07
 D2:     MOVE    DUP
