@@ -5,6 +5,7 @@ height is known, so that one picture is enough: rays through the holes meet the 
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -16,20 +17,11 @@ from handeye.pose import Array
 from handeye.program.causes import NoHoles, NoOutline, OutsidePicture, SightCause
 from handeye.program.program import Part
 from handeye.units import DEGREE, INCH
-from handeye.vision.beam import Scan
 from handeye.vision.blob import BoundingBox, localise
 from handeye.vision.camera_model import View
-from handeye.vision.holes import (
-    SEARCHES,
-    HoleSearch,
-    Levels,
-    Pair,
-    candidates,
-    classify,
-    dark_screw_holes,
-    placed,
-    refine,
-)
+from handeye.vision.hole_search import SEARCHES, HoleFinder, Levels
+from handeye.vision.holes import Candidate, Pair, classify, dark_screw_holes, placed
+from handeye.vision.scan import Scan
 
 OUTLINE_STEP: Final = 2.0
 """Least step of intensity, levels, from the background to the part."""
@@ -110,7 +102,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
     region, outline = part.region, part.outline
     if region is None or outline is None:
         raise InvalidInput("vision needs the region and the outline of a part")
-    sizes = np.array([np.ptp(_silhouette(view, part, part.at[0], part.at[1], t), axis=0) for t in TURNS])
+    sizes = np.ptp(_silhouettes(view, part, part.at[:2], TURNS), axis=1)
     smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
     largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])
 
@@ -130,35 +122,37 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
 def _window(view: View, part: Part, region: tuple[float, float], outline: Rectangle, shrink: float) -> Array:
     """Corners (u, v) of where the part may be, shape (4, 2)."""
     x, y, z, yaw = part.at
-    reach = np.array([_rotated(outline, yaw + turn) for turn in TURNS]).reshape(-1, 2)
+    reach = _rotated(outline, yaw + TURNS).reshape(-1, 2)
     lo = np.array([x, y]) - region + reach.min(axis=0) + shrink
     hi = np.array([x, y]) + region + reach.max(axis=0) - shrink
     corners = np.array([[lo[0], lo[1]], [hi[0], lo[1]], [hi[0], hi[1]], [lo[0], hi[1]]])
     return view.project(np.column_stack([corners, np.full(4, z)]))
 
 
-def _rotated(outline: Rectangle, yaw: float) -> Array:
-    """Its corners turned about the reference point, shape (4, 2)."""
+def _rotated(outline: Rectangle, yaws: Array) -> Array:
+    """Its corners turned about the reference point, shape (n, 4, 2), for each yaw, shape (n,)."""
     x0, y0, x1, y1 = outline
-    c, s = math.cos(yaw), math.sin(yaw)
     corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
-    return np.asarray(corners @ np.array([[c, s], [-s, c]]))
+    c, s = np.cos(yaws), np.sin(yaws)
+    return np.asarray(corners @ np.array([[c, s], [-s, c]]).transpose(2, 0, 1))
 
 
-def _silhouette(view: View, part: Part, x: float, y: float, turn: float = 0.0) -> Array:
-    """Picture points of the corners of the part's outline, on the ground and on top, shape (8, 2)."""
+def _silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
+    """Picture points of the corners of the part's outline, on the ground and on top, shape (n, 8, 2), for each turn."""
     assert part.outline is not None
-    corners = _rotated(part.outline, part.at[3] + turn) + np.array([x, y])
-    z = np.repeat([part.at[2], part.at[2] + part.face], 4)
-    return view.project(np.column_stack([np.vstack([corners, corners]), z]))
+    corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
+    solid = np.empty((len(corners), 2, 4, 3))
+    solid[..., :2] = corners[:, None]
+    solid[:, 0, :, 2], solid[:, 1, :, 2] = part.at[2], part.at[2] + part.face
+    return view.project(solid.reshape(-1, 3)).reshape(-1, 8, 2)
 
 
 def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLocation:
     middle_z = part.at[2] + part.face / 2
     seen = view.back_project(box.corners().mean(axis=0), middle_z)[0, :2]
     xy = np.array(part.at[:2])
-    for _ in range(3):  # the offset from box to reference point changes a little with the place
-        outline = _silhouette(view, part, *xy)
+    for _ in range(2):  # the offset from box to reference point changes a little with the place
+        (outline,) = _silhouettes(view, part, xy, np.zeros(1))
         middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
         xy = xy + seen - view.back_project(middle, middle_z)[0, :2]
     corners = view.back_project(box.corners(), middle_z)
@@ -168,7 +162,7 @@ def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLoc
         y=float(xy[1]),
         corners=tuple((float(x), float(y), float(z)) for x, y, z in corners),
         beams=scan.beams,
-        points=int(scan.read.sum()),
+        points=scan.points,
     )
 
 
@@ -187,15 +181,25 @@ def locate_specific(
     if box is None:
         return Failure(cause=OutsidePicture())
     levels = Levels.measure(scan, box)
-    most: list[int] = []
-    for search in SEARCHES:
-        found = candidates(scan, view, box, part, levels, search)
-        most.append(len(found))
+    middle = box.corners().mean(axis=0)
+    finders = [HoleFinder(scan, view, part, middle, levels, search) for search in SEARCHES]
+    most = 0
+    for finder, found in _found(finders, (general.x, general.y), box):
+        most = max(most, len(found))
         pair = classify(found, part)
-        location = pair and _confirm(scan, view, part, pair, levels, search)
+        location = pair and _confirm(scan, view, part, pair, finder, levels)
         if location:
             return location
-    return Failure(cause=NoHoles(blobs=max(most)))
+    return Failure(cause=NoHoles(blobs=most))
+
+
+def _found(
+    finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
+) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
+    """What may be holes: first where they are expected, then all over the box, in one way after the other."""
+    yield finders[0], finders[0].expected(place)
+    for finder in finders:
+        yield finder, finder.all_over(box)
 
 
 def _close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
@@ -208,10 +212,10 @@ def _close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
 
 
 def _confirm(
-    scan: Scan, view: View, part: Part, pair: Pair, levels: Levels, search: HoleSearch
+    scan: Scan, view: View, part: Part, pair: Pair, finder: HoleFinder, levels: Levels
 ) -> SpecificLocation | None:
     """The location, unless the borders are not round or the screw holes are not where they should be."""
-    centres = refine(scan, view, pair, part, levels, search)
+    centres = finder.refined(pair)
     if centres is None:
         return None
     pose = placed(centres, part)
@@ -230,5 +234,5 @@ def _confirm(
         holes=(first, second),
         screw_holes=dark,
         beams=scan.beams,
-        points=int(scan.read.sum()),
+        points=scan.points,
     )

@@ -1,145 +1,138 @@
-"""The beam: the first discontinuity along a ray through the picture. Every other primitive is made of it."""
+"""Beams: the first discontinuity along each of several rays. Every other primitive is made of them and of walks.
 
-from typing import Final, Literal, NamedTuple
+A beam is done with when it has met its discontinuity: what it would have met farther on is not looked at.
+"""
+
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from handeye.pose import Array
-
-SPAN: Final = 3
-"""Points averaged on either side of a discontinuity: means of 2 are too noisy at one level of noise."""
-
-BRIGHTER: Final = 1
-DARKER: Final = -1
-Polarity = Literal[1, -1]
+from handeye.vision.edge import SPAN, Edges, Polarity
+from handeye.vision.scan import Scan
 
 
-class Edge(NamedTuple):
-    """A discontinuity met by a beam."""
-
-    u: float
-    v: float
-    before: float
-    """Intensity on the side the beam came from."""
-    after: float
-    length: float
-    """Points from the start of the beam."""
-
-
-class Scan:
-    """A picture as the primitives read it; it keeps account of what they read, for times and for people."""
-
-    def __init__(self, picture: NDArray[np.generic]) -> None:
-        """`picture`: intensities, shape (rows, columns)."""
-        self.image: NDArray[np.float32] = picture.astype(np.float32)
-        self.read: NDArray[np.bool_] = np.zeros(picture.shape, dtype=bool)
-        self.beams = 0
-        self.window: NDArray[np.bool_] = np.zeros(picture.shape, dtype=bool)
-        """Where beams may go; a margin of one point is never read, so that beams can be three points wide."""
-        self.open()
-
-    def open(self) -> None:
-        """Let beams go everywhere."""
-        self.window[1:-1, 1:-1] = True
-
-    def limit(self, quadrilateral: Array) -> None:
-        """Keep all beams within a convex quadrilateral, corners (u, v) in order, shape (4, 2)."""
-        rows, columns = self.image.shape
-        v, u = np.mgrid[0:rows, 0:columns]
-        sides = np.stack(
-            [
-                (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
-                for a, b in zip(quadrilateral, np.roll(quadrilateral, -1, axis=0), strict=True)
-            ]
-        )
-        self.window &= np.all(sides >= 0, axis=0) | np.all(sides <= 0, axis=0)
-
-    def levels(self, u: NDArray[np.intp], v: NDArray[np.intp], across: tuple[int, int] | None) -> Array:
-        """Intensities at points; averaged over three points in the direction `across`, if given."""
-        self.read[v, u] = True
-        if across is None:
-            return np.asarray(self.image[v, u], dtype=np.float64)
-        a, b = across
-        return np.asarray(
-            (self.image[v - b, u - a] + self.image[v, u] + self.image[v + b, u + a]) / 3, dtype=np.float64
-        )
-
-    def patch(self, u: float, v: float, radius: int) -> Array:
-        """The square of points about a place, cut off at the edge of the picture."""
-        column, row = round(u), round(v)
-        where = np.s_[max(row - radius, 0) : row + radius + 1, max(column - radius, 0) : column + radius + 1]
-        self.read[where] = True
-        return np.asarray(self.image[where], dtype=np.float64)
-
-
-def beam(
+def beams(
     scan: Scan,
-    start: tuple[float, float],
-    direction: tuple[float, float],
+    starts: Array,
+    directions: Array,
     polarity: Polarity,
     step: float,
-    reach: float,
+    reach: float | Array,
     *,
     wide: bool = False,
     beyond: float = 0.0,
-) -> Edge | None:
-    """The first discontinuity along a ray, or None.
+) -> Edges:
+    """The first discontinuity along each of several rays.
 
     Args:
-        start: (u, v).
-        direction: unit vector (du, dv).
+        starts: (u, v), shape (n, 2); a beam starts at the nearest point of the picture.
+        directions: unit vectors (du, dv), shape (n, 2).
         polarity: BRIGHTER: dark to bright; DARKER: bright to dark.
         step: least difference of intensity between SPAN points ahead and SPAN points behind.
-        reach: greatest length, points.
+        reach: greatest length, points; for all, or for each, shape (n,).
         wide: average over three points across, against noise.
         beyond: least intensity behind the discontinuity; those that lead to less are passed over.
     """
-    scan.beams += 1
-    (u0, v0), (du, dv) = start, direction
-    k = np.arange(1 - SPAN, int(reach) + SPAN)
-    u, v = np.rint(u0 + k * du).astype(np.intp), np.rint(v0 + k * dv).astype(np.intp)
-    lo, hi = _usable(scan, u, v)
-    if hi - lo < 2 * SPAN:
-        return None
-    across = (0, 1) if abs(du) >= abs(dv) else (1, 0)
-    line = scan.levels(u[lo:hi], v[lo:hi], across if wide else None)
-    mean = np.convolve(line, np.ones(SPAN) / SPAN, mode="valid")
-    rise = polarity * (mean[SPAN:] - mean[:-SPAN])
-    best = _first(rise, step, mean[SPAN:], beyond)
-    if best is None:
-        return None
-    length = float(k[lo]) + best + SPAN - 0.5 + _vertex(rise, best)
-    before, after = float(mean[best]), float(mean[best + SPAN])
-    return Edge(u=u0 + length * du, v=v0 + length * dv, before=before, after=after, length=length)
+    scan.beams += len(starts)
+    starts = np.rint(starts)
+    low, high = _run(scan, starts, directions, reach)
+    k = np.arange(1 - SPAN, max(SPAN, int(high.max(initial=0))) + 1)
+    usable = (k >= low[:, None]) & (k <= high[:, None])
+    where = _along(scan, starts, directions, k)
+    across = _across(scan, directions) if wide else None
+    total = _sums(scan, where, across)
+    rise = polarity * (total[:, SPAN:] - total[:, :-SPAN])
+    scale = SPAN * (3 if wide else 1)
+    rise[~(usable[:, : 1 - 2 * SPAN] & usable[:, 2 * SPAN - 1 :])] = _BLOCKED
+    met, first, best = _steepest(rise, step * scale, total[:, SPAN:], beyond * scale)
+    _account(scan, where, usable, across, np.where(met, first + 3 * SPAN, len(k)))
+    n = np.arange(len(starts))
+    length = k[0] + best + SPAN - 0.5 + _vertex(rise, best)
+    return Edges(
+        met=met,
+        uv=starts + length[:, None] * directions,
+        before=total[n, best] / scale,
+        after=total[n, best + SPAN] / scale,
+        length=length,
+    )
 
 
-def _first(rise: Array, step: float, ahead: Array, beyond: float) -> int | None:
-    """Index where the first rise of at least `step` is steepest, of those that lead to at least `beyond`."""
-    for start in np.flatnonzero(rise >= step):
-        best = int(start + np.argmax(rise[start : start + SPAN + 1]))
-        if ahead[best] >= beyond:
-            return best
-    return None
+_BLOCKED: Final = -1e6
+"""The rise where a beam may not look."""
 
 
-def _usable(scan: Scan, u: NDArray[np.intp], v: NDArray[np.intp]) -> tuple[int, int]:
-    """The run of ray points about the start that lies within the window, as a slice."""
-    rows, columns = scan.image.shape
-    usable = (u >= 0) & (u < columns) & (v >= 0) & (v < rows)
-    usable[usable] = scan.window[v[usable], u[usable]]
-    start = SPAN - 1
-    if not usable[start]:
-        return 0, 0
-    blocked = np.flatnonzero(~usable)
-    lo = int(blocked[blocked < start].max(initial=-1)) + 1
-    hi = int(blocked[blocked > start].min(initial=len(u)))
-    return lo, hi
+def _run(scan: Scan, starts: Array, directions: Array, reach: float | Array) -> tuple[Array, Array]:
+    """First and last point of each ray that may be read, shape (n,); no ray is shorter than what a step takes."""
+    back, ahead = scan.runs(starts, directions)
+    low = np.maximum(np.ceil(-back), 1 - SPAN)
+    high = np.minimum(np.floor(ahead), np.trunc(reach) + SPAN - 1)
+    high[high - low + 1 < 2 * SPAN] = -SPAN
+    return low, high
 
 
-def _vertex(y: Array, i: int) -> float:
-    """Place of the top of the parabola through three values about `i`, from -.5 to .5."""
-    if not 0 < i < len(y) - 1:
-        return 0.0
-    bend = y[i - 1] - 2 * y[i] + y[i + 1]
-    return float(np.clip((y[i - 1] - y[i + 1]) / (2 * bend), -0.5, 0.5)) if bend < 0 else 0.0
+def _along(scan: Scan, starts: Array, directions: Array, k: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Numbers of the points at distances `k` along rays, shape (n, len(k))."""
+    u, v = (np.rint(starts[:, i, None] + directions[:, i, None] * k) for i in (0, 1))
+    return np.asarray(v * scan.columns + u, dtype=np.intp)
+
+
+def _across(scan: Scan, directions: Array) -> NDArray[np.intp]:
+    """From a point to its neighbour across a ray, shape (n, 1): the one below or the one to the right."""
+    level = np.abs(directions[:, 0]) >= np.abs(directions[:, 1])
+    return np.where(level, scan.columns, 1)[:, None]
+
+
+def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:
+    """Sums over SPAN points in a row, and over three across if so, shape (n, points less SPAN - 1)."""
+    line = np.zeros(where.shape)
+    for beside in [where] if across is None else [where - across, where, where + across]:
+        line += scan.levels(beside)
+    places = where.shape[1] - SPAN + 1
+    return sum((line[:, k : k + places] for k in range(SPAN)), np.zeros((len(line), places)))
+
+
+def _steepest(
+    rise: Array, step: float, ahead: Array, beyond: float
+) -> tuple[NDArray[np.bool_], NDArray[np.intp], NDArray[np.intp]]:
+    """Whether each line has a rise of at least `step`, where the first is, and where near it is steepest.
+
+    Those that lead to less than `beyond` are passed over.
+    """
+    n, last = np.arange(len(rise)), rise.shape[1] - 1
+    strong = rise >= step
+    while True:
+        first = strong.argmax(axis=1)
+        near = np.minimum(first[:, None] + np.arange(SPAN + 1), last)
+        best = first + rise[n[:, None], near].argmax(axis=1)
+        met = strong[n, first]
+        passed = met & (ahead[n, best] < beyond)
+        if not passed.any():
+            return met, first, best
+        strong[passed, first[passed]] = False
+
+
+def _account(
+    scan: Scan,
+    where: NDArray[np.intp],
+    usable: NDArray[np.bool_],
+    across: NDArray[np.intp] | None,
+    ends: NDArray[np.intp],
+) -> None:
+    """Note what beams have read that looked at so many of their points at most."""
+    looked = usable & (np.arange(where.shape[1]) < ends[:, None])
+    scan.account(where[looked])
+    if across is not None:
+        scan.account((where - across)[looked])
+        scan.account((where + across)[looked])
+
+
+def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
+    """Places of the tops of the parabolas through three values about `i` in each line, from -.5 to .5, shape (n,)."""
+    n, last = np.arange(len(y)), y.shape[1] - 1
+    left, top, right = y[n, np.maximum(i - 1, 0)], y[n, i], y[n, np.minimum(i + 1, last)]
+    bend = left - 2 * top + right
+    known = (i > 0) & (i < last) & (bend < 0) & (np.minimum(left, right) > _BLOCKED)
+    place = np.divide(left - right, 2 * bend, out=np.zeros(len(y)), where=known)
+    return np.asarray(np.clip(place, -0.5, 0.5))

@@ -2,13 +2,18 @@
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.pose import Array
-from handeye.vision.beam import BRIGHTER, SPAN, Scan, beam
+from handeye.vision.beam import beams
+from handeye.vision.edge import BRIGHTER, SPAN
+from handeye.vision.scan import MARGIN, Scan
 
+COARSE: Final = 4
+"""The first beams are so many times as far from each other: a blob as large as what is looked for is met by those."""
 SPACING: Final = 6
 """Points between the beams sent inwards from the border of the window."""
 LOOK_AHEAD: Final = 4
@@ -59,75 +64,151 @@ def localise(
         tries: most boxes to grow.
     """
     scan.limit(window)
-    starts = [ray for ray in _inward(window) if _inside(scan, ray[0])]
-    if not starts:
+    sides = [_inwards(scan, window, side) for side in range(4)]
+    border = np.vstack([starts[::COARSE] for starts, _ in sides])
+    if not len(border):
         return None
-    background = float(np.median([scan.patch(*start, 1).mean() for start, _ in starts]))
+    background = np.sort(scan.patches(border, 1).mean(axis=(1, 2)))[len(border) // 2]
+    threshold = float(background) + 0.75 * step
     reach = 0.6 * math.hypot(*(window.max(axis=0) - window.min(axis=0)))
     seen: list[BoundingBox] = []
-    for start, (du, dv) in starts:
-        edge = beam(scan, start, (du, dv), BRIGHTER, step, reach, wide=True)
-        if edge is None or len(seen) == tries:
-            continue
-        u, v = edge.u + SPAN * du, edge.v + SPAN * dv
-        if any(box.contains(u, v) for box in seen) or not _inside(scan, (u, v)):
-            continue
-        if scan.patch(u, v, 1).mean() < background + 0.75 * step:
-            continue  # a speck
-        box = _grow(scan, round(u), round(v), background + 0.75 * step)
-        if fits(box):
-            return box
-        seen.append(box)
+    for starts, inwards in _coarse_first(sides):
+        for u, v in _bright(scan, starts, inwards, step, reach, threshold):
+            if any(box.contains(u, v) for box in seen):
+                continue
+            if len(seen) == tries:
+                return None
+            box = _grow(scan, round(u), round(v), threshold)
+            if fits(box):
+                return box
+            seen.append(box)
     return None
 
 
-def _inward(window: Array) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    middle = window.mean(axis=0)
-    for side in range(4):
-        a, b = window[side], window[(side + 1) % 4]
-        along = (b - a) / np.linalg.norm(b - a)
-        normal = np.array([-along[1], along[0]])
-        if (middle - a) @ normal < 0:
-            normal = -normal
-        for distance in np.arange(SPACING / 2, float(np.linalg.norm(b - a)), SPACING):
-            start = a + along * distance + normal * (SPAN + 1)
-            yield (float(start[0]), float(start[1])), (float(normal[0]), float(normal[1]))
+Rays = tuple[Array, Array]
+"""Starts (u, v) and unit vectors (du, dv), shape (n, 2) each."""
 
 
-def _inside(scan: Scan, place: tuple[float, float]) -> bool:
-    u, v = round(place[0]), round(place[1])
-    rows, columns = scan.window.shape
-    return 0 <= u < columns and 0 <= v < rows and bool(scan.window[v, u])
+def _inwards(scan: Scan, window: Array, side: int) -> Rays:
+    """Rays across the window from one of its sides."""
+    a, b = window[side], window[(side + 1) % 4]
+    length = math.dist(a, b)
+    along = (b - a) / length
+    inwards = np.array([-along[1], along[0]])
+    if (window.mean(axis=0) - a) @ inwards < 0:
+        inwards = -inwards
+    starts = a + np.arange(SPACING / 2, length, SPACING)[:, None] * along + inwards * (SPAN + 1)
+    starts = starts[scan.inside(np.rint(starts))]
+    return starts, np.broadcast_to(inwards, starts.shape)
+
+
+def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
+    """The rays of each side: first a few of each, then those between them."""
+    for starts, inwards in sides:
+        yield starts[COARSE // 2 :: COARSE], inwards[COARSE // 2 :: COARSE]
+    for starts, inwards in sides:
+        between = np.arange(len(starts)) % COARSE != COARSE // 2
+        yield starts[between], inwards[between]
+
+
+def _bright(
+    scan: Scan, starts: Array, inwards: Array, step: float, reach: float, threshold: float
+) -> Iterator[tuple[float, float]]:
+    """Places (u, v) just behind what beams have met, where it is more than a speck."""
+    edges = beams(scan, starts, inwards, BRIGHTER, step, reach, wide=True)
+    places = (edges.uv + SPAN * inwards)[edges.met]
+    places = places[scan.inside(places)]
+    means = scan.patches(places, 1).mean(axis=(1, 2))
+    yield from places[means >= threshold].tolist()
 
 
 def _grow(scan: Scan, u: int, v: int, threshold: float) -> BoundingBox:
-    """A side moves outwards as long as a line a little further out still crosses the blob."""
-    rows, columns = scan.image.shape
+    """A side moves outwards as long as a line a little farther out still crosses the blob."""
     box = [u - SPAN, v - SPAN, u + SPAN, v + SPAN]  # left, top, right, bottom
-    limits = (1, 1, columns - 2, rows - 2)
-    growing = True
-    while growing:
-        growing = False
-        for side, outwards in enumerate((-1, -1, 1, 1)):
-            for ahead in range(LOOK_AHEAD, 0, -1):
-                place = box[side] + outwards * ahead
-                if (limits[side] - place) * outwards >= 0 and _crosses(scan, box, side, place, threshold):
-                    box[side] = place
-                    growing = True
-                    break
-    return BoundingBox(left=box[0], top=box[1], right=box[2], bottom=box[3])
+    sides = [_Side(scan, side) for side in range(4)]
+    while sum(side.moves(box, threshold) for side in sides):
+        pass
+    return BoundingBox(*box)
 
 
-def _crosses(scan: Scan, box: list[int], side: int, place: int, threshold: float) -> bool:
-    """True if a line beside the box meets SPAN points in a row brighter, on average, than the threshold."""
-    rows, columns = scan.image.shape
-    along = side % 2 == 0  # the left and right sides are columns
-    lo, hi = (box[1], box[3]) if along else (box[0], box[2])
-    run = np.arange(max(lo, 1), min(hi, (rows if along else columns) - 2) + 1)
-    fixed = np.full_like(run, place)
-    u, v = (fixed, run) if along else (run, fixed)
-    usable = scan.window[v, u]
-    if np.count_nonzero(usable) < SPAN:
-        return False
-    line = scan.levels(u[usable], v[usable], (1, 0) if along else (0, 1))
-    return bool((np.convolve(line, np.ones(SPAN) / SPAN, mode="valid") > threshold).any())
+class _Side:
+    """A side of a growing box. It sees the picture turned so that outwards is to later lines."""
+
+    def __init__(self, scan: Scan, side: int) -> None:
+        """`side`: its number in a box."""
+        self.number, self.upright, self.backwards = side, side % 2 == 0, side < 2
+        self._clear: tuple[int, int, int] | None = None
+        """Line and places, outwards of which there was background only."""
+        self._image, self._read = self._turned(scan.image), self._turned(scan.read)
+        across, along, offset = scan.sides.T
+        self._window = list(zip(*self._turned_window(across, along, offset), strict=True))
+
+    def moves(self, box: list[int], threshold: float) -> bool:
+        """Move outwards in a box to where a line ahead crosses the blob, and on to the blob's end from there."""
+        line = self._line(box[self.number])
+        low, high = (box[1], box[3]) if self.upright else (box[0], box[2])
+        if (line, low, high) == self._clear:
+            return False
+        self._clear = line, low, high
+        last = min(line + LOOK_AHEAD, len(self._image) - 1 - MARGIN)
+        low, high = self._in_window(line + 1, last, low, high)
+        if last <= line or high - low < SPAN - 1:
+            return False
+        self._read[line : last + 2, low : high + 1] = True
+        bright = self._means(line + 1, last, low, high) > threshold
+        crossing = np.flatnonzero(bright.any(axis=1))
+        if not len(crossing):
+            return False
+        line += 1 + int(crossing[-1])
+        places = np.flatnonzero(bright[crossing[-1]])
+        middle = low + SPAN // 2 + int(places[len(places) // 2])
+        box[self.number] = self._line(self._end(line, middle, threshold))
+        return True
+
+    def _turned(self, points: NDArray[Any]) -> NDArray[Any]:
+        turned = points.T if self.upright else points
+        return turned[::-1] if self.backwards else turned
+
+    def _line(self, place: int) -> int:
+        """The line of a row or column of the picture, and the other way round."""
+        return len(self._image) - 1 - place if self.backwards else place
+
+    def _turned_window(
+        self, u: Array, v: Array, offset: Array
+    ) -> tuple[list[float], list[float], list[float]]:
+        """The window's sides: what is added for each line outwards, for each point along it, and at the first."""
+        outwards, along = (u, v) if self.upright else (v, u)
+        if self.backwards:
+            offset, outwards = offset + outwards * (len(self._image) - 1), -outwards
+        return outwards.tolist(), along.tolist(), offset.tolist()
+
+    def _in_window(self, first: int, last: int, low: int, high: int) -> tuple[int, int]:
+        """What of places `low` to `high` lies within the window on all these lines."""
+        for outwards, along, offset in self._window:
+            least = offset + min(outwards * first, outwards * last)
+            if along > 0:
+                low = max(low, math.ceil(-least / along))
+            elif along < 0:
+                high = min(high, math.floor(-least / along))
+            elif least <= 0:
+                high = low - 1
+        return low, high
+
+    def _means(self, first: int, last: int, low: int, high: int) -> NDArray[np.float32]:
+        """Means over squares of SPAN points about lines `first` to `last`, shape (lines, places)."""
+        slab = self._image[first - 1 : last + 2, low : high + 1]
+        wide = slab[:-2] + slab[1:-1] + slab[2:]
+        return np.asarray((wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]) / SPAN**2)
+
+    def _end(self, line: int, middle: int, threshold: float) -> int:
+        """The last line that is reached from a line through the blob, straight outwards."""
+        far = len(self._image) - 1 - MARGIN
+        for outwards, along, offset in self._window:
+            if outwards < 0:
+                far = min(far, math.floor((offset + along * middle) / -outwards))
+        if far <= line:
+            return line
+        dark = np.flatnonzero(self._means(line + 1, far, middle - 1, middle + 1) <= threshold)
+        end = line + int(dark[0]) if len(dark) else far
+        self._read[line : end + 3, middle - 1 : middle + 2] = True
+        return end

@@ -7,6 +7,7 @@ and tilt 0; pan turns it counter-clockwise seen from above, tilt turns it downwa
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -94,7 +95,7 @@ class CameraModel:
         return pan, tilt
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class View:
     """A camera at one setting: where points of the world fall in the picture, and back."""
 
@@ -110,13 +111,13 @@ class View:
         f = self.lens.focal_length * self.lens.scale
         return f * COLUMNS / RASTER[0], f * ROWS / RASTER[1]
 
-    @property
+    @cached_property
     def X_WC(self) -> Pose:
         """Pose of the camera frame; its origin is the centre of projection."""
         pan, tilt, roll = self.pan + self.model.pan0, self.tilt + self.model.tilt0, self.model.roll
         forward = np.array([math.sin(pan) * math.cos(tilt), -math.cos(pan) * math.cos(tilt), -math.sin(tilt)])
         level = np.array([-math.cos(pan), -math.sin(pan), 0.0])
-        down = np.cross(forward, level)
+        down = np.array([-math.sin(tilt) * math.sin(pan), math.sin(tilt) * math.cos(pan), -math.cos(tilt)])
         c, s = math.cos(roll), math.sin(roll)
         right, down = c * level + s * down, c * down - s * level
         lens = self.lens
@@ -132,14 +133,13 @@ class View:
     def back_project(self, uv: Array, z: float) -> Array:
         """Points, shape (n, 3), m, at height `z` that are seen at `uv`, shape (n, 2)."""
         X_WC = self.X_WC
-        rays = self.rays(uv, X_WC)
+        rays = self.rays(uv)
         return np.asarray(X_WC[:3, 3] + rays * ((z - X_WC[2, 3]) / rays[:, 2:]))
 
-    def rays(self, uv: Array, X_WC: Pose | None = None) -> Array:
+    def rays(self, uv: Array) -> Array:
         """Directions in W, shape (n, 3), of points (u, v), shape (n, 2); length 1 along the line of sight."""
-        X = self.X_WC if X_WC is None else X_WC
         slopes = (np.atleast_2d(uv) - CENTRE) / self.focal
-        return np.asarray(np.column_stack([slopes, np.ones(len(slopes))]) @ X[:3, :3].T)
+        return np.asarray(np.column_stack([slopes, np.ones(len(slopes))]) @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
         """Picture points per metre, along the lines and across them, of the horizontal plane there."""

@@ -27,10 +27,10 @@ from handeye.program.causes import (
 )
 from handeye.program.program import Hole, Part
 from handeye.units import INCH
-from handeye.vision.beam import Scan
 from handeye.vision.camera_model import View
 from handeye.vision.characteriser import fit_circle, rim
 from handeye.vision.holes import hole_places
+from handeye.vision.scan import Scan
 
 ABSENT: Final = 2.2
 """Mean difference, levels, where the gasket should be, below which there is none."""
@@ -161,7 +161,7 @@ def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Step
     gasket = float(np.percentile(_around(new, view, place, hole), 25))
     face = float(np.percentile(_around(old, view, place, hole), 25))
     u, v = view.project(place)[0]
-    inside = float(np.median(old.patch(float(u), float(v), 3)))
+    inside = float(np.median(old.patches(np.array([[u, v]]), 3)))
     return _Steps(
         after=max(STEP[0], STEP[1] * gasket),
         before=max(STEP[0], BEFORE_STEP * (face - inside)),
@@ -171,7 +171,7 @@ def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Step
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
     """Intensities on a ring around a hole, where there is face or gasket and little else, shape (24,)."""
-    return np.array([scan.patch(float(u), float(v), 1).mean() for u, v in _ring(view, place, hole)])
+    return np.asarray(scan.patches(_ring(view, place, hole), 1).mean(axis=(1, 2)))
 
 
 def _ring(view: View, place: Array, hole: Hole) -> Array:

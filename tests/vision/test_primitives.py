@@ -1,6 +1,7 @@
 """Beam, blob localiser and convex blob characteriser (reference 8, rows 47 to 49)."""
 
 import math
+from collections.abc import Callable
 
 import cv2
 import numpy as np
@@ -9,9 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.vision.beam import BRIGHTER, DARKER, Scan, beam
+from handeye.vision.beam import beams
 from handeye.vision.blob import localise
 from handeye.vision.characteriser import characterise
+from handeye.vision.edge import BRIGHTER, DARKER, Edge, Polarity
+from handeye.vision.scan import Scan
+from handeye.vision.walk import walk
+
+Place = tuple[float, float]
+Beam = Callable[..., Edge | None]
 
 
 def step_picture() -> np.ndarray:
@@ -28,44 +35,114 @@ def ellipse(width: float, height: float, inside: int = 3, outside: int = 11) -> 
     return np.where(within, inside, outside).astype(np.uint8)
 
 
+def one_of_many(scan: Scan, start: Place, direction: Place, *how: float, **more: float) -> Edge | None:
+    """A beam sent at once with another, which is outside the picture."""
+    starts, directions = np.array([(-9, -9), start]), np.array([(0, 1), direction], float)
+    return beams(scan, starts, directions, *how, **more).edge(1)
+
+
+EITHER = pytest.mark.parametrize("beam", [one_of_many, walk])
+
+
 @pytest.mark.row(47)
-def test_a_beam_meets_a_step_where_it_is():
+@EITHER
+def test_a_beam_meets_a_step_where_it_is(beam: Beam):
     edge = beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 4, 200)
     assert edge is not None
-    assert edge.u == pytest.approx(119.5, abs=0.5)
+    assert edge.u == pytest.approx(119.5, abs=0.01)
     assert (edge.before, edge.after) == (3, 11)
 
 
+@EITHER
+@pytest.mark.parametrize("start", [19.6, 20.0, 20.4])
+def test_where_in_a_point_a_beam_starts_does_not_move_what_it_meets(beam: Beam, start: float):
+    edge = beam(Scan(step_picture()), (start, 100.4), (1, 0), BRIGHTER, 4, 200)
+    assert edge is not None
+    assert (edge.u, edge.v) == pytest.approx((119.5, 100), abs=0.01)
+
+
 @pytest.mark.row(47)
-def test_a_beam_finds_nothing_below_its_threshold():
+@EITHER
+def test_a_beam_finds_nothing_below_its_threshold(beam: Beam):
     assert beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 8.5, 200) is None
 
 
-def test_a_beam_finds_only_the_polarity_it_is_asked_for():
+@EITHER
+def test_a_beam_finds_only_the_polarity_it_is_asked_for(beam: Beam):
     assert beam(Scan(step_picture()), (20, 100), (1, 0), DARKER, 4, 200) is None
     assert beam(Scan(step_picture()), (220, 100), (-1, 0), DARKER, 4, 200) is not None
 
 
-def test_a_beam_goes_no_farther_than_its_reach():
+@EITHER
+def test_a_beam_goes_no_farther_than_its_reach(beam: Beam):
     assert beam(Scan(step_picture()), (20, 100), (1, 0), BRIGHTER, 4, 90) is None
 
 
-def test_a_beam_that_starts_outside_the_picture_finds_nothing():
+@EITHER
+def test_a_beam_goes_no_farther_than_its_window(beam: Beam):
+    scan = Scan(step_picture())
+    scan.limit(np.array([[10, 10], [118, 10], [118, 245], [10, 245]], float))
+    assert beam(scan, (20, 100), (1, 0), BRIGHTER, 4, 200) is None
+
+
+@EITHER
+def test_a_beam_that_starts_outside_the_picture_finds_nothing(beam: Beam):
     assert beam(Scan(step_picture()), (-30, 100), (1, 0), BRIGHTER, 4, 200) is None
 
 
+@EITHER
+def test_a_beam_passes_over_a_step_that_leads_to_less_than_it_asks_for(beam: Beam):
+    picture = step_picture()
+    picture[:, 60:120] = 7
+    edge = beam(Scan(picture), (20, 100), (1, 0), BRIGHTER, 3, 200, beyond=9)
+    assert edge is not None
+    assert edge.u == pytest.approx(119.5, abs=0.5)
+
+
 def test_a_slanted_beam_meets_the_step_at_its_true_length():
-    edge = beam(Scan(step_picture()), (60, 60), (math.sqrt(0.5), math.sqrt(0.5)), BRIGHTER, 4, 150)
+    edge = one_of_many(Scan(step_picture()), (60, 60), (math.sqrt(0.5), math.sqrt(0.5)), BRIGHTER, 4, 150)
     assert edge is not None
     assert edge.length == pytest.approx(59.5 * math.sqrt(2), abs=1)
 
 
-def test_a_beam_keeps_account_of_the_points_it_reads():
+@EITHER
+def test_a_beam_keeps_account_of_the_points_it_reads_and_reads_none_behind_its_step(beam: Beam):
     scan = Scan(step_picture())
     beam(scan, (20, 100), (1, 0), BRIGHTER, 4, 150)
-    assert scan.beams == 1
-    assert scan.read[100, 20:170].all()
-    assert not scan.read[:100].any()
+    assert scan.read[100, 20:122].all()
+    assert not scan.read[100, 128:].any()
+    assert not scan.read[50:100].any()
+
+
+@EITHER
+def test_a_beam_three_points_wide_has_read_three_lines(beam: Beam):
+    scan = Scan(step_picture())
+    beam(scan, (20, 100), (1, 0), BRIGHTER, 4, 150, wide=True)
+    assert scan.read[99:102, 20:122].all()
+    assert not scan.read[102:].any()
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    start=st.tuples(st.floats(0, COLUMNS), st.floats(0, ROWS)),
+    direction=st.sampled_from([(1, 0), (-1, 0), (0, 1), (0, -1)]),
+    polarity=st.sampled_from([BRIGHTER, DARKER]),
+    reach=st.integers(0, 90),
+    wide=st.booleans(),
+    beyond=st.sampled_from([0.0, 8.0]),
+)
+def test_a_beam_that_walks_meets_reads_and_counts_what_one_of_many_does(
+    start: Place, direction: Place, polarity: Polarity, reach: int, wide: bool, beyond: float
+):
+    noise = np.random.default_rng(0).integers(0, 16, (ROWS, COLUMNS), dtype=np.uint8)
+    alone, together = Scan(noise), Scan(noise)
+    how = start, direction, polarity, 5.0, reach
+    one = walk(alone, *how, wide=wide, beyond=beyond)
+    other = beams(
+        together, np.array([start]), np.array([direction], float), *how[2:], wide=wide, beyond=beyond
+    ).edge(0)
+    assert one == other
+    assert np.array_equal(alone.read, together.read)
 
 
 @pytest.mark.row(48)

@@ -10,15 +10,17 @@ from handeye.ports.camera import COLUMNS, ROWS
 from handeye.program.causes import GasketHoleOff, NoHoles, NoOutline
 from handeye.units import DEGREE, INCH
 from handeye.vision.base import Failure, GeneralLocation, locate_general, locate_specific
-from handeye.vision.beam import BRIGHTER, Scan, beam
 from handeye.vision.characteriser import Blob, fit_circle
+from handeye.vision.edge import BRIGHTER
 from handeye.vision.gasket import inspect
 from handeye.vision.holes import Candidate, Pair, classify, hole_places
 from handeye.vision.lamp import find_spot
+from handeye.vision.scan import Scan
+from handeye.vision.walk import walk
 
 PART = part()
 LARGE, SMALL = PART.holes
-BLOB = Blob(u=0.0, v=0.0, width=1.0, height=1.0, surround=0.0, bounces=2)
+BLOB = Blob(u=0.0, v=0.0, width=1.0, height=1.0, bounces=2)
 MIDDLE = np.array([44.5, 28.0, 2.75]) * INCH
 CLOSE = view(0.050, tuple(MIDDLE))
 
@@ -26,7 +28,7 @@ CLOSE = view(0.050, tuple(MIDDLE))
 def test_a_line_two_points_wide_is_no_edge_of_its_full_height():
     picture = np.full((ROWS, COLUMNS), 3, np.uint8)
     picture[:, 120:122] = 11
-    assert beam(Scan(picture), (20, 100), (1, 0), BRIGHTER, 6, 200) is None
+    assert walk(Scan(picture), (20, 100), (1, 0), BRIGHTER, 6, 200) is None
 
 
 def pair(large: float = 1.0, small: float = 1.0, distance: float = 1.0, turn: float = 0.0) -> Pair | None:

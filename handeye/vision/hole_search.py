@@ -1,0 +1,197 @@
+"""Finding the large holes of a part in a picture of it: where they should be, or else by beams all over it."""
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from handeye.pose import Array
+from handeye.program.program import Part
+from handeye.units import INCH
+from handeye.vision.beam import beams
+from handeye.vision.blob import BoundingBox
+from handeye.vision.camera_model import View
+from handeye.vision.characteriser import Blob, characterise, fit_circle, rim
+from handeye.vision.edge import DARKER
+from handeye.vision.holes import SIZE_ERROR, TURN, Candidate, Pair, hole_places
+from handeye.vision.scan import Scan
+
+ELONGATION: Final = (0.6, 1.65)
+SIZES: Final = (0.55, 1.3)
+"""Accepted sizes, over the diameters of the smallest and the largest hole."""
+SEED: Final = 4
+"""Points inside the border where bouncing starts."""
+
+# All figures above: vision study, sections 1.2 and 1.3.
+
+INNER: Final = 0.25
+"""Where beams to the border of a hole begin, over its smaller width: half-way to it."""
+ANGLES: Final = np.linspace(-TURN, TURN, 7)
+"""Of beams from the largest hole to the second, from where it is planned: none can pass between two of them."""
+BEFORE: Final = 0.35 * INCH
+"""Before the border of the second hole, where those beams begin: beyond the screw holes about the first."""
+
+
+class HoleSearch(NamedTuple):
+    """One way to look for holes: how closely, and for how clear a border."""
+
+    spacing: int
+    """Points between beams."""
+    wide: bool
+    """Average over three points across a beam."""
+    contrast: float
+    """Step that is an edge, as a share of the contrast in the box."""
+    face: float = 0.72
+    """Least brightness around a hole, as a share of the level of the machined face."""
+
+
+SEARCHES: Final = (
+    HoleSearch(7, False, 0.38),
+    HoleSearch(7, True, 0.38),
+    HoleSearch(5, True, 0.28),
+    HoleSearch(5, True, 0.20),
+    HoleSearch(5, True, 0.20, face=0.4),
+)
+"""Tried in this order: starting with a small step finds more that is not a hole. The last is for the shadow
+of the arm across the face, which the vision study did not have."""
+
+
+class Levels(NamedTuple):
+    """Intensities in a box about the part."""
+
+    face: float
+    dark: float
+
+    @classmethod
+    def measure(cls, scan: Scan, box: BoundingBox) -> "Levels":
+        """From every fourth point of every fourth line."""
+        where = np.s_[box.top : box.bottom : 4, box.left : box.right : 4]
+        scan.read[where] = True
+        ordered = np.sort(scan.image[where], axis=None)
+        dark, face = (float(ordered[round(share * (len(ordered) - 1))]) for share in (0.12, 0.92))
+        return cls(face=face, dark=dark)
+
+    def step(self, search: HoleSearch) -> float:
+        """Least difference of intensity for an edge; two levels are a few times the noise."""
+        return max(2.0, search.contrast * (self.face - self.dark))
+
+
+class HoleFinder:
+    """Looks for the holes of a part in one way."""
+
+    def __init__(
+        self, scan: Scan, view: View, part: Part, middle: Array, levels: Levels, search: HoleSearch
+    ) -> None:
+        """`middle`: a point (u, v) on the part, shape (2,), where its resolution is measured."""
+        self._scan, self._view, self._part, self._search = scan, view, part, search
+        self._z = part.at[2] + part.face
+        self._across, self._down = view.resolution(view.back_project(middle, self._z)[0])
+        self._step, self._bright = levels.step(search), search.face * levels.face
+
+    def expected(self, place: tuple[float, float]) -> list[Candidate]:
+        """The largest hole where the part's reference point (x, y), m, lets it be expected, and what is around it.
+
+        The second hole is met by beams that go out from the first, at all angles that the part may be turned by.
+        """
+        part = self._part
+        first = self._tried(self._view.project(hole_places(part, (*place, part.at[3]))[0])[0])
+        if first is None or abs(first.size / part.holes[0].diameter - 1) > SIZE_ERROR:
+            return []
+        found = [first]
+        for seed in self._around(first):
+            if not any(_within(seed, known.blob) for known in found):
+                found += filter(None, [self._tried(seed)])
+        return found
+
+    def _around(self, first: Candidate) -> Array:
+        """Places (u, v) just within what beams from the largest hole outwards meet, shape (n, 2)."""
+        large, small = self._part.holes[:2]
+        planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
+        spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])
+        away = math.hypot(small.x - large.x, small.y - large.y)
+        near, far = (
+            self._view.project(
+                np.column_stack([spokes * r + (first.x, first.y), np.full(len(spokes), self._z)])
+            )
+            for r in (away - small.diameter / 2 - BEFORE, away)
+        )
+        lengths = np.hypot(*(far - near).T)
+        ahead = (far - near) / lengths[:, None]
+        edges = beams(self._scan, near, ahead, DARKER, self._step, lengths.max(), wide=True)
+        return np.asarray((edges.uv + SEED * ahead)[edges.met & (edges.before >= self._bright)])
+
+    def all_over(self, box: BoundingBox) -> list[Candidate]:
+        """Send beams through the box; at every step from the bright face to dark try the characteriser."""
+        found: list[Candidate] = []
+        for seed in self._dark_steps(box):
+            if not any(_within(seed, known.blob) for known in found):
+                found += filter(None, [self._tried(seed)])
+        return found
+
+    def _dark_steps(self, box: BoundingBox) -> Array:
+        """Places (u, v) just behind every step from bright to dark on beams through the box, shape (n, 2)."""
+        starts, ahead, lengths = _lines(box, self._search.spacing)
+        gone, line = np.zeros(len(starts)), np.arange(len(starts))
+        steps: list[tuple[int, float]] = []
+        while len(line):
+            edges = beams(
+                self._scan, starts[line] + gone[line, None] * ahead[line], ahead[line],
+                DARKER, self._step, (lengths - gone)[line], wide=self._search.wide,
+            )  # fmt: skip
+            face = edges.met & (edges.before >= self._bright)  # else outline, plate or shadow
+            steps += zip(line[face].tolist(), (gone[line] + edges.length + SEED)[face].tolist(), strict=True)
+            gone[line] += edges.length + 2
+            line = line[edges.met & (gone[line] < lengths[line] - 2 * SEED)]
+        steps.sort()
+        return np.array([starts[n] + k * ahead[n] for n, k in steps]).reshape(-1, 2)
+
+    def _tried(self, seed: Array) -> Candidate | None:
+        """What the characteriser makes of a place, if that may be a hole of the part."""
+        reach = 1.35 * self._part.holes[0].diameter * self._across
+        blob = characterise(
+            self._scan, (float(seed[0]), float(seed[1])), self._step, reach,
+            wide=self._search.wide, beyond=0.9 * self._bright,
+        )  # fmt: skip
+        size = blob and _size(blob.width / self._across, blob.height / self._down, self._part)
+        if blob is None or size is None:
+            return None
+        x, y, _ = self._view.back_project(np.array([blob.u, blob.v]), self._z)[0].tolist()
+        return Candidate(blob, x, y, size)
+
+    def refined(self, pair: Pair) -> Array | None:
+        """Centres of the two holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
+        centres = [
+            self._fitted(candidate.blob, hole.diameter)
+            for candidate, hole in zip(pair, self._part.holes, strict=False)
+        ]
+        return None if None in centres else np.array(centres)
+
+    def _fitted(self, blob: Blob, diameter: float) -> tuple[float, float] | None:
+        points = rim(
+            self._scan, (blob.u, blob.v), self._step, 0.75 * blob.width + 3,
+            inner=INNER * min(blob.width, blob.height), wide=self._search.wide, beyond=0.9 * self._bright,
+        )  # fmt: skip
+        return fit_circle(self._view, points, self._z, diameter)
+
+
+def _size(width: float, height: float, part: Part) -> float | None:
+    """Mean diameter (m) of a blob that is round enough, and as large as a hole of the part may be."""
+    size = math.sqrt(max(width * height, 0.0))
+    is_round = ELONGATION[0] * height < width < ELONGATION[1] * height
+    fits = SIZES[0] * part.holes[1].diameter < size < SIZES[1] * part.holes[0].diameter
+    return size if is_round and fits else None
+
+
+def _lines(box: BoundingBox, spacing: int) -> tuple[Array, Array, Array]:
+    """Starts, directions and lengths of beams in rows and, half as dense, in columns."""
+    left, top, right, bottom = box
+    rows = np.array([[left, v] for v in range(top + spacing, bottom, spacing)]).reshape(-1, 2)
+    columns = np.array([[u, top] for u in range(left + spacing, right, 2 * spacing)]).reshape(-1, 2)
+    ahead = np.repeat([[1.0, 0.0], [0.0, 1.0]], [len(rows), len(columns)], axis=0)
+    lengths = np.repeat([right - left, bottom - top], [len(rows), len(columns)])
+    return np.vstack([rows, columns]).astype(float), ahead, lengths.astype(float)
+
+
+def _within(place: Array, blob: Blob) -> bool:
+    u, v = place
+    return bool(abs(u - blob.u) < blob.width / 2 + 1 and abs(v - blob.v) < blob.height / 2 + 1)

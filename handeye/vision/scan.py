@@ -1,0 +1,113 @@
+"""A picture as the primitives read it, with an account of what they have read."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.pose import Array
+
+Places = NDArray[np.intp]
+"""Numbers of points, line by line from the first."""
+MARGIN: Final = 1
+"""Points at the border that no beam enters, so that it can be three points wide."""
+
+
+class Scan:
+    """A picture that beams go through, within a window; it counts beams and points, for times and for people."""
+
+    def __init__(self, picture: NDArray[np.generic]) -> None:
+        """`picture`: intensities, shape (rows, columns)."""
+        self.image: NDArray[np.float32] = picture.astype(np.float32)
+        self.rows, self.columns = picture.shape
+        self._levels = memoryview(self.image.ravel().data)
+        self.read: NDArray[np.bool_] = np.zeros(picture.shape, dtype=bool)
+        self._read = self.read.ravel()
+        self.beams = 0
+        self.open()
+
+    @property
+    def points(self) -> int:
+        """How many points have been read, each counted once."""
+        return int(np.count_nonzero(self.read))
+
+    def open(self) -> None:
+        """Let beams go everywhere but on the margin."""
+        low, high = MARGIN - 0.5, MARGIN + 0.5
+        self.sides = np.array(
+            [[1, 0, -low], [0, 1, -low], [-1, 0, self.columns - high], [0, -1, self.rows - high]], dtype=float
+        )
+        """A line for each side, shape (n, 3): within it a*u + b*v + c is positive."""
+        self._lines = self.sides.tolist()
+
+    def limit(self, quadrilateral: Array) -> None:
+        """Keep all beams within a convex quadrilateral, corners (u, v) in order, shape (4, 2)."""
+        along = np.roll(quadrilateral, -1, axis=0) - quadrilateral
+        normal = np.column_stack([-along[:, 1], along[:, 0]])
+        offset = -(normal * quadrilateral).sum(axis=1)
+        inwards = np.sign(normal @ quadrilateral.mean(axis=0) + offset)
+        sides = np.column_stack([normal, offset]) * inwards[:, None]
+        self.sides = np.vstack([self.sides, sides])
+        self._lines = self.sides.tolist()
+
+    def inside(self, places: Array) -> NDArray[np.bool_]:
+        """Which of some places (u, v), shape (n, 2), lie within the window, shape (n,)."""
+        return np.asarray((self._heights(places) > 0).all(axis=1))
+
+    def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
+        """How far rays may go back and ahead from starts within the window, points, shape (n,) each."""
+        heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
+        blank = np.full_like(heights, np.inf)
+        ahead = np.divide(heights, -slopes, out=blank.copy(), where=slopes < -1e-9).min(axis=1)
+        back = np.divide(heights, slopes, out=blank, where=slopes > 1e-9).min(axis=1)
+        outside = (heights <= 0).any(axis=1)
+        ahead[outside] = -np.inf
+        return back, ahead
+
+    def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
+        """How many points one ray may go back and ahead; ahead less than none from a start outside the window."""
+        back = ahead = math.inf
+        for a, b, c in self._lines:
+            height, slope = a * u + b * v + c, a * du + b * dv
+            if height <= 0:
+                return 0, -1
+            if slope > 0:
+                back = min(back, height / slope)
+            elif slope < 0:
+                ahead = min(ahead, -height / slope)
+        return math.floor(back), math.floor(ahead)
+
+    def _heights(self, places: Array) -> Array:
+        """How far within each side of the window places lie, in no unit, shape (n, sides)."""
+        return np.asarray(places @ self.sides[:, :2].T + self.sides[:, 2])
+
+    def levels(self, places: Places) -> NDArray[np.float32]:
+        """Intensities at points; those beyond the picture's ends are those at its ends."""
+        return self.image.take(places, mode="clip")
+
+    def account(self, places: Places) -> None:
+        """Note that points have been read."""
+        self._read[places] = True
+
+    def summed(self, starts: Sequence[int], length: int, stride: int) -> list[float]:
+        """Intensities on straight lines side by side that begin at these points, added across."""
+        ends = [slice(start, start + length * stride, stride) for start in starts]
+        lines: list[Any] = [self._levels[each].tolist() for each in ends]
+        return lines[0] if len(lines) == 1 else list(map(sum, zip(*lines, strict=True)))
+
+    def account_lines(self, starts: Sequence[int], length: int, stride: int) -> None:
+        """Note that so many points of such lines have been read."""
+        for start in starts:
+            self._read[start : start + length * stride : stride] = True
+
+    def patches(self, places: Array, radius: int, stride: int = 1) -> NDArray[np.float32]:
+        """Squares of points about places (u, v), shape (n, side, side), cut off at the picture's edge."""
+        off = np.arange(-radius, radius + 1, stride)
+        middle = np.rint(places).astype(np.intp)
+        u = np.clip(middle[:, 0, None] + off, 0, self.columns - 1)
+        v = np.clip(middle[:, 1, None] + off, 0, self.rows - 1)
+        where = v[:, :, None] * self.columns + u[:, None, :]
+        self.account(where)
+        return self.levels(where)
