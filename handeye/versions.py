@@ -1,8 +1,12 @@
 """Versions that a result depends on besides its plan and its seed."""
 
+import hashlib
 import platform
 from functools import cache
+from pathlib import Path
 from typing import Final
+
+from handeye.resources import scenes
 
 HANDEYE: Final = "0.1.0"
 PACKAGES: Final = ("mujoco", "numpy", "scipy", "opencv-python-headless")
@@ -20,3 +24,19 @@ def _installed(package: str) -> str:
     from importlib.metadata import version  # slow to import, and only a run needs it
 
     return version(package)
+
+
+@cache
+def code_digest() -> str:
+    """Sixteen hexadecimal digits that stand for this program and its scenes, as they are on disk.
+
+    Raises:
+        InvalidInput: the installation is incomplete.
+    """
+    package = Path(__file__).resolve().parent
+    files = [(package, path) for path in package.rglob("*.py")]
+    files += [(scenes(), path) for path in scenes().rglob("*") if path.is_file()]
+    digest = hashlib.sha256()
+    for name, path in sorted((path.relative_to(root).as_posix(), path) for root, path in files):
+        digest.update(f"{name} ".encode() + hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()[:16]

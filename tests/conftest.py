@@ -1,6 +1,7 @@
 """The command line as tests call it, and what property tests have in common."""
 
 import io
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,10 @@ settings.register_profile("handeye", deadline=None, derandomize=True)
 # To look for what no one has thought of, where a property sets no number itself: --hypothesis-profile explore
 settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("handeye")
+
+os.environ["HANDEYE_CACHE"] = (
+    ""  # calibrations of the user's runs are not for tests, nor those of tests for the user
+)
 
 Command = Callable[..., tuple[int, str, str]]
 

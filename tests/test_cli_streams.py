@@ -54,6 +54,7 @@ CHEAP = {
     "trials gasket": "trials gasket 1 --set ✓",
     "trials breaking": "trials breaking ✓",
     "trials faults": "trials faults --only ✓",
+    "cache": "cache",
     "bench timing": "bench timing --set ✓",
     "bench overhead": "bench overhead --set ✓",
     "bench language": "bench language --times 0",

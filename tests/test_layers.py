@@ -33,6 +33,7 @@ FOUNDATIONS = {
     "mutable_records",
     "plain_text",
     "host_time",
+    "user_cache",
 }
 LAYERS = [
     {*FOUNDATIONS},

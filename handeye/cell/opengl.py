@@ -100,6 +100,14 @@ class OpenGlRenderer(SceneRenderer):
 
 
 @cache
+def driver() -> str:
+    """What draws here, by its own words. Raises what `context` does."""
+    context()
+    gl = importlib.import_module("OpenGL.GL")  # which MuJoCo needs, too
+    return ", ".join(gl.glGetString(name).decode() for name in (gl.GL_RENDERER, gl.GL_VERSION))
+
+
+@cache
 def context() -> tuple[str, Any]:
     """The platform's name and the one OpenGL context of this program.
 

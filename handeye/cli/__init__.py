@@ -9,6 +9,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 from handeye.cli import (
     benches,
+    cache,
     completion,
     editing,
     exports,
@@ -54,6 +55,7 @@ for commands in (
     worlds,
     trials,
     benches,
+    cache,
     completion,
 ):
     commands.register(app)

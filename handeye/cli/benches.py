@@ -45,6 +45,7 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
             referee=False,
             observers=lambda _: [progress],
             viewed=progress.viewed,
+            calibrate=True,
         )
     screen.print(table(finished.result))
     return 0 if finished.result.completed else 1

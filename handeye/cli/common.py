@@ -48,6 +48,9 @@ Height = Annotated[WholeNumber, Parameter(help="Points of the picture from top t
 Camera = Annotated[
     CameraKind, Parameter(help="How to make pictures: OpenGL, ray casting, or whichever works here.")
 ]
+Calibrate = Annotated[
+    bool, Parameter(help="Calibrate the camera anew, whatever `handeye cache` shows to be kept.")
+]
 Json = Annotated[bool, Parameter(help="One JSON object on standard output, all else on standard error.")]
 Out = Annotated[
     Path | None,

@@ -53,6 +53,8 @@ class Job:
     """Folder for a new run."""
     overwrite: bool = False
     """The run in that folder, if any, may be lost."""
+    calibrate: bool = False
+    """Calibrate the camera anew, whatever is kept."""
     checkpoints: Path | None = None
     """Another folder for checkpoints at the beginning of stages."""
     stops: Sequence[AnyStop] = ()
@@ -128,7 +130,11 @@ class _Work:
         try:
             with self.progress:
                 runner = Runner(
-                    self.job.start, halt=self.panic, viewed=self.progress.viewed, observers=self._observers
+                    self.job.start,
+                    halt=self.panic,
+                    viewed=self.progress.viewed,
+                    observers=self._observers,
+                    calibrate=self.job.calibrate,
                 )
         except Halted:
             return None

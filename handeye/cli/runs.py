@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, Out, PlanFile, compiled, note
+from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, compiled, note
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.errors import InvalidInput
 from handeye.plain_text import counted
@@ -55,6 +55,7 @@ def assemble(
     out: Out = None,
     overwrite: Overwrite = False,
     camera: Camera = "auto",
+    calibrate: Calibrate = False,
     on_stop: OnStop = None,
 ) -> int:
     """Assemble the water pump: plan, work, judge.
@@ -76,6 +77,7 @@ def assemble(
             start=Checkpoint(setup=setup),
             out=out,
             overwrite=overwrite,
+            calibrate=calibrate,
             on_stop=on_stop,
             json=json,
             referee=True,
@@ -95,6 +97,7 @@ def run(
     out: Out = None,
     overwrite: Overwrite = False,
     camera: Camera = "auto",
+    calibrate: Calibrate = False,
     first: Annotated[str | None, Parameter(name="--from", help="Begin with this stage.")] = None,
     to: To = None,
     stage: Annotated[str | None, Parameter(help="Carry out this stage alone.")] = None,
@@ -140,6 +143,7 @@ def run(
             start=start,
             out=out,
             overwrite=overwrite,
+            calibrate=calibrate,
             checkpoints=None if checkpoints is None else kept,
             stops=stops,
             breaks=breaks or (),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, note, put_line, say
+from handeye.cli.common import Calibrate, Camera, Json, note, put_line, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 TaughtFile = Annotated[
     Path | None, Parameter(name="--taught", help="Taught file; by default that of `assemble`.")
 ]
-Looking = Annotated[
-    bool, Parameter(name="--look", help="Set the camera up first, as `assemble` does; it takes some minutes.")
-]
+Looking = Annotated[bool, Parameter(name="--look", help="Set the camera up first, as `assemble` does.")]
 From = Annotated[Path | None, Parameter(name="--from", help="Begin with the cell of this checkpoint.")]
 Keep = Annotated[Path | None, Parameter(help="Save the cell at the end to this checkpoint.")]
 
@@ -43,6 +41,7 @@ def do(
     fault: Faults = None,
     taught: TaughtFile = None,
     look: Looking = False,
+    calibrate: Calibrate = False,
     first: From = None,
     keep: Keep = None,
     camera: Camera = "auto",
@@ -68,7 +67,14 @@ def do(
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
         workplace = _workplace(
-            panic, _given(taught), world=world, fault=fault, camera=camera, look=look, first=first
+            panic,
+            _given(taught),
+            world=world,
+            fault=fault,
+            camera=camera,
+            look=look,
+            calibrate=calibrate,
+            first=first,
         )
         lines = (f"DO {function}" for function in functions)
         repl = Repl(workplace=workplace, folder=Path(), called=_kept(keep))
@@ -88,6 +94,7 @@ def repl(
     fault: Faults = None,
     taught: TaughtFile = None,
     look: Looking = False,
+    calibrate: Calibrate = False,
     first: From = None,
     camera: Camera = "auto",
     json: Json = False,
@@ -112,7 +119,14 @@ def repl(
     folder = Path() if script is None else script.parent
     with PanicButton() as panic:
         workplace = _workplace(
-            panic, _given(taught), world=world, fault=fault, camera=camera, look=look, first=first
+            panic,
+            _given(taught),
+            world=world,
+            fault=fault,
+            camera=camera,
+            look=look,
+            calibrate=calibrate,
+            first=first,
         )
         lines = typed_lines("* ", panic.aside, lambda: (*COMMANDS, *INSTRUCTIONS, *workplace.known.positions))
         typist = ReplSession(Repl(workplace=workplace, folder=folder))
@@ -170,6 +184,7 @@ def _workplace(
     fault: Faults,
     camera: str,
     look: bool,
+    calibrate: bool = False,
     first: Path | None,
 ) -> "Workplace":
     """The cell to work in.
@@ -189,7 +204,14 @@ def _workplace(
         return Workplace.at(read_checkpoint(first), taught, panic)
     known = taught_for(default_script()) if taught is None else taught
     try:
-        return Workplace(world=broken(world.spec, fault), camera=camera, taught=known, look=look, halt=panic)
+        return Workplace(
+            world=broken(world.spec, fault),
+            camera=camera,
+            taught=known,
+            look=look,
+            calibrate=calibrate,
+            halt=panic,
+        )
     except Halted:
         raise KeyboardInterrupt from None
 

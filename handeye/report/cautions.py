@@ -10,11 +10,13 @@ from handeye.versions import versions
 
 
 def cautions(runner: Runner, *, judged: bool) -> Iterator[str]:
-    """Tell in what a run goes on otherwise than it began, a sentence each; nothing of one that only begins.
+    """Tell in what a run goes on otherwise than it began, and what it could not keep, a sentence each.
 
     Args:
         judged: the task's own referee is to be called.
     """
+    if runner.system.unkept is not None:
+        yield f"the calibration of the camera is not kept for other runs: {runner.system.unkept}"
     begun = next((event for event in runner.events if isinstance(event, RunStarted)), None)
     if begun is None:
         return

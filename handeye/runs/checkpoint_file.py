@@ -6,13 +6,11 @@ wrong, is refused before anything in it is used.
 
 import hashlib
 import re
-import zlib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Final
 
 import msgspec
-import numpy as np
 from msgspec import UNSET, UnsetType
 
 from handeye.cell.state import CellState
@@ -20,6 +18,7 @@ from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.files import Kind, read_whole, write_whole
 from handeye.record import Record
+from handeye.runs.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.system import SystemKind
@@ -34,8 +33,6 @@ ENDING: Final = ".checkpoint"
 CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
 LARGEST: Final = 1 << 28
 """Bytes of a state, decompressed: a hundred times what a run of the water pump needs."""
-_KINDS: Final = ("<f8", "|u1")
-"""Arrays of a state: figures and pictures."""
 
 
 class Head(Record, frozen=True, kw_only=True):
@@ -120,9 +117,7 @@ def encode(checkpoint: Checkpoint) -> bytes:
         events=checkpoint.events,
     )
     head = msgspec.json.encode(head_of(checkpoint))
-    packed = zlib.compress(msgspec.msgpack.encode(body, enc_hook=_plain), 1)
-    rest = head + b"\n" + packed
-    return f"{MAGIC} {VERSION} {hashlib.sha256(rest).hexdigest()}\n".encode() + rest
+    return sealed(MAGIC, VERSION, head + b"\n" + packed(body))
 
 
 def decode(data: bytes, name: str) -> Checkpoint:
@@ -131,10 +126,10 @@ def decode(data: bytes, name: str) -> Checkpoint:
     Raises:
         InvalidInput: not a checkpoint, not whole, of another version, or for another arm.
     """
-    head, packed = _opened(data, name)
+    head, rest = _opened(data, name)
     try:
-        body = msgspec.msgpack.decode(_inflated(packed), type=_Body, dec_hook=_array)
-    except (zlib.error, msgspec.DecodeError, ValueError, TypeError) as error:
+        body = unpacked(rest, _Body, LARGEST)
+    except ValueError as error:
         raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
     kind = system_kind(head.system)
     plan = kind.decode(body.plan.encode(), f"the plan in {name}")
@@ -173,12 +168,11 @@ def decode(data: bytes, name: str) -> Checkpoint:
 
 
 def _on_disk(snapshot: Snapshot) -> _Snapshot:
-    state = msgspec.msgpack.encode(snapshot.state, enc_hook=_plain)
     return _Snapshot(
         position=snapshot.position,
         happened=snapshot.happened,
         cell=snapshot.cell,
-        state=msgspec.Raw(state),
+        state=msgspec.Raw(encoded(snapshot.state)),
     )
 
 
@@ -189,8 +183,8 @@ def _in_memory(kept: _Snapshot, kind: SystemKind, name: str) -> Snapshot:
         InvalidInput: it is no state of that system.
     """
     try:
-        state = msgspec.msgpack.decode(kept.state, type=kind.state, dec_hook=_array)
-    except (msgspec.DecodeError, ValueError, TypeError) as error:
+        state = decoded(kept.state, kind.state)
+    except ValueError as error:
         raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
     return Snapshot(
         position=kept.position,
@@ -255,32 +249,8 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
         )
     if words[2] != hashlib.sha256(rest).hexdigest():
         raise InvalidInput(f"{name} is damaged or cut short: its checksum is wrong")
-    line, _, packed = rest.partition(b"\n")
+    line, _, body = rest.partition(b"\n")
     try:
-        return msgspec.json.decode(line, type=Head), packed
+        return msgspec.json.decode(line, type=Head), body
     except msgspec.DecodeError as error:
         raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
-
-
-def _inflated(packed: bytes) -> bytes:
-    """Raises ValueError for what would fill the memory."""
-    inflater = zlib.decompressobj()
-    data = inflater.decompress(packed, LARGEST)
-    if inflater.unconsumed_tail or not inflater.eof:
-        raise ValueError("its state is too large, or not whole")
-    return data
-
-
-def _plain(value: Any) -> Any:
-    """An array as something MessagePack knows."""
-    if isinstance(value, np.ndarray):
-        return value.dtype.str, value.shape, value.tobytes()
-    raise TypeError(f"no {type(value).__name__} belongs in a checkpoint")
-
-
-def _array(kind: type, value: Any) -> Any:
-    """The array that `_plain` made plain."""
-    dtype, shape, data = value
-    if dtype not in _KINDS:
-        raise ValueError(f"no array of {dtype!r} belongs in a checkpoint")
-    return np.frombuffer(data, dtype).reshape(shape)

@@ -21,6 +21,9 @@ from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
 from handeye.program.causes import ArmNames
 from handeye.program.program import Position
+from handeye.runs.conditions import Conditions, conditions_of
+from handeye.runs.kept_calibrations import KeptCalibrations
+from handeye.runs.preparation import Preparation, preparation_of, take_up
 from handeye.runs.setup import Setup, plan_of
 from handeye.runs.system import Settable, Surroundings, System, SystemKind
 from handeye.system_state import SystemState
@@ -41,6 +44,8 @@ class ProgramSystem(System):
             InvalidInput: the plan is for another arm, or the camera cannot work as asked.
         """
         self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
+        self._anew, self._kept_until = around.calibrate, 0.0
+        self._unkept: str | None = None
         self.plan = plan_of(setup)
         self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
         check(setup)
@@ -74,13 +79,55 @@ class ProgramSystem(System):
     def trouble(self) -> str | None:
         return self.state.unable
 
+    @property
+    def kept_until(self) -> float:
+        return self._kept_until
+
+    @property
+    def unkept(self) -> str | None:
+        return self._unkept
+
     # -- going on -------------------------------------------------------------------------------------
 
     def begin(self) -> Sequence[AnyEvent]:
-        seconds = self._measure_joints() if self.plan.program.feels else 0.0
-        if self._eye is not None and self.plan.program.written("picture") and self.trouble is None:
-            self._calibrate(self._eye)
+        if self._eye is not None and self.plan.program.written("picture"):
+            seconds = self._prepare(self._eye)
+        else:
+            seconds = self._measure_joints()
         return [self._started(), *self._friction(seconds)]
+
+    def _prepare(self, eye: Eye) -> float:
+        """Measure joints and camera, unless an earlier run has kept that; simulated seconds for the joints."""
+        kept = KeptCalibrations.of_user()
+        conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
+        earlier = None if conditions is None or self._anew else kept.find(conditions)
+        if earlier is not None and self._goes_on_from(earlier):
+            return earlier.friction_s
+        seconds = self._measure_joints()
+        if self.trouble is None:
+            self._calibrate(eye)
+        if self.trouble is None:
+            made = preparation_of(self.run, self._cell, seconds)
+            take_up(made, self.run, self._cell)  # as a later run will
+            if conditions is not None:
+                self._keep(kept, conditions, made)
+        return seconds
+
+    def _goes_on_from(self, earlier: Preparation) -> bool:
+        """Take up what an earlier run has kept; False if it cannot be used, and nothing is changed."""
+        try:
+            take_up(earlier, self.run, self._cell)
+        except InvalidInput:
+            return False
+        self._kept_until = self.time
+        self._take_calibration()
+        return True
+
+    def _keep(self, kept: KeptCalibrations, conditions: Conditions, made: Preparation) -> None:
+        try:
+            kept.keep(conditions, made)
+        except InvalidInput as fault:
+            self._unkept = str(fault)
 
     def _started(self) -> RunStarted:
         return RunStarted(
@@ -115,7 +162,9 @@ class ProgramSystem(System):
         self._take_calibration()
 
     def _measure_joints(self) -> float:
-        """Let the arm measure the friction of its joints and weigh its links; simulated seconds that it took."""
+        """Let the arm measure its friction and weigh its links, if its program feels; simulated seconds of that."""
+        if not self.plan.program.feels:
+            return 0.0
         before = self.time
         try:
             found = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)

@@ -55,14 +55,16 @@ class Runner:
         viewed: Callable[[int, int], None] = lambda *_: None,
         observers: Callable[["Runner"], Sequence[Observer]] = lambda _: (),
         parts: Parts = OWN,
+        calibrate: bool = False,
     ) -> None:
-        """Build the cell; calibrate its camera, or put it into the state of the checkpoint.
+        """Build the cell; calibrate its camera, or put it into the state that is kept of that or of the checkpoint.
 
         Args:
             halt: the panic button, asked at every servo period.
             viewed: told of each view in which the camera is calibrated: its number, of how many.
             observers: makes those who look on, once the cell is built and before anything happens in it.
             parts: parts of the run that are not handeye's own.
+            calibrate: calibrate the camera anew, whatever is kept of an earlier run.
 
         Raises:
             InvalidInput: there is no such task, the plan is for another arm or needs devices that the cell does not
@@ -79,7 +81,13 @@ class Runner:
         self.system: System = kind_of(start.setup).build(
             start.setup,
             Surroundings(
-                emit=self._emit, watch=self._watch, halt=halt, viewed=viewed, vision=self.vision, parts=parts
+                emit=self._emit,
+                watch=self._watch,
+                halt=halt,
+                viewed=viewed,
+                vision=self.vision,
+                parts=parts,
+                calibrate=calibrate,
             ),
         )
         self.events: list[AnyEvent] = []
@@ -89,12 +97,13 @@ class Runner:
         self.history: list[Snapshot] = []
         """States to go back to, the present one last."""
         self.started = 0.0
-        """The clock when this object took the run up, or the system began to prepare it."""
+        """The clock when this object took the run up, or the system began to prepare it: what it has not simulated."""
         self.first = 0
         """Steps that were done then."""
         self.observers: list[Observer] = []
         self._broken: str | None = None
         begun = () if start.snapshot is not None else self.system.begin()
+        self.started = self.system.kept_until
         if start.snapshot is not None:
             self.events += start.events
             self._put(start.snapshot)

@@ -121,6 +121,16 @@ class System(Protocol):
     def trouble(self) -> str | None:
         """Why it cannot do any step, if it is not a matter for the operator."""
 
+    @property
+    def kept_until(self) -> float:
+        """The clock to which what an earlier run had kept has brought it, s; 0: it let all time pass itself."""
+        return 0.0
+
+    @property
+    def unkept(self) -> str | None:
+        """Why what it has prepared could not be kept for other runs."""
+        return None
+
     def begin(self) -> Sequence[AnyEvent]:
         """Prepare the first step; the events that begin the run, `RunStarted` first.
 
@@ -174,6 +184,8 @@ class Surroundings:
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision."""
     parts: Parts = OWN
+    calibrate: bool = False
+    """Calibrate anew, whatever is kept."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

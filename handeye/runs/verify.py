@@ -58,7 +58,9 @@ def difference(trace: Trace, folder: Path) -> str | None:
     start = Checkpoint(setup=setup_of(trace))
     keeping = open_new(folder, start)
     try:
-        runner = Runner(start, observers=lambda runner: [keeping.watch(runner, start, again=False)])
+        runner = Runner(
+            start, observers=lambda runner: [keeping.watch(runner, start, again=False)], calibrate=True
+        )
         runner.repeat(wanted)
     finally:
         keeping.close()

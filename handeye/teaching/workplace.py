@@ -50,12 +50,14 @@ class Workplace:
         taught: Taught,
         task: str = DEFAULT,
         look: bool = False,
+        calibrate: bool = False,
         halt: Callable[[], bool],
     ) -> None:
         """Build the cell of a world.
 
         Args:
             look: set the camera up, so that plans can look.
+            calibrate: anew, whatever is kept of that.
             halt: the panic button, asked at every servo period.
 
         Raises:
@@ -65,7 +67,7 @@ class Workplace:
         self.taught, self.halt = taught, halt
         start = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
         setup = Setup(plan=start, world=world, camera=camera, task=task)
-        self.runner = Runner(Checkpoint(setup=setup), halt=halt)
+        self.runner = Runner(Checkpoint(setup=setup), halt=halt, calibrate=calibrate)
         if self.runner.trouble is not None:
             raise InvalidInput(self.runner.trouble)
         self.begun = beginning(self.runner.events)

@@ -37,6 +37,7 @@ def run_plan(
     umpire: Referee | None = None,
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     viewed: Callable[[int, int], None] = lambda *_: None,
+    calibrate: bool = False,
 ) -> Finished:
     """Carry out a plan in a world, with no operator there, and have it judged.
 
@@ -46,6 +47,7 @@ def run_plan(
         parts: parts of the run that are not handeye's own.
         umpire: takes the place of the task's referee.
         viewed: told of each view in which the camera is calibrated: its number, of how many.
+        calibrate: the camera is calibrated anew, whatever is kept of an earlier run.
 
     Raises:
         InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
@@ -53,7 +55,9 @@ def run_plan(
     """
     metered = meter or Meter()
     setup = Setup(plan=plan, world=world, camera=camera, limits={**(limits or {})}, replaced=parts.names)
-    runner = Runner(Checkpoint(setup=setup), viewed=viewed, observers=observers, parts=parts)
+    runner = Runner(
+        Checkpoint(setup=setup), viewed=viewed, observers=observers, parts=parts, calibrate=calibrate
+    )
     check_limits(runner)
     result = finished(runner, advance(runner), metered, judged=referee, referee=umpire)
     return Finished(result=result, runner=runner)
