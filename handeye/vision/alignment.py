@@ -55,22 +55,25 @@ def _smooth(picture: Picture) -> Levels:
 
 
 def _disagreement(a: Levels, b: Levels, u: int, v: int) -> float:
-    """Mean difference when the second is moved back by whole points, with no more said by what has changed."""
+    """Mean difference when the second is moved back by whole points, with no more said by what has changed.
+
+    Of every other point on every other line: the blur has spread each over its neighbours.
+    """
     rows, columns = a.shape
-    here = a[MARGIN : rows - MARGIN, MARGIN : columns - MARGIN]
-    there = b[MARGIN + v : rows - MARGIN + v, MARGIN + u : columns - MARGIN + u]
+    here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
+    there = b[MARGIN + v : rows - MARGIN + v : 2, MARGIN + u : columns - MARGIN + u : 2]
     return float(np.minimum(np.abs(there - here), CHANGED).mean())
 
 
 def _step(a: Levels, b: Levels) -> Array:
     """By how much the second still lies off, from the slopes of both where they agree, shape (2,)."""
     mean = (a + b) / 2
-    slopes = np.stack([np.gradient(mean, axis=1), np.gradient(mean, axis=0)], axis=-1)
     inside = np.s_[MARGIN:-MARGIN, MARGIN:-MARGIN]
     changed = (cv2.blur(np.abs(b - a), (AREA, AREA)) > QUIET).astype(np.uint8)
     same = cv2.dilate(changed, np.ones((CLEAR, CLEAR), np.uint8))[inside] == 0
-    slope, off = slopes[inside][same], (a - b)[inside][same]
-    moved, *_ = np.linalg.lstsq(slope, off, rcond=None)
+    slope = np.stack([np.gradient(mean, axis=axis)[inside][same] for axis in (1, 0)])
+    off = (a - b)[inside][same]
+    moved, *_ = np.linalg.lstsq(slope @ slope.T, slope @ off, rcond=None)  # none, if nothing is the same
     return np.asarray(moved, dtype=float)
 
 

@@ -28,7 +28,7 @@ from handeye.program.causes import (
 from handeye.program.program import Hole, Part
 from handeye.units import INCH
 from handeye.vision.camera_model import View
-from handeye.vision.characteriser import fit_circle, rim
+from handeye.vision.characteriser import characterise, fit_circle, rim
 from handeye.vision.holes import hole_places
 from handeye.vision.scan import Scan
 
@@ -139,9 +139,7 @@ class _Check:
 
 def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Check:
     steps = _levels(new, old, view, place, hole)
-    rough = _centre(old, view, place, hole, steps.before, steps.face)
-    # the second time from the middle of the hole, where beams meet its border squarely
-    fitted = rough and _centre(old, view, np.array([*rough, place[2]]), hole, steps.before, steps.face)
+    fitted = _centre(old, view, place, hole, steps.before, steps.face)
     if fitted is None:
         return _Check(fault=BaseHoleUnseen(hole=name))
     base = np.array([*fitted, place[2]])
@@ -189,14 +187,28 @@ def _in_picture(points: Array) -> bool:
 def _centre(
     scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float = 0.0
 ) -> tuple[float, float] | None:
-    """Centre (x, y), m, of the hole whose border is seen about a place, shape (3,), m."""
-    return fit_circle(view, _border(scan, view, place, hole, step, beyond), float(place[2]), hole.diameter)
+    """Centre (x, y), m, of the hole that is expected at a place, shape (3,), m.
+
+    By the characteriser, as when the base is found, and a circle about what it finds; about the place itself where an
+    aligning pin stands in the way of the characteriser's beams, which are but four.
+    """
+    seed, reach = _seen(view, place, hole)
+    blob = characterise(scan, seed, step, reach, wide=True, beyond=beyond)
+    middle = (blob.u, blob.v) if blob else seed
+    points = rim(scan, middle, step, reach, rays=RAYS, wide=True, beyond=beyond)
+    return fit_circle(view, points, float(place[2]), hole.diameter)
 
 
 def _border(scan: Scan, view: View, place: Array, hole: Hole, step: float, beyond: float) -> Array:
-    u, v = view.project(place)[0]
-    reach = 0.9 * hole.diameter * view.resolution(place)[0]
-    return rim(scan, (float(u), float(v)), step, reach, rays=RAYS, wide=True, beyond=beyond)
+    """Points (u, v) of the border of a hole around a place, shape (RAYS, 2)."""
+    centre, reach = _seen(view, place, hole)
+    return rim(scan, centre, step, reach, rays=RAYS, wide=True, beyond=beyond)
+
+
+def _seen(view: View, place: Array, hole: Hole) -> tuple[tuple[float, float], float]:
+    """Where a place is in the picture, and how far its hole's border may be from there, points."""
+    u, v = view.project(place)[0].tolist()
+    return (u, v), 0.9 * hole.diameter * view.resolution(place)[0]
 
 
 def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _Steps) -> float | None:
