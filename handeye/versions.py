@@ -18,6 +18,14 @@ def versions() -> dict[str, str]:
     return {"handeye": HANDEYE, "python": platform.python_version(), **found}
 
 
+def installed(package: str) -> str | None:
+    """Version of a package, or None if it is not installed."""
+    try:
+        return _installed(package)
+    except ImportError:
+        return None
+
+
 @cache
 def _installed(package: str) -> str:
     """Version of a package. Read from its files once: every checkpoint says it again."""

@@ -1,9 +1,12 @@
 """Commands that measure how long things take."""
 
+from __future__ import annotations
+
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
@@ -12,11 +15,14 @@ from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.runs.scripts import default_script
 
+if TYPE_CHECKING:
+    from handeye.trials.peers import Comparison
+
 
 def register(app: App) -> None:
     """Add the commands to the command line."""
     bench = App(name="bench", help="Measure how long things take.")
-    for command in (timing, overhead, language):
+    for command in (timing, overhead, language, vision, ik):
         bench.command(command)
     app.command(bench)
 
@@ -100,3 +106,55 @@ def language(
     if json:
         put_json({"measured": [waiting.as_json() for waiting in measured]})
     return 0 if all(waiting.is_short for waiting in measured) else 1
+
+
+def vision(
+    *,
+    poses: Annotated[WholeNumber, Parameter(help="How often the part is laid down somewhere.")] = 24,
+    times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 9,
+    camera: Camera = "auto",
+    json: Json = False,
+) -> int:
+    """Measure the eye beside OpenCV, on the same pictures of the cell.
+
+    Exit code 0.
+    """
+    from handeye.tasks import task
+    from handeye.trials.vision import measure
+
+    _at_least_one(poses, times)
+    _tell(list(measure(task().sights(poses, camera), times)), json)
+    return 0
+
+
+def ik(
+    *,
+    poses: Annotated[WholeNumber, Parameter(help="How many poses of the hand there are.")] = 200,
+    times: Annotated[WholeNumber, Parameter(help="How often each is measured.")] = 9,
+    json: Json = False,
+) -> int:
+    """Measure the arm's inverse kinematics beside those of the Robotics Toolbox, on the same poses of the hand.
+
+    Exit code 0. The toolbox is large and no part of handeye: where it is not installed, it is not measured.
+    """
+    from handeye.tasks import task
+    from handeye.trials.inverse_kinematics import measure
+
+    _at_least_one(poses, times)
+    _tell([measure(task().arm, poses, times)], json)
+    return 0
+
+
+def _at_least_one(*counts: int) -> None:
+    for count in counts:
+        if count < 1:
+            raise InvalidInput(f"at least one is needed; {count} is too few")
+
+
+def _tell(comparisons: Sequence[Comparison], json: bool) -> None:
+    """Say what was measured."""
+    for comparison in comparisons:
+        for line in comparison.lines():
+            say(line, notes if json else screen, whole=True)
+    if json:
+        put_json({"compared": [comparison.as_json() for comparison in comparisons]})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -15,11 +15,12 @@ from handeye.execution.calibration_look import CalibrationLook
 from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
+from handeye.ports.camera import Picture
 from handeye.pose import Array
-from handeye.program.program import Fixture
+from handeye.program.program import Fixture, Part
 from handeye.tasks.trial import Trial
 from handeye.variation import Variation, WorldSpec
-from handeye.vision.camera_model import CameraModel
+from handeye.vision.camera_model import CameraModel, View
 
 if TYPE_CHECKING:  # a plan is made and checked without a simulator
     import mujoco
@@ -60,6 +61,17 @@ class ExportedScene:
     """Names of the bodies of what it can be asked for by a name of its own."""
     densities: Mapping[str, float] = field(default_factory=dict)
     """Of the solids that are of one metal throughout, by their names, kg/m3."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sight:
+    """A part seen from far and from near by a camera that is known exactly."""
+
+    part: Part
+    pose: tuple[float, float, float]
+    """Where it really is: x, y (m) and yaw (rad) in W."""
+    far: tuple[Picture, View]
+    near: tuple[Picture, View]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,6 +132,14 @@ class Task(ABC):
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
         """Findings of the referee on the finished work. The cell is not touched."""
+
+    def sights(self, number: int, camera: str) -> Iterator[Sight]:
+        """So many sights of the part that the eye is to find, always the same; pictures by `auto`, `gl` or `ray`.
+
+        Raises:
+            InvalidInput: this task has no such part, or pictures cannot be made so here.
+        """
+        raise InvalidInput(f"the task {quoted(self.name)} has nothing for the eye to find")
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         """The scene of a world as a truth of its cell has it, for other programs.

@@ -13,31 +13,24 @@ import numpy as np
 
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.pose import Array
 from handeye.program.causes import NoHoles, NoOutline, OutsidePicture, SightCause
 from handeye.program.program import Part
-from handeye.units import DEGREE, INCH
+from handeye.units import INCH
 from handeye.vision.blob import BoundingBox, localise
 from handeye.vision.camera_model import View
 from handeye.vision.hole_search import SEARCHES, HoleFinder, Levels
 from handeye.vision.holes import Candidate, Pair, classify, dark_screw_holes, placed
+from handeye.vision.outline import fitting, silhouettes, window
 from handeye.vision.scan import Scan
 
 OUTLINE_STEP: Final = 2.0
 """Least step of intensity, levels, from the background to the part."""
 SHRINK: Final = (0.0, 0.6 * INCH, 1.2 * INCH)
 """The window is tried again smaller: what is beside the region may reach into it if the camera is off."""
-TURNS: Final = np.linspace(-40, 40, 9) * DEGREE
-WIDTHS: Final = (0.8, 1.2)
-HEIGHTS: Final = (0.75, 1.25)
-"""Accepted size of the box, over the range the model gives for all TURNS."""
 SCREW_HOLES: Final = 2 / 3
 """Share of the screw holes that must be seen where the two large ones say."""
 
 # All figures above: vision study, sections 1.2 and 1.3.
-
-Rectangle = tuple[float, float, float, float]
-"""x from, y from, x to, y to, part coordinates, m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,52 +92,15 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
     Raises:
         InvalidInput: the program does not say enough of the part.
     """
-    region, outline = part.region, part.outline
-    if region is None or outline is None:
+    if part.region is None or part.outline is None:
         raise InvalidInput("vision needs the region and the outline of a part")
-    sizes = np.ptp(_silhouettes(view, part, part.at[:2], TURNS), axis=1)
-    smallest = sizes.min(axis=0) * (WIDTHS[0], HEIGHTS[0])
-    largest = sizes.max(axis=0) * (WIDTHS[1], HEIGHTS[1])
-
-    def fits(box: BoundingBox) -> bool:
-        size = (box.width, box.height)
-        return bool(np.all(size >= smallest) and np.all(size <= largest))
-
-    scan = Scan(picture)
+    fits, scan = fitting(view, part), Scan(picture)
     for shrink in SHRINK:
         scan.open()
-        box = localise(scan, _window(view, part, region, outline, shrink), OUTLINE_STEP, fits)
+        box = localise(scan, window(view, part, shrink), OUTLINE_STEP, fits)
         if box is not None:
             return _general(scan, view, part, box)
     return Failure(cause=NoOutline())
-
-
-def _window(view: View, part: Part, region: tuple[float, float], outline: Rectangle, shrink: float) -> Array:
-    """Corners (u, v) of where the part may be, shape (4, 2)."""
-    x, y, z, yaw = part.at
-    reach = _rotated(outline, yaw + TURNS).reshape(-1, 2)
-    lo = np.array([x, y]) - region + reach.min(axis=0) + shrink
-    hi = np.array([x, y]) + region + reach.max(axis=0) - shrink
-    corners = np.array([[lo[0], lo[1]], [hi[0], lo[1]], [hi[0], hi[1]], [lo[0], hi[1]]])
-    return view.project(np.column_stack([corners, np.full(4, z)]))
-
-
-def _rotated(outline: Rectangle, yaws: Array) -> Array:
-    """Its corners turned about the reference point, shape (n, 4, 2), for each yaw, shape (n,)."""
-    x0, y0, x1, y1 = outline
-    corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
-    c, s = np.cos(yaws), np.sin(yaws)
-    return np.asarray(corners @ np.array([[c, s], [-s, c]]).transpose(2, 0, 1))
-
-
-def _silhouettes(view: View, part: Part, place: tuple[float, float] | Array, turns: Array) -> Array:
-    """Picture points of the corners of the part's outline, on the ground and on top, shape (n, 8, 2), for each turn."""
-    assert part.outline is not None
-    corners = _rotated(part.outline, part.at[3] + turns) + np.asarray(place)
-    solid = np.empty((len(corners), 2, 4, 3))
-    solid[..., :2] = corners[:, None]
-    solid[:, 0, :, 2], solid[:, 1, :, 2] = part.at[2], part.at[2] + part.face
-    return view.project(solid.reshape(-1, 3)).reshape(-1, 8, 2)
 
 
 def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLocation:
@@ -152,7 +108,7 @@ def _general(scan: Scan, view: View, part: Part, box: BoundingBox) -> GeneralLoc
     seen = view.back_project(box.corners().mean(axis=0), middle_z)[0, :2]
     xy = np.array(part.at[:2])
     for _ in range(2):  # the offset from box to reference point changes a little with the place
-        (outline,) = _silhouettes(view, part, xy, np.zeros(1))
+        (outline,) = silhouettes(view, part, xy, np.zeros(1))
         middle = (outline.min(axis=0) + outline.max(axis=0)) / 2
         xy = xy + seen - view.back_project(middle, middle_z)[0, :2]
     corners = view.back_project(box.corners(), middle_z)
@@ -177,7 +133,7 @@ def locate_specific(
     if len(part.holes) < 2:
         raise InvalidInput("a part can be located only by two holes; the program gives fewer")
     scan = Scan(picture)
-    box = _close_box(view, general)
+    box = close_box(view, general)
     if box is None:
         return Failure(cause=OutsidePicture())
     levels = Levels.measure(scan, box)
@@ -202,7 +158,7 @@ def _found(
         yield finder, finder.all_over(box)
 
 
-def _close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
+def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:
     """The box of general location, as this view sees it."""
     uv = view.project(np.array(general.corners))
     left, top = (int(n) for n in np.floor(uv.min(axis=0)))

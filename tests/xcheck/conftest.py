@@ -2,4 +2,5 @@
 
 from importlib.util import find_spec
 
-collect_ignore = [] if find_spec("rerun") else ["test_rerun.py"]
+_TOOLS = {"rerun": "test_rerun.py", "roboticstoolbox": "test_toolbox.py"}
+collect_ignore = [test for tool, test in _TOOLS.items() if not find_spec(tool)]

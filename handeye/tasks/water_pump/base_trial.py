@@ -54,7 +54,7 @@ class BaseTrial(Trial[BaseAttempt]):
         from handeye.vision.base import Failure
 
         still, part = StillPump(PumpWorld.draw(world), renderer=camera), pump_base()
-        poses = list(_poses(still.world, number))
+        poses = list(base_poses(still.world, number))
         try:
             model = known_camera(still, known, camera, part.at[:3])
         except CalibrationFailed as error:
@@ -95,8 +95,8 @@ class BaseTrial(Trial[BaseAttempt]):
         )
 
 
-def _poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
-    """Where the base lies: x, y (m) and yaw (rad)."""
+def base_poses(world: PumpWorld, number: int) -> Iterator[Vector3]:
+    """Where the base lies: x, y (m) and yaw (rad); first where the world has it."""
     yield world.base.x, world.base.y, world.base.yaw
     rng, ranges = world.generator("trial.base"), np.array([BELT_X, BELT_Y, BELT_LINE])
     for _ in range(number - 1):

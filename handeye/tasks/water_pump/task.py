@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture
-from handeye.tasks.interface import ExportedScene, Eye, Period, Task, Words
+from handeye.tasks.interface import ExportedScene, Eye, Period, Sight, Task, Words
 from handeye.tasks.water_pump.base_trial import BaseTrial
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.gasket_trial import GasketTrial
@@ -69,6 +69,11 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.cell import build_cell
 
         return build_cell(PumpWorld.draw(spec), camera=camera)
+
+    def sights(self, number: int, camera: str) -> Iterator[Sight]:
+        from handeye.tasks.water_pump.sights import sights
+
+        return sights(number, camera)
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         from handeye.tasks.water_pump.exported import exported

@@ -1,0 +1,45 @@
+"""Sights of the pump base on the belt, for measuring the eye alone."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from handeye.ports.camera import CLOSE_UP, WIDE, Picture
+from handeye.tasks.interface import Sight
+from handeye.tasks.water_pump.base_trial import base_poses
+from handeye.tasks.water_pump.pump_world import PumpWorld
+from handeye.tasks.water_pump.still_pump import StillPump, look, pump_base, put_base
+from handeye.variation import Overrides, WorldSpec
+from handeye.vision.camera_model import View
+from handeye.vision.holes import hole_places
+
+WORLD_POSES: Final = 4
+"""Of one world, and of one light."""
+
+
+def sights(number: int, camera: str) -> Iterator[Sight]:
+    """So many, of worlds 0, 1 and so on, their cameras as drawn: what is found wrong, the eye has found wrong.
+
+    Raises:
+        InvalidInput: pictures cannot be made so here.
+    """
+    for seed in range(-(-number // WORLD_POSES)):
+        spec = WorldSpec(seed=seed, overrides=Overrides(without=("camera",)))
+        still = StillPump(PumpWorld.draw(spec), renderer=camera)
+        yield from _of_world(still, min(WORLD_POSES, number - seed * WORLD_POSES))
+
+
+def _of_world(still: StillPump, number: int) -> Iterator[Sight]:
+    part = pump_base()
+    for pose in base_poses(still.world, number):
+        x, y, yaw = pose
+        put_base(still, (x, y, part.at[2], yaw), pins=False)
+        middle = hole_places(part, pose).mean(axis=0)
+        yield Sight(
+            part=part, pose=pose, far=_seen(still, WIDE, part.at[:3]), near=_seen(still, CLOSE_UP, middle)
+        )
+
+
+def _seen(still: StillPump, lens: float, point: Sequence[float]) -> tuple[Picture, View]:
+    x, y, z = map(float, point)
+    view = look(still.camera, still.true_camera, lens, (x, y, z))
+    return still.camera.digitise()[0], view
