@@ -9,6 +9,7 @@ import pytest
 from synthetic import Canvas, draw_base, part, view
 
 from handeye.errors import InvalidInput
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.program.causes import NoHoles, NoOutline, OutsidePicture
 from handeye.units import DEGREE, INCH
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
@@ -82,6 +83,19 @@ def test_the_holes_are_where_threshold_and_contours_find_them(seed: int):
     centres = np.array([(m["m10"] / m["m00"], m["m01"] / m["m00"]) for m in moments if 250 < m["m00"] < 2500])
     for hole in found.holes:
         assert np.hypot(*(centres - (hole.u, hole.v)).T).min() < 0.5
+
+
+@pytest.mark.parametrize("pose", POSES)
+def test_holes_are_found_where_they_are_expected_by_reading_a_twentieth_of_the_picture(pose):
+    assert located(pose).points < COLUMNS * ROWS / 20
+
+
+def test_holes_that_are_not_where_they_are_expected_are_found_all_the_same():
+    general = locate_general(*wide(POSES[0]), PART)
+    elsewhere = replace(general, x=general.x + 3 * INCH)
+    found = locate_specific(*close(POSES[0]), PART, elsewhere)
+    assert found.pose[:2] == pytest.approx(POSES[0][:2], abs=0.02 * INCH)
+    assert found.points > located(POSES[0]).points
 
 
 @pytest.mark.row(54)
