@@ -47,11 +47,17 @@ LB:     MOVE    B
         MOVE    S0
         STOP    [0 0 -29]
         CHANGE  [0 0 -1] 1.2 .5 ;set it down
+        SKIPN   23
+        WAIT    "NO TABLE UNDER THE BASE: IT IS LOST, OR A JOINT READS WRONG"
         LOAD    0
         STOP    [0 72 0]
         CHANGE  [0 1 0] 1.2 .5  ;against the far block
+        SKIPN   23
+        WAIT    "NO FAR BLOCK: THE BASE IS LOST, OR A JOINT READS WRONG"
         STOP    [-72 0 0]
         CHANGE  [-1 0 0] 1.2 .5 ;against the left block
+        SKIPN   23
+        WAIT    "NO LEFT BLOCK: THE BASE IS LOST, OR A JOINT READS WRONG"
         STOP    [0 72 0]
         CHANGE  [0 1 0] 1.2 .5  ;and once more, where that has dragged it off
         OPEN    1.85
@@ -134,6 +140,8 @@ LG:     MOVE    GON
         RESTORE E2 LEVEL
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
+        SKIPN   23
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
         TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
         SKIPN   8
         AOJ     LG
@@ -143,7 +151,7 @@ LG:     MOVE    GON
         OPEN    0
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
-        HEIGHT  BARE .045 .075  ;one gasket, .06 in thick
+        HEIGHT  BARE .04 .08    ;one gasket, .06 in thick
         SAVE    LAID            ;how high it lies
         CHANGE  [0 0 1] 1
 
@@ -170,11 +178,13 @@ LT:     MOVE    TOPON
         LOAD    0
         OPEN    2.8
         CHANGE  [0 0 1] 3
-        MOVE    FLANGE          ;over the web, beside the hub
+        MOVE    FLANGE          ;over its narrow end
         OPEN    0
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
-        HEIGHT  LAID .28 .32    ;its flange is .3 in thick: nothing is under it
+        SKIPN   23
+        WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
+        HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
         CHANGE  [0 0 1] 1
 
         STAGE   "drive the first two screws"

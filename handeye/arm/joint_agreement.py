@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.arm.converters import position_step
 from handeye.arm.model import ArmModel, constants
 from handeye.pose import Array
 
@@ -16,6 +17,20 @@ seconds (.007 rad, 1.3 mm)."""
 SHARE: Final = 0.05
 """Share of the way by which they may differ besides: scales off by .2 % (potentiometers), and what a converter and a
 servo period lose of a rate that changes. Placeholder."""
+
+
+RESTED: Final = 4
+"""Steps of its converter by which a potentiometer may change under set brakes while its tachometer reads nothing: two
+for its noise, as at the high level, and one for an arm that creeps."""
+
+
+def crept(arm: ArmModel, change: Array) -> "Disagreement | None":
+    """The joint that is farthest from rest, if any is, by the change of potentiometers under set brakes, shape (n,)."""
+    excess = np.abs(change) / (RESTED * position_step(arm))
+    if (excess <= 1).all():
+        return None
+    joint = int(np.argmax(excess))
+    return Disagreement(joint=joint, potentiometer=float(change[joint]), tachometer=0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

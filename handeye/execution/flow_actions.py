@@ -58,7 +58,9 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())
     following = found.place(run.search, found.count + 1)
     if following is None:
-        return Fault(number=errors.SEARCH_EXHAUSTED, cause=PlacesTried(places=found.count + 1))
+        return Fault(
+            number=errors.SEARCH_EXHAUSTED, cause=PlacesTried(places=found.count + 1, around=found.around)
+        )
     found.count += 1
     x, y = following
     run.emit(SearchAdvanced(time=run.time, count=found.count, offset=(round(x, 6), round(y, 6))))

@@ -52,6 +52,7 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
     run.state.goal = X_WT[:3, 3].copy()
     if operation.searching and run.state.search is not None:
         X_WT = translated(X_WT, (*run.state.search.offset(run.search), 0.0))
+        run.state.search.around = operation.goal
     via = [run.world.position(name) for name in operation.via]
     trajectory = _trajectory(run, operation, via, X_WT)
     if isinstance(trajectory, Unreachable):

@@ -174,6 +174,8 @@ class Servo:
         if halted:
             tau, self.state.tool = None, 0.0
         before = self.sensed
+        if tau is not None and self.state.rest is not None:
+            self.state.crept, self.state.rest = before.q - self.state.rest, None
         self._put_out(tau)
         yield
         sensed = self.sensed

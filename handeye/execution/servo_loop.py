@@ -14,7 +14,7 @@ from handeye.arm.computed_torque import prepare
 from handeye.arm.converters import sliding
 from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.ik import solve
-from handeye.arm.joint_agreement import JointAgreement
+from handeye.arm.joint_agreement import Disagreement, JointAgreement, crept
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
@@ -71,6 +71,8 @@ class ServoLoop(Servo):
         """Set the brakes; the set-point becomes where the arm then is."""
         for _ in range(self._periods(seconds)):
             yield from self._wait(None)
+            if self.state.rest is None or self.sensed.qd.any():
+                self.state.rest = self.sensed.q.copy()
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
@@ -259,7 +261,7 @@ class ServoLoop(Servo):
 
     def _doubted(self, sensors: JointAgreement) -> Outcome | None:
         """Compare the sensors of the joints; the set-point becomes where the arm says it is if they disagree."""
-        found = sensors.step(self.sensed.q, self.sensed.qd)
+        found = self._crept() or sensors.step(self.sensed.q, self.sensed.qd)
         if found is None:
             return None
         self.state.q = self.state.here.copy()
@@ -269,6 +271,11 @@ class ServoLoop(Servo):
             potentiometer=round(found.potentiometer, 6), tachometer=round(found.tachometer, 6),
         )  # fmt: skip
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
+
+    def _crept(self) -> Disagreement | None:
+        """The joint whose potentiometer has changed while the arm rested under its brakes; told once."""
+        change, self.state.crept = self.state.crept, None
+        return None if change is None else crept(self.arm, change)
 
     def _behind(self) -> Outcome | None:
         """See that every joint keeps up with its set-point, which else becomes where it is."""

@@ -41,6 +41,8 @@ class SearchState(MutableRecord, kw_only=True):
     step: float
     limit: Natural
     count: Natural = 0
+    around: str = ""
+    """The position to which the last motion of it went."""
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
         """Horizontal offset of the present place in a pattern, m.
@@ -106,6 +108,11 @@ class DriveState(MutableRecord, kw_only=True):
     """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""
     met: Array | None = None
     """Set-point of the hand in W (m) when a guard ended the motion that brought it where it is."""
+    rest: Array | None = None
+    """What the potentiometers read when the arm came to rest under its brakes, shape (n,), rad and m; None: it moves,
+    or is driven."""
+    crept: Array | None = None
+    """By how much they then changed until it was driven again, likewise; None: a motion has seen to it."""
     in_air: bool = False
     """A MOVE has brought the hand where it is, and met nothing."""
     tare: Array = msgspec.field(default_factory=lambda: np.zeros(6))
@@ -207,7 +214,8 @@ def _joints(drive: DriveState) -> tuple[Array, ...]:
 
 
 def _measured(state: ExecutionState) -> list[Array]:
-    return [] if state.drive.links is None else [state.drive.links]
+    drive = state.drive
+    return [values for values in (drive.links, drive.rest, drive.crept) if values is not None]
 
 
 def _finite(value: object) -> bool:

@@ -46,7 +46,7 @@ def cause_sentence(cause: Cause) -> str:
             went, least, most = _apart(cause.travel, cause.minimum, cause.maximum)
             return f"it went {went} in; allowed: {least} to {most} in"
         case c.HeightOutside():
-            height, least, most = _apart(cause.height, cause.minimum, cause.maximum)
+            height, least, most = _apart(cause.height, cause.minimum, cause.maximum, decimals=3)
             return f"it stands {height} in over {cause.name}; allowed: {least} to {most} in"
         case c.HeightUnknown():
             return f"{cause.name} was not saved"
@@ -74,7 +74,7 @@ def cause_sentence(cause: Cause) -> str:
         case c.NoSearch():
             return "no search was set up"
         case c.PlacesTried():
-            return f"{cause.places} places tried"
+            return f"{cause.places} places tried" + (f" around {cause.around}" if cause.around else "")
         case c.Looping():
             return f"the program loops at line {cause.place}, and nothing moves"
         case c.Recorded():
@@ -123,9 +123,9 @@ def _hole(fault: c.BaseHoleUnseen | c.GasketHoleUnseen | c.GasketHoleOff) -> str
     assert_never(fault)
 
 
-def _apart(*lengths: float) -> list[str]:
+def _apart(*lengths: float, decimals: int = 2) -> list[str]:
     """Lengths that are compared, in inches."""
-    return told_apart([length / INCH for length in lengths], 2)
+    return told_apart([length / INCH for length in lengths], decimals)
 
 
 def _inches(length: float) -> str:

@@ -263,6 +263,8 @@ class PlacesTried(CauseRecord, frozen=True, kw_only=True):
     """The search has been at all its places."""
 
     places: int
+    around: str = ""
+    """The position that it went out from, if it has moved to one."""
 
 
 class Looping(CauseRecord, frozen=True, kw_only=True):

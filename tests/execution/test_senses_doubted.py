@@ -1,7 +1,7 @@
 """A sense that is broken is noticed where it first matters, by its own error, which names it.
 
 They are broken in the fake cell, whose other senses have no error. That none is doubted wrongly in drawn worlds is in
-`test_senses_believed`.
+`test_senses_believed.py`.
 """
 
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from handeye.ports.arm import ArmReading
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.ports.hand import HandReading
 from handeye.pose import Array
-from handeye.units import INCH, OUNCE_INCH
+from handeye.units import DEGREE, INCH, OUNCE_INCH
 
 DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
 
@@ -170,6 +170,28 @@ def test_a_potentiometer_that_jumps_is_told_with_its_joint() -> None:
     run.go()
     assert run.errors == [errors.JOINT_SENSE_WRONG]
     assert "boom has gone" in run.told
+
+
+def resting(told: Callable[[float], float]) -> FakeRun:
+    """An arm that has stood a minute under its brakes; by then its column read so much more (rad), by the time (s)."""
+    run = fake_run("MOVE T")
+    reading(
+        run, lambda read: replace(read, q=only(read.q, 0, read.q[0] + told(min(run.cell.clock.now, 60.0))))
+    )
+    run.executor.run.drive.brake(60.0)
+    return run.go()
+
+
+def test_a_potentiometer_that_drifts_under_the_brakes_is_told_by_the_next_motion() -> None:
+    run = resting(lambda seconds: 0.01 * DEGREE * seconds)
+    assert run.errors == [errors.JOINT_SENSE_WRONG]
+    assert run.told.endswith(
+        "(column has gone 0.6 degrees by its potentiometer, 0.0 degrees by its tachometer)"
+    )
+
+
+def test_an_arm_that_creeps_under_its_brakes_is_believed() -> None:
+    assert resting(lambda seconds: 0.004 * DEGREE * seconds).errors == []
 
 
 # -- the motor's current --------------------------------------------------------------------------------

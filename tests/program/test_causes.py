@@ -37,7 +37,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (
         c.HeightOutside(name="BARE", height=0.12 * INCH, minimum=0.04 * INCH, maximum=0.08 * INCH),
-        "it stands 0.12 in over BARE; allowed: 0.04 to 0.08 in",
+        "it stands 0.120 in over BARE; allowed: 0.040 to 0.080 in",
     ),
     (c.HeightUnknown(name="BARE"), "BARE was not saved"),
     (c.GapTooSmall(gap=0.02 * INCH, minimum=0.1 * INCH), "the gap is 0.02 in, the minimum 0.10 in"),
@@ -104,6 +104,7 @@ WORDS: list[tuple[c.Cause, str]] = [
     ),
     (c.NoSearch(), "no search was set up"),
     (c.PlacesTried(places=9), "9 places tried"),
+    (c.PlacesTried(places=9, around="T1"), "9 places tried around T1"),
     (c.Looping(place="pins.al:12"), "the program loops at line pins.al:12, and nothing moves"),
     (c.Recorded(words="as it was said"), "as it was said"),
 ]

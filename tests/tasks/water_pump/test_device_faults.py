@@ -1,5 +1,6 @@
 """Every fault of a device breaks a line by which that device of the pump's cell is read or driven."""
 
+import re
 from functools import cache
 
 import numpy as np
@@ -9,13 +10,21 @@ from driving import Drive, tick
 from handeye.cell.lines import LinesState
 from handeye.errors import ERRORS, FEATURES_NOT_SEEN, SWITCH_WRONG
 from handeye.faults import UNKNOWN, Fault
+from handeye.planfile.store import read_plan
+from handeye.program.flow_operations import Wait
+from handeye.program.motion_operations import Move
+from handeye.resources import plans
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.device_faults import defects, device_faults
-from handeye.tasks.water_pump.noticing import EXPECTED, expected
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.noticing import EXPECTED, PINNED, SCREWED, expected
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.task import WATER_PUMP
 from handeye.variation import WorldSpec
 
+PROGRAM = read_plan(plans() / "water_pump.plan.json").program
+CALLS = {step.operation.message for step in PROGRAM.steps if isinstance(step.operation, Wait)}
+"""All that the program calls the operator with."""
 FAULTS: tuple[Fault, ...] = tuple(fault.kind.usual() for fault in device_faults())
 
 
@@ -49,9 +58,21 @@ def test_a_fault_at_its_usual_size_is_one_that_can_be_had() -> None:
 def test_what_is_expected_is_of_faults_there_are_and_by_errors_there_are(name: str) -> None:
     assert WATER_PUMP.faults(0).select(name)
     assert {*EXPECTED[name].errors} <= ERRORS.keys()
+    assert {*EXPECTED[name].calls} <= CALLS
+
+
+def test_of_every_fault_it_is_said_how_it_is_noticed_or_why_it_does_no_harm() -> None:
+    assert [name for name in WATER_PUMP.faults(0).kinds if expected(name) == UNKNOWN] == []
+
+
+def test_what_is_said_of_screws_goes_by_the_order_in_which_the_program_drives_them() -> None:
+    goals = [step.operation.goal for step in PROGRAM.steps if isinstance(step.operation, Move)]
+    driven = [int(goal[1:]) + 1 for goal in goals if re.fullmatch(r"H\d", goal)]
+    assert tuple(driven) == SCREWED
+    assert tuple(int(k) + 1 for k in dimensions().all("base.screw_holes.pinned")) == PINNED
 
 
 def test_what_is_said_of_one_fault_counts_and_not_what_is_said_of_its_group() -> None:
     assert expected("base.reversed").errors == (FEATURES_NOT_SEEN,)
     assert expected("finger_switch.plus_y.stuck_open").errors == (SWITCH_WRONG,)
-    assert expected("gasket.off.x") == UNKNOWN
+    assert expected("gasket.off") == UNKNOWN
