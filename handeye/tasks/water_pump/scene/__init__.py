@@ -18,7 +18,8 @@ from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.scene.tool import add_driver
 
 _METAL: Final = (
-    "solid", "grip", "bore", "face", "hub", "shank", "threaded", "nose", "head", "base_land", "gasket_land", "top_land",
+    "solid", "grip", "bore", "tap", "face", "hub", "shank", "shoulder", "threaded", "nose", "head",
+    "base_land", "gasket_land", "top_land",
 )  # fmt: skip
 """Classes of shapes that rub as the world's parts do."""
 

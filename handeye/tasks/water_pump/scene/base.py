@@ -36,7 +36,11 @@ def add_base(shaper: Shaper, world: PumpWorld) -> None:
     _add_plate(shaper, body, d)
     _add_casting(shaper, body, d, holes)
     _add_looks(shaper, body, world.screws)
+    lands = shaper.lands(body)
     for number, (x, y) in enumerate(holes):
+        shaper.box(
+            lands, "base_land", (x - 0.008, y - 0.008, base_top() - 0.010), (x + 0.008, y + 0.008, base_top())
+        )
         _add_tapped_hole(shaper, body, d, number, (x, y))
 
 
@@ -108,7 +112,7 @@ def _colour(holes: Sequence[Point], middles: Array, normals: Array) -> NDArray[n
 
 
 def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number: int, at: Point) -> None:
-    """The bore, the land the gasket and top rest on, and the thread.
+    """The bore, and the thread.
 
     A thread is a carrier with the frame of the screw that is in it, origin at the screw's point: its slide is
     tied to its turn by the pitch. Head and shank meet nothing until the cell engages a screw, but are compiled with
@@ -119,9 +123,8 @@ def _add_tapped_hole(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, number
         radius=d("base.screw_holes.radius"), outer=d("base.screw_holes.land"), height=depth,
         above=d("base.screw_holes.chamfer"),
     )  # fmt: skip
-    shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "bore")
+    shaper.ring(body, "tap", tap, (x, y, top - depth), lambda _: "tap")
     shaper.hole(body, f"base_hole{number}", (x, y, top), tap.radius)
-    shaper.box(body, "base_land", (x - 0.008, y - 0.008, top - 0.010), (x + 0.008, y + 0.008, top))
     carrier = body.add_body(name=f"carrier{number}", pos=[x, y, top])
     carrier.gravcomp = (
         1.0  # an empty thread has nothing that could sink, and would keep the base from resting

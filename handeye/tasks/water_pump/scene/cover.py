@@ -24,10 +24,11 @@ def add_gasket(shaper: Shaper, world: PumpWorld) -> None:
     # The moments are those of the mass that the contacts need, spread over the outline.
     body_inertia(body, d("gasket.mass"), (0.03, 0.0, thick / 2), (4e-5, 8e-5, 1.2e-4))
     hole = Bore(radius=d("gasket.screw_hole_radius"), outer=0.007, height=thick)
+    lands = shaper.lands(body)
     for number, (px, py) in enumerate(world.drilled("gasket")):
         shaper.ring(body, "gasket_hole", hole, (px, py, 0.0), lambda _: "bore")
         shaper.hole(body, f"gasket_hole{number}", (px, py, thick), hole.radius)
-        shaper.box(body, "gasket_land", (px - 0.005, py - 0.005, 0.0), (px + 0.005, py + 0.005, thick))
+        shaper.ball(lands, "gasket_land", thick / 2, (px, py, thick / 2))
     half = d("gasket.web") / 2
     low, high = (web_centre() - half, -0.011, 0.0), (web_centre() + half, 0.011, thick)
     shaper.box(body, "wall", low, high, name="gasket_web")
@@ -57,11 +58,12 @@ def _add_flange(shaper: Shaper, body: mujoco.MjsBody, d: Dimensions, holes: Sequ
         radius=d("top.screw_hole_radius"), outer=0.0095, height=flange,
         above=d("top.chamfer_above"), below=d("top.chamfer_below"),
     )  # fmt: skip
+    lands = shaper.lands(body)
     for number, (x, y) in enumerate(holes):
         shaper.ring(body, "top_hole", hole, (x, y, 0.0), lambda _: "bore")
         shaper.hole(body, f"top_hole{number}", (x, y, flange), hole.radius)
         shaper.box(body, "seat", (x - 0.007, y - 0.007, 0.0), (x + 0.007, y + 0.007, flange))
-        shaper.box(body, "top_land", (x - 0.008, y - 0.008, 0.0), (x + 0.008, y + 0.008, 0.006))
+        shaper.box(lands, "top_land", (x - 0.008, y - 0.008, 0.0), (x + 0.008, y + 0.008, 0.006))
     x2 = d("base.large_hole_2.x")
     shaper.cylinder(body, "pierced", d("base.casting.chamber_diameter") / 2, (0, 0, 0), (0, 0, flange))
     shaper.cylinder(body, "pierced", d("base.casting.inlet_diameter") / 2, (x2, 0, 0), (x2, 0, flange))

@@ -41,7 +41,7 @@ def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
     nose = [(0.0, -length), (r - bevel, -length), (r, bevel - length), (r, 0.0), (0.0, 0.0)]
     r, length, bevel = d("pin.body_radius"), d("pin.body_length"), d("pin.body_bevel")
     shank = [(0.0, 0.0), (r, 0.0), (r, length - bevel), (r - bevel, length), (0.0, length)]
-    for name, style, profile in (("pin_nose", "nose", nose), ("pin_body", "shank", shank)):
+    for name, style, profile in (("pin_nose", "nose", nose), ("pin_body", "shoulder", shank)):
         if shaper.spec.mesh(name) is None:
             shaper.convex(name, solids.surface(solids.revolved(profile, 16))[0])
         geom = body.add_geom(shaper.style(style), type=MESH, meshname=name, group=2)

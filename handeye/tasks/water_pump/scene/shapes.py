@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.cell.looks import BOX, CYLINDER, MESH
+from handeye.cell.looks import BOX, CYLINDER, MESH, SPHERE
 from handeye.pose import Array
 
 Vector = Sequence[float]
@@ -66,6 +66,10 @@ class Shaper:
         geom = body.add_geom(self.style(style), type=BOX, pos=(lower + upper) / 2, size=(upper - lower) / 2)
         return _named(geom, name, material)
 
+    def ball(self, body: mujoco.MjsBody, style: str, radius: float, centre: Vector) -> mujoco.MjsGeom:
+        """A ball (m)."""
+        return body.add_geom(self.style(style), type=SPHERE, size=[radius, 0.0, 0.0], pos=centre)
+
     def cylinder(
         self, body: mujoco.MjsBody, style: str, radius: float, start: Vector, end: Vector,
         material: str | None = None, name: str = "",
@@ -98,6 +102,14 @@ class Shaper:
                 body.add_geom(self.style(style(angle)), type=MESH, meshname=mesh, pos=at, quat=turn)
             )
         return wedges
+
+    def lands(self, body: mujoco.MjsBody) -> mujoco.MjsBody:
+        """A body fixed in a part, for the lands that it rests on.
+
+        The simulator looks for contacts between bodies first, and the many shapes of two parts that lie on each
+        other are no pairs of anything but their lands: kept apart, they cost nothing.
+        """
+        return body.add_body(name=f"{body.name}_lands")
 
     def hole(self, body: mujoco.MjsBody, name: str, mouth: Vector, radius: float) -> None:
         """Mark a hole: a site on its axis at the upper face (m), whose first size is the hole's radius."""
