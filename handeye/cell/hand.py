@@ -10,6 +10,7 @@ from handeye.cell.converter import converted
 from handeye.cell.device_errors import HandErrors
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.ports.hand import HandPort, HandReading
 from handeye.record import Record
@@ -30,7 +31,11 @@ class HandState(Record, frozen=True, kw_only=True):
 
 
 class SimulatedHand(Mechanism[HandState], HandPort):
-    """Two fingers, their motor `grip` and sensors `switch_a` and `switch_b` behind a prefix in the MuJoCo model."""
+    """Two fingers, their motor and sensors `switch_a` and `switch_b` behind a prefix in the MuJoCo model.
+
+    The activation of the motor `grip` is the set-point of its servo, its control the rate of that: between two commands
+    the fingers go on as smoothly as by an analogue servo.
+    """
 
     kind = HandState
     changes = ("actuator_gainprm", "actuator_biasprm", "actuator_forcerange")
@@ -58,24 +63,29 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         self._hand, self._errors, self._noise, self._lines = hand, errors, noise, lines
         self._motor = model.actuator(f"{prefix}grip").id
         fingers = [model.joint(f"{prefix}finger_{side}").id for side in "ab"]
-        self._fingers = model.jnt_qposadr[fingers]
+        self._fingers = [int(model.jnt_qposadr[finger]) for finger in fingers]
+        self._dof = int(model.jnt_dofadr[fingers[0]])
         self._switches = [int(model.sensor(f"{prefix}switch_{side}").adr[0]) for side in "ab"]
         self._set_point = self.gap
         """Where the finger servo is to be when the time is over, m as read."""
         self._command: tuple[float, float] | None = None
         self._reading = HandReading(gap=self.gap, touch=(False, False))
-        model.actuator_ctrllimited[self._motor] = 0
+        self._act = int(model.actuator_actadr[self._motor])
+        data.act[self._act] = self._set_point
 
     @property
     def gap(self) -> float:
         """The true opening between the finger tips, m."""
-        return float(self._data.qpos[self._fingers].sum())
+        qpos = self._data.qpos
+        return sum(float(qpos[finger]) for finger in self._fingers)
 
     def read(self) -> HandReading:
         return self._reading
 
     def drive(self, gap: float, grip: float) -> None:
         finite([gap, grip], "the gap or the grip")
+        if self._command != (gap, grip):
+            wake(self._data, self._dof)
         self._command = gap, grip
 
     def before(self, seconds: float) -> None:
@@ -92,36 +102,40 @@ class SimulatedHand(Mechanism[HandState], HandPort):
         if (goal - here) * (start - here) < 0 and abs(start - here) > step:
             start = here
         moved = min(max(goal - start, -step), step)
+        if abs(start + moved - self._set_point) > step / 4:  # not merely by the noise of what is held
+            wake(self._data, self._dof)
         self._set_point = start + moved
         grip = self._lines.carried("finger_motor", min(max(grip, 0.0), self._hand.grip))
-        self._press(grip, ahead=moved * max(0.0, _LAG / seconds - 0.5))
+        self._press(grip, start, moved / seconds)
 
-    def _press(self, grip: float, ahead: float) -> None:
+    def _press(self, grip: float, start: float, rate: float) -> None:
         """Set the force limit, and a stiffness in proportion to it: a light grip is a soft one.
 
-        The actuator goes by the true gap, which the servo does not know: its control is off as the reading is.
+        The actuator goes by the true gap, which the servo does not know: its set-point is off as the reading is.
 
         Args:
-            ahead: makes up for the servo's lag and for the set-point's steps, m.
+            start: set-point, m as read; it moves on from there.
+            rate: of the set-point, m/s; what it is ahead besides makes up for the servo's lag.
         """
         model, motor = self._model, self._motor
         model.actuator_gainprm[motor, 0] = grip / _GIVE
         model.actuator_biasprm[motor, 1:3] = (-grip / _GIVE, -grip / _GIVE * _LAG)
         model.actuator_forcerange[motor] = (-grip, grip)
-        self._data.ctrl[motor] = self._set_point + ahead - (self._reading.gap - self.gap)
+        self._data.act[self._act] = start + rate * _LAG - (self._reading.gap - self.gap)
+        self._data.ctrl[motor] = rate
 
     def after(self) -> None:
         errors, noise = self._errors, self._noise.standard_normal()
-        closed = self._data.sensordata[self._switches] > errors.switch_force
         gap = self.gap * (1 + errors.gap_scale) + errors.gap_offset + errors.gap_noise * noise
-        gap = self._lines.carried("gap_potentiometer", float(gap))
+        gap = self._lines.carried("gap_potentiometer", gap)
         self._reading = HandReading(
-            gap=float(converted(np.array(gap), np.array(errors.gap_step))),
-            touch=(self._told("plus_y", closed[0]), self._told("minus_y", closed[1])),
+            gap=converted(gap, errors.gap_step),
+            touch=(self._told("plus_y", 0), self._told("minus_y", 1)),
         )
 
-    def _told(self, finger: str, closed: bool) -> bool:
+    def _told(self, finger: str, number: int) -> bool:
         """What the switch of a finger tells."""
+        closed = self._data.sensordata[self._switches[number]] > self._errors.switch_force[number]
         return bool(self._lines.carried(f"finger_switch.{finger}", float(closed)))
 
     def state(self) -> HandState:

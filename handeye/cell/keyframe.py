@@ -30,6 +30,7 @@ def add_keyframe(spec: mujoco.MjSpec, name: str, data: mujoco.MjData, elsewhere:
         time=data.time,
         qpos=model.qpos0.tolist(),
         qvel=_rates(model, data, elsewhere),
+        act=data.act.tolist(),
         ctrl=[data.actuator(model.actuator(number).name).ctrl[0] for number in range(model.nu)],
     )
 

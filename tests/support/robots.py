@@ -144,7 +144,8 @@ def _mjcf(name: str, bodies: str, motors: list[tuple[str, float]]) -> str:
 <worldbody>{bodies}</worldbody>
 <tendon><fixed name="gap"><joint joint="finger_a" coef="1"/><joint joint="finger_b" coef="1"/></fixed></tendon>
 <equality><joint joint1="finger_a" joint2="finger_b" polycoef="0 1 0 0 0"/></equality>
-<actuator>{drives}<position name="grip" tendon="gap" kp="2000" kv="50" forcerange="-30 30"/></actuator>
+<actuator>{drives}<general name="grip" tendon="gap" dyntype="integrator" biastype="affine" gainprm="2000"
+ biasprm="0 -2000 -50" forcerange="-30 30"/></actuator>
 <sensor><touch name="switch_a" site="switch_a"/><touch name="switch_b" site="switch_b"/></sensor>
 </mujoco>"""
 
