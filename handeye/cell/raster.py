@@ -32,18 +32,30 @@ class Raster:
         """The light that the beam meets, shape (256, 333), in a picture that lies `shift` = (columns, rows) off."""
         import cv2  # not for plans, which know the pump's worlds
 
-        v, u = np.mgrid[0:ROWS, 0:COLUMNS]
-        at = self.target(np.stack([u - shift[0], v - shift[1]], axis=-1)).astype(np.float32)
+        u, v = np.meshgrid(np.arange(COLUMNS) - shift[0], np.arange(ROWS) - shift[1], sparse=True)
+        x, y = self._target(u, v)
         return np.asarray(
-            cv2.remap(light, at[..., 0], at[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE),
+            cv2.remap(
+                light,
+                x.astype(np.float32),
+                y.astype(np.float32),
+                cv2.INTER_LINEAR,
+                borderMode=cv2.BORDER_REPLICATE,
+            ),
             dtype=np.float32,
         )
 
     def target(self, uv: Array) -> Array:
         """Places on the target, in points of an even raster, that are read at points `uv`, shape (..., 2)."""
-        p = (uv - MIDDLE) / HALF
-        stretch = 1 + self.pincushion * (p**2).sum(axis=-1, keepdims=True) / 2
-        return np.asarray(MIDDLE + HALF * (p * stretch + (self.lines, self.field) * (1 - p**2)))
+        return np.stack(self._target(uv[..., 0], uv[..., 1]), axis=-1)
+
+    def _target(self, u: Array, v: Array) -> tuple[Array, Array]:
+        """The same for columns and rows apart, of shapes that go together."""
+        (p, q), (across, down) = ((u - MIDDLE[0]) / HALF[0], (v - MIDDLE[1]) / HALF[1]), HALF
+        stretch = 1 + self.pincushion / 2 * (p**2 + q**2)
+        x = MIDDLE[0] + across * (p * stretch + self.lines * (1 - p**2))
+        y = MIDDLE[1] + down * (q * stretch + self.field * (1 - q**2))
+        return x, y
 
     def shown(self, uv: Array) -> Array:
         """Points at which places on the target are read, shape (..., 2): the inverse of `target`."""

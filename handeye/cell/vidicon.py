@@ -1,6 +1,7 @@
 """Model of a vidicon and its digitiser: blur, shading, gamma, gain, noise, sixteen levels."""
 
 import math
+from functools import cache
 from typing import Final
 
 import cv2
@@ -61,6 +62,7 @@ def blur_disc(focal_length: float, focused: float, distance: float) -> float:
     return focal_length**2 / F_NUMBER * spread * lens / PITCH
 
 
+@cache
 def _shading() -> Luminance:
     v, u = np.mgrid[-1 : 1 : ROWS * 1j, -1 : 1 : COLUMNS * 1j]
     return np.asarray(1 - SHADING * (u**2 + v**2) / 2, dtype=np.float32)
