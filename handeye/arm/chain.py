@@ -18,17 +18,14 @@ def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:
     """
     k = constants(arm)
     q = np.asarray(q, dtype=np.float64)
-    angle = np.where(k.prismatic, k.theta, q)
-    shift = np.where(k.prismatic, q, k.d)
-    step = link_rotations(angle, k.cos_alpha, k.sin_alpha)
-    n = len(arm.joints)
-    R = np.empty((*q.shape[:-1], n + 1, 3, 3))
-    p = np.empty((*q.shape[:-1], n + 1, 3))
-    R[..., 0, :, :], p[..., 0, :] = arm.X_WB[:3, :3], arm.X_WB[:3, 3]
-    for i in range(n):
-        np.matmul(R[..., i, :, :], step[..., i, :, :], out=R[..., i + 1, :, :])
-        p[..., i + 1, :] = p[..., i, :] + shift[..., i, None] * R[..., i, :, 2]
-    return R, p
+    step = np.zeros((*q.shape, 4, 4))
+    step[..., :3, :3] = link_rotations(np.where(k.prismatic, k.theta, q), k.cos_alpha, k.sin_alpha)
+    step[..., 2, 3], step[..., 3, 3] = np.where(k.prismatic, q, k.d), 1.0
+    frames = [np.broadcast_to(arm.X_WB, (*q.shape[:-1], 4, 4))]
+    for i in range(len(arm.joints)):
+        frames.append(frames[-1] @ step[..., i, :, :])
+    X = np.stack(frames, axis=-3)
+    return X[..., :3, :3], X[..., :3, 3]
 
 
 def link_rotations(angle: Array, cos_alpha: Array, sin_alpha: Array) -> Array:
@@ -55,6 +52,14 @@ def point_jacobian(arm: ArmModel, R: Array, p: Array, points: Array) -> tuple[Ar
     lever = points[..., :, None, :] - p[..., None, :-1, :]
     linear = np.where(prismatic, axes[..., None, :, :], cross(axes[..., None, :, :], lever))
     return linear, np.where(prismatic, 0.0, axes)
+
+
+def tool_jacobian(arm: ArmModel, R: Array, p: Array) -> Array:
+    """Jacobian of the tool frame, the last of the chain: linear rows, then angular, shape (..., 6, n)."""
+    linear, angular = point_jacobian(arm, R, p, p[..., -1:, :])
+    return np.concatenate(
+        [np.swapaxes(linear[..., 0, :, :], -1, -2), np.swapaxes(angular, -1, -2)], axis=-2
+    )  # fmt: skip
 
 
 def centripetal(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handeye.arm.chain import centripetal, chain, cross, point_jacobian
+from handeye.arm.chain import centripetal, chain, cross, point_jacobian, tool_jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.pose import Array
 
@@ -34,11 +34,7 @@ class _Links:
 
 def mass_matrix(arm: ArmModel, q: Array) -> Array:
     """M(q), drive inertia included; shape (..., n) to (..., n, n)."""
-    k, links = constants(arm), _links(arm, q)
-    linear, angular = links.linear, links.angular
-    M = (linear * k.mass[:, None, None]) @ np.swapaxes(linear, -1, -2)
-    M += angular @ links.inertia @ np.swapaxes(angular, -1, -2)
-    return np.asarray(M.sum(axis=-3) + np.diag(k.armature))
+    return _mass_matrix(arm, _links(arm, q))
 
 
 def gravity(arm: ArmModel, q: Array) -> Array:
@@ -50,6 +46,38 @@ def bias(arm: ArmModel, q: Array, qd: Array) -> Array:
     """Torques h(q, qd) + damping qd that keep the joints at these rates: gravity, Coriolis, friction."""
     qd = np.asarray(qd, dtype=np.float64)
     return np.asarray(_bias(arm, _links(arm, q), qd) + constants(arm).damping * qd)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Dynamics:
+    """Inertia, bias torques and Jacobian of an arm at some joint positions."""
+
+    M: Array
+    """Mass matrix, shape (..., n, n)."""
+    bias: Array
+    """Torques that hold the arm up at rest, shape (..., n), or keep it moving."""
+    J: Array
+    """Jacobian at T in world axes, shape (..., 6, n)."""
+
+
+def at_rest(arm: ArmModel, q: Array) -> Dynamics:
+    """Mass matrix, gravity and Jacobian together, from one chain of frames; `q` has shape (..., n)."""
+    links = _links(arm, q)
+    J = tool_jacobian(arm, links.R, links.p)
+    return Dynamics(M=_mass_matrix(arm, links), bias=_bias(arm, links, None), J=J)
+
+
+def gravity_and_jacobian(arm: ArmModel, q: Array) -> tuple[Array, Array]:
+    """The same without the mass matrix: shapes (..., n) and (..., 6, n)."""
+    links = _links(arm, q)
+    return _bias(arm, links, None), tool_jacobian(arm, links.R, links.p)
+
+
+def _mass_matrix(arm: ArmModel, links: _Links) -> Array:
+    k, linear, angular = constants(arm), links.linear, links.angular
+    M = (linear * k.mass[:, None, None]) @ np.swapaxes(linear, -1, -2)
+    M += angular @ links.inertia @ np.swapaxes(angular, -1, -2)
+    return np.asarray(M.sum(axis=-3) + np.diag(k.armature))
 
 
 def _links(arm: ArmModel, q: Array) -> _Links:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from handeye.arm.chain import centripetal, chain, point_jacobian
+from handeye.arm.chain import centripetal, chain, tool_jacobian
 from handeye.arm.model import ArmModel
 from handeye.pose import Array, Pose
 
@@ -17,11 +17,7 @@ def forward(arm: ArmModel, q: Array) -> Pose:
 
 def jacobian(arm: ArmModel, q: Array) -> Array:
     """Geometric Jacobian at T in world axes, shape (..., n) to (..., 6, n): linear rows, then angular."""
-    R, p = chain(arm, q)
-    linear, angular = point_jacobian(arm, R, p, p[..., -1:, :])
-    return np.concatenate(
-        [np.swapaxes(linear[..., 0, :, :], -1, -2), np.swapaxes(angular, -1, -2)], axis=-2
-    )  # fmt: skip
+    return tool_jacobian(arm, *chain(arm, q))
 
 
 def drift(arm: ArmModel, q: Array, qd: Array) -> Array:

@@ -2,32 +2,40 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
+from handeye.arm.dynamics import Dynamics
 from handeye.arm.samples import Samples
 from handeye.execution.compliance import Course
-from handeye.execution.servo import Dynamics, Motion, T
+from handeye.execution.servo import Motion, T
 from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.ports.clock import Clock
 from handeye.pose import Array, Pose
 from handeye.touch.guards import Monitor
 
+_DUE: Final = 1e-9
+"""s that count as none: what floating-point numbers lose."""
 
-def run(clock: Clock, period: float, motions: Sequence[Motion[T]]) -> list[T]:
-    """Let motions of arms under one clock go on together, a servo period (s) at a time; how each ended.
+
+def run(clock: Clock, motions: Sequence[Motion[T]]) -> list[T]:
+    """Let motions of arms under one clock go on together, each when it is due; how each ended.
 
     An arm whose motion has ended is no longer driven while others move on, so that its watchdog sets its brakes.
     """
     ended: dict[int, T] = {}
+    waits = dict.fromkeys(range(len(motions)), 0.0)
     while True:
-        for number, motion in enumerate(motions):
-            if number not in ended:
-                try:
-                    next(motion)
-                except StopIteration as end:
-                    ended[number] = end.value
-        if len(ended) == len(motions):
+        for number in [number for number, wait in waits.items() if wait < _DUE]:
+            try:
+                waits[number] = next(motions[number])
+            except StopIteration as end:
+                ended[number] = end.value
+                del waits[number]
+        if not waits:
             return [ended[number] for number in range(len(motions))]
-        clock.advance(period)
+        passed = min(waits.values())
+        clock.advance(passed)
+        waits = {number: wait - passed for number, wait in waits.items()}
 
 
 @dataclass(slots=True, kw_only=True)
@@ -67,5 +75,5 @@ class ArmDrive(ServoLoop):
         self._pass(self.holding(ticks))
 
     def _pass(self, motion: Motion[T]) -> T:
-        (outcome,) = run(self.cell.clock, self.period, [motion])
+        (outcome,) = run(self.cell.clock, [motion])
         return outcome

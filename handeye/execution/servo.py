@@ -13,8 +13,8 @@ import numpy as np
 
 from handeye.arm.computed_torque import felt_wrench, torque
 from handeye.arm.converters import followed
-from handeye.arm.dynamics import gravity, mass_matrix
-from handeye.arm.kinematics import forward, jacobian
+from handeye.arm.dynamics import Dynamics, at_rest, gravity_and_jacobian
+from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.execution.servo_period import ServoPeriod
@@ -24,21 +24,12 @@ from handeye.pose import Array, Pose
 from handeye.touch.guards import ActiveGuard, Reading
 
 T = TypeVar("T")
-Motion = Generator[None, None, T]
-"""A motion under way: it yields once a servo period, and returns how it ended."""
+Motion = Generator[float, None, T]
+"""A motion under way: it yields the time, s, after which it must go on, and returns how it ended."""
 
 
 class Halted(Exception):
     """The panic button was hit: drives are off and brakes set since this servo period."""
-
-
-@dataclass(slots=True, kw_only=True)
-class Dynamics:
-    """Inertia, gravity and Jacobian at a set-point, reused while the hand hardly moves."""
-
-    M: Array
-    bias: Array
-    J: Array
 
 
 @dataclass(slots=True, kw_only=True)
@@ -78,17 +69,14 @@ class Servo:
 
     def dynamics(self) -> Dynamics:
         """Inertia, bias torques and Jacobian at rest at the present set-point."""
-        return Dynamics(
-            M=mass_matrix(self.built, self.state.q),
-            bias=gravity(self.built, self.state.q),
-            J=jacobian(self.arm, self.state.q),
-        )
+        return at_rest(self.built, self.state.q)
 
     def _reading(self, direction: Array) -> Reading:
         """Reading for the guards."""
+        sensed = self.sensed
         return Reading(
             force=-self.state.wrench[:3], moment=-self.state.wrench[3:], direction=direction,
-            tool_torque=self.sensed.tool_torque, touch=self.sensed.touch,
+            tool_torque=sensed.tool_torque, touch=sensed.touch,
         )  # fmt: skip
 
     # -- one servo period ------------------------------------------------------------------------------
@@ -151,8 +139,8 @@ class Servo:
 
     def _given_way(self, here: Dynamics, q: Array, q_is: Array) -> Dynamics:
         """Dynamics at a set-point `q` with gravity and Jacobian of where the arm is: under a force it gives way."""
-        is_so, set_so = gravity(self.built, np.stack((q_is, q)))
-        return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=jacobian(self.arm, q_is))
+        (is_so, set_so), (J, _) = gravity_and_jacobian(self.built, np.stack((q_is, q)))
+        return Dynamics(M=here.M, bias=here.bias + is_so - set_so, J=J)
 
     def _wait(
         self,
@@ -161,11 +149,13 @@ class Servo:
         guards: tuple[ActiveGuard, ...] = (),
         *,
         taring: bool = False,
+        periods: int = 1,
     ) -> Motion[None]:
         """One servo period under a torque, or (None) the brakes.
 
         Args:
             feel: estimates the force on the hand by what is sensed at its end.
+            periods: as many at once, for an arm that the brakes hold.
 
         Raises:
             Halted: behind it, if the panic button is down.
@@ -177,7 +167,7 @@ class Servo:
         if tau is not None and self.state.rest is not None:
             self.state.crept, self.state.rest = before.q - self.state.rest, None
         self._put_out(tau)
-        yield
+        yield periods * self.period
         sensed = self.sensed
         moved = (before.qd + sensed.qd) / 2 * self.period
         self.state.here = followed(self.arm, self.state.here, moved, sensed.q)

@@ -12,14 +12,14 @@ import numpy as np
 from handeye import errors
 from handeye.arm.computed_torque import prepare
 from handeye.arm.converters import sliding
-from handeye.arm.dynamics import gravity, mass_matrix
+from handeye.arm.dynamics import Dynamics, gravity, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.joint_agreement import Disagreement, JointAgreement, crept
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
 from handeye.execution.compliance import Course
-from handeye.execution.servo import Dynamics, Motion, Servo
+from handeye.execution.servo import Motion, Servo
 from handeye.pose import Array, Pose, displaced, translated
 from handeye.program.causes import (
     Cause,
@@ -35,6 +35,8 @@ from handeye.touch.senses import IN_AIR, off_zero
 
 DITHER = 2.0
 """Torque that shakes a joint, over its friction. Chosen: as much again is left to move it."""
+_AT_ONCE = 15
+"""Servo periods, at most, for which an arm that the brakes hold is left alone: the panic button waits .25 s."""
 PRESS_TIME = 10.0
 """s after which a pressing motion ends that neither gets on nor meets its guard. Chosen."""
 
@@ -69,10 +71,13 @@ class ServoLoop(Servo):
 
     def braking(self, seconds: float) -> Motion[None]:
         """Set the brakes; the set-point becomes where the arm then is."""
-        for _ in range(self._periods(seconds)):
-            yield from self._wait(None)
+        left = self._periods(seconds)
+        while left:
+            periods = 1 if left == self._periods(seconds) else min(left, _AT_ONCE)
+            yield from self._wait(None, periods=periods)
             if self.state.rest is None or self.sensed.qd.any():
                 self.state.rest = self.sensed.q.copy()
+            left -= periods
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def floating(self, seconds: float) -> Motion[None]:
