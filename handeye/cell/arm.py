@@ -7,10 +7,12 @@ import numpy as np
 
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
-from handeye.cell.converter import converted
+from handeye.cell.converter import Converters
 from handeye.cell.device_errors import ArmErrors
+from handeye.cell.joint_sensors import JointSensors
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.sleep import allow, wake
 from handeye.cell.state import figures, finite
 from handeye.cell.watchdog import Watchdog
 from handeye.errors import InvalidInput
@@ -18,10 +20,8 @@ from handeye.ports.arm import ArmPort, ArmReading
 from handeye.pose import Array
 from handeye.record import Record
 
-_BRAKE_STIFFNESS: Final = (
-    (0.004, 1.0),
-    (0.999, 0.9999, 0.001, 0.5, 2.0),
-)  # creeps under .01 deg in 10 s, in coarse steps, too
+_BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
+"""It creeps under .01 deg in 10 s, until the arm sleeps."""
 
 
 class ArmState(Record, frozen=True, kw_only=True):
@@ -79,23 +79,22 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self._motors = np.array([model.actuator(name).id for name in names])
         self._limits = model.actuator_ctrlrange[self._motors, 1].copy()
         self._friction = model.dof_frictionloss[self.dofs].copy()
-        self._brake, self._errors, self._noise = constants(arm).brake, errors, noise
+        self._brake, self._errors = constants(arm).brake, errors
         self._arm, self._lines = arm, lines
         self._model, self._data = model, data
+        self._sensors = JointSensors(errors, noise, lines)
+        self._torque_converters = Converters(errors.torque_step)
+        self._tree = int(model.dof_treeid[self.dofs[0]])
         model.dof_solref[self.dofs] = _BRAKE_STIFFNESS[0]
         model.dof_solimp[self.dofs] = _BRAKE_STIFFNESS[1]
         data.qpos[self.qpos] = posture
         self._torque: Array | None = None
         self._braked = True
         self._put(None)
-        self._read(posture, np.zeros(len(posture)), braked=True)
+        self._read(posture.copy(), np.zeros(len(posture)), braked=True)
 
     def read(self) -> ArmReading:
         return self._reading
-
-    @property
-    def still(self) -> bool:
-        return self._braked
 
     def drive(self, torque: Array | None) -> None:
         if torque is not None:
@@ -118,6 +117,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     def _put(self, torque: Array | None) -> None:
         """Hold a torque, shape (n,), or the brakes from now on."""
         self._braked = torque is None
+        allow(self._model, self._tree, allowed=self._braked)
+        if not self._braked:
+            wake(self._data, int(self.dofs[0]))
         brake = self._lines.carried_each("brake", self._brake)
         self._model.dof_frictionloss[self.dofs] = brake if torque is None else self._friction
         limits = self._limits
@@ -127,29 +129,22 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
 
     def _driven(self, torque: Array) -> Array:
         """What the drives make of a torque that is put out, shape (n,)."""
-        torque = converted(torque, self._errors.torque_step) * self._errors.drive_gain
+        torque = self._torque_converters(torque) * self._errors.drive_gain
+        if not self._lines.defects:
+            return torque
         torque = self._lines.carried_each("drive", torque)
         force = np.array([self._lines.carried(f"force.{axis}", 0.0) for axis in "xyz"])
-        return (
-            torque + jacobian(self._arm, self._data.qpos[self.qpos])[:3].T @ force if force.any() else torque
-        )
+        return np.asarray(torque + jacobian(self._arm, self._data.qpos[self.qpos])[:3].T @ force)
 
     def after(self) -> None:
-        errors, data, count = self._errors, self._data, len(self.dofs)
-        noise = self._noise.standard_normal(2 * count)
-        q = errors.readings(data.qpos[self.qpos]) + errors.pot_noise * noise[:count]
-        qd = data.qvel[self.dofs] + errors.tachometer_noise * noise[count:]
-        self._read(
-            converted(self._lines.carried_each("potentiometer", q), errors.pot_step),
-            converted(self._lines.carried_each("tachometer", qd), errors.tachometer_step),
-            braked=self._braked,
-        )
+        q, qd = self._sensors.read(self._data.qpos[self.qpos], self._data.qvel[self.dofs])
+        self._read(q, qd, braked=self._braked)
 
     def _read(self, q: Array, qd: Array, *, braked: bool) -> None:
-        """Keep readings until time has passed again; nobody who has them can change them."""
-        self._reading = ArmReading(q=q.copy(), qd=qd.copy(), braked=braked)
-        self._reading.q.setflags(write=False)
-        self._reading.qd.setflags(write=False)
+        """Keep readings, nobody else's, until time has passed again; who has them cannot change them."""
+        q.setflags(write=False)
+        qd.setflags(write=False)
+        self._reading = ArmReading(q=q, qd=qd, braked=braked)
 
     def state(self) -> ArmState:
         read = self._reading

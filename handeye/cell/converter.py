@@ -5,7 +5,19 @@ import numpy as np
 from handeye.pose import Array
 
 
-def converted(values: Array, step: Array) -> Array:
-    """Values as a converter passes them on: the nearest multiple of its step, or as they are where that is 0."""
-    in_steps = np.round(values / np.where(step > 0, step, 1.0)) * step
-    return np.where(step > 0, in_steps, values)
+def converted(value: float, step: float) -> float:
+    """A number as a converter passes it on: the nearest multiple of its step, or as it is where that is 0."""
+    return round(value / step) * step if step else value
+
+
+class Converters:
+    """A row of converters, one to a number."""
+
+    def __init__(self, steps: Array) -> None:
+        """Of steps, shape (n,); where one is 0, there is none."""
+        self._steps, self._there = steps, steps > 0
+        self._divisors = np.where(self._there, steps, 1.0)
+
+    def __call__(self, values: Array) -> Array:
+        """Numbers as they pass them on, shape (n,)."""
+        return np.where(self._there, np.rint(values / self._divisors) * self._steps, values)

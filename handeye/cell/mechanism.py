@@ -19,11 +19,6 @@ class Mechanism(ABC, Generic[S]):
     changes: ClassVar[tuple[str, ...]] = ()
     """Fields of the MuJoCo model that it changes as it runs: they belong to the state of the cell."""
 
-    @property
-    def still(self) -> bool:
-        """Whether it moves nothing now: then the cell may pass time in coarse steps, if nothing else moves."""
-        return True
-
     def before(self, seconds: float) -> None:
         """Do what is due before time passes (s)."""
 

@@ -14,6 +14,7 @@ from handeye.cell.lamp import SimulatedLamp
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.sleep import asleep
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
 from handeye.cell.truth import Drawn, Truth
 from handeye.errors import HandeyeError, InvalidInput
@@ -23,10 +24,9 @@ from handeye.ports.workcell import Workcell
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 """MuJoCo's integration state: enough to continue from a state."""
-_COARSE: Final = 4
-"""Physics steps in one while the cell is quiet: a brake creeps twice as much in such a step, under .01 deg in 10 s."""
-_STILL: Final = 2e-3
-"""Speed, rad/s or m/s, up to which a coarse step may be made: a touch in it would be .008 mm deep."""
+
+_HELD: Final = 1 / 60
+"""s for which a device may hold what it does to the simulator: the finger servo moves on, threads take screws."""
 
 
 class SimulationError(HandeyeError):
@@ -88,6 +88,7 @@ class SimulatedCell(Clock):
             clock=self, arm=arm, hand=hand, screwdriver=screwdriver, lamp=lamp, camera=camera
         )
         """The cell as the working phase knows it."""
+        self._most = max(1, round(_HELD / model.opt.timestep))
         mujoco.mj_forward(model, data)
         self._read()
 
@@ -119,34 +120,25 @@ class SimulatedCell(Clock):
             InvalidInput: not a whole number of physics steps.
             SimulationError: the physics broke down.
         """
-        steps = whole_steps(seconds, self._model.opt.timestep)
-        for part in self._mechanisms:
-            part.before(seconds)
-        if steps % _COARSE == 0 and self._quiet():
-            self._step_coarsely(steps // _COARSE)
-        else:
-            mujoco.mj_step(self._model, self._data, steps)
+        model, data = self._model, self._data
+        left = whole_steps(seconds, model.opt.timestep)
+        while left:
+            steps = min(left, self._most)
+            for part in self._mechanisms:
+                part.before(steps * model.opt.timestep)
+            if asleep(data):
+                steps = left
+                data.time += steps * model.opt.timestep
+            else:
+                mujoco.mj_step(model, data, steps)
+                self._check_physics()
+            self._read()
+            left -= steps
+
+    def _check_physics(self) -> None:
         warnings = self._data.warning.number
         if warnings.any():
-            kind = mujoco.mjtWarning(int(np.argmax(warnings != 0))).name
-            raise SimulationError(kind)
-        self._read()
-
-    def _quiet(self) -> bool:
-        """Nothing is driven, touches or moves, so that a coarse step does what fine ones would."""
-        data = self._data
-        return (
-            data.ncon == 0
-            and all(part.still for part in self._mechanisms)
-            and float(np.abs(data.qvel).max()) < _STILL
-        )
-
-    def _step_coarsely(self, steps: int) -> None:
-        options = self._model.opt
-        fine = options.timestep
-        options.timestep = _COARSE * fine
-        mujoco.mj_step(self._model, self._data, steps)
-        options.timestep = fine
+            raise SimulationError(mujoco.mjtWarning(int(np.argmax(warnings != 0))).name)
 
     def _read(self) -> None:
         for part in self._mechanisms:

@@ -1,6 +1,7 @@
 """The complete state of a simulated cell, as plain figures: for checkpoints and for going back in time."""
 
 import json
+import math
 from collections.abc import Sequence
 from typing import Any, TypeVar
 
@@ -65,6 +66,6 @@ def finite(values: V, what: str) -> V:
     Raises:
         InvalidInput: one of them is not a finite number.
     """
-    if not np.isfinite(values).all():
+    if not all(map(math.isfinite, values)):
         raise InvalidInput(f"{what} holds a value that is not a finite number")
     return values

@@ -5,7 +5,7 @@ import pytest
 from driving import Drive, tick
 from released_arm import arm_alone
 
-from handeye.cell.converter import converted
+from handeye.cell.converter import Converters, converted
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.units import INCH
@@ -25,9 +25,9 @@ def steps(values: object, step: object) -> np.ndarray:
 
 
 def test_a_converter_passes_the_nearest_step_and_one_without_steps_everything() -> None:
-    assert converted(np.array([0.26, -0.26, 0.26]), np.array([0.1, 0.1, 0.0])) == pytest.approx(
-        [0.3, -0.3, 0.26]
-    )
+    row = Converters(np.array([0.1, 0.1, 0.0]))
+    assert row(np.array([0.26, -0.26, 0.26])) == pytest.approx([0.3, -0.3, 0.26])
+    assert (converted(0.26, 0.1), converted(0.26, 0.0)) == (pytest.approx(0.3), 0.26)
 
 
 def test_all_senses_of_arm_and_hand_read_in_steps_of_their_converters() -> None:

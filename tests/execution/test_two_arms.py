@@ -64,7 +64,7 @@ def moved(cell: str) -> tuple[list[ServoLoop], list[object], list[Array]]:
     left, right = (loop(Workcell(clock=clock, arm=arm)) for arm in arms)
     samples = straight(STANFORD, left.state.q, np.array([0.0, 0.0, INCH]), INCH)
     before = [forward(STANFORD, side.sensed.q)[:3, 3] for side in (left, right)]
-    ended = run(clock, JIFFY, [left.following(samples), right.holding(len(samples) + 20)])
+    ended = run(clock, [left.following(samples), right.holding(len(samples) + 20)])
     ways = [side.hand()[:3, 3] - p for side, p in zip((left, right), before, strict=True)]
     return [left, right], ended, ways
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.mechanism import Mechanism
+from handeye.cell.sleep import allow
 from handeye.pose import Array, inverse, pose
 from handeye.record import Record
 from handeye.tasks.water_pump.threads import Threads
@@ -56,14 +57,15 @@ class Clamping(Mechanism[ClampingState]):
         self._friction = float(model.geom_friction[self._lands, 0].max())
         root = model.body_rootid[model.geom_bodyid]
         self._of_layer = [root == layer for layer in self._layers]
+        self._layered = self._of_layer[0] | self._of_layer[1]
         shanks = [model.geom(f"shank{k}").id for k in range(len(threads.holes))]
         self._foreign = ~np.isin(root, [self._base, *self._layers])
         self._foreign[shanks] = True
         self._bits = model.geom_contype[self._lands].copy(), model.geom_conaffinity[self._lands].copy()
         self._clamped = False
         if allowed:
-            trees = [model.body_treeid[model.body(name).id] for name in _MOTORED]
-            model.tree_sleep_policy[trees] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
+            for name in _MOTORED:
+                allow(model, int(model.body_treeid[model.body(name).id]))
         else:
             model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
 
@@ -89,6 +91,11 @@ class Clamping(Mechanism[ClampingState]):
 
     def _slips(self, clamp: float) -> bool:
         """True if something pushes on a layer by more than friction holds under a clamp (N), or lifts it off."""
+        first, second = self._data.contact.geom.T
+        if not (
+            (self._layered[first] & self._foreign[second]) | (self._layered[second] & self._foreign[first])
+        ).any():
+            return False
         for layer in self._of_layer:
             x, y, z = self._pushed(layer)
             if np.hypot(x, y) > self._friction * clamp or z > clamp:

@@ -19,6 +19,7 @@ import numpy as np
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
+from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
 from handeye.pose import Array, Pose, pose, translated
@@ -46,8 +47,8 @@ STIFF: Final = (0.999, 0.9999, 0.0001)
 
 MOTOR_STIFFNESS: Final = 0.032  # N m s/rad: twice the stall torque at 20 rad/s. Assembly study.
 IN_SLOT: Final = 1e-4  # m between bit and head: contacts chatter by less, and a slot is 1.2 mm deep.
+NEAR: Final = 0.03  # m between the middles of bit and head: farther, they cannot meet.
 ON_HEAD: Final = 5e-4  # m between their axes: the ring around the head leaves .3 mm.
-_NUDGE: Final = 1e-12  # rad/s: a velocity that is not zero wakes a sleeping driver
 Number = Annotated[int, msgspec.Meta(ge=0)]
 
 
@@ -120,8 +121,8 @@ class Threads(Mechanism[ThreadsState]):
         data, speed = self._data, self._driver.speed
         data.ctrl[self._spindle] = -speed
         self._attract()
-        if speed != 0 and data.qvel[self._spin] == 0.0:
-            data.qvel[self._spin] = _NUDGE
+        if speed != 0:
+            wake(data, self._spin)
         for hole, thread in enumerate(self.holes):
             if thread.screw is not None and not thread.crossed:
                 self._carriers.straighten(hole, seconds)
@@ -254,8 +255,10 @@ class Threads(Mechanism[ThreadsState]):
     def _on(self, hole: int) -> bool:
         """True if the bit stands on the head of a hole's screw, upright over its slot."""
         data, head = self._data, self._carriers.head[hole]
-        bit = data.geom_xmat[self._bit].reshape(3, 3)
-        aside = ((data.geom_xpos[head] - data.geom_xpos[self._bit]) @ bit)[:2]
+        apart = data.geom_xpos[head] - data.geom_xpos[self._bit]
+        if apart @ apart > NEAR**2:
+            return False
+        aside = (apart @ data.geom_xmat[self._bit].reshape(3, 3))[:2]
         if np.hypot(*aside) > ON_HEAD:
             return False
         return mujoco.mj_geomDistance(self._model, data, self._bit, int(head), 2 * IN_SLOT, None) < IN_SLOT

@@ -76,4 +76,4 @@ def test_a_finished_stack_falls_asleep() -> None:
     cell = screwed(True)
     for _ in range(60):
         tick(cell.devices)
-    assert cell.truth.data.ntree_awake == 1
+    assert cell.truth.data.ntree_awake == 0
