@@ -178,8 +178,8 @@ LT:     MOVE    TOPON
         LOAD    0
         OPEN    2.8
         CHANGE  [0 0 1] 3
+        OPEN    0               ;before it goes down beside the pin
         MOVE    FLANGE          ;over its narrow end
-        OPEN    0
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
         SKIPN   23
