@@ -152,10 +152,11 @@ def locate_specific(
 def _found(
     finders: list[HoleFinder], place: tuple[float, float], box: BoundingBox
 ) -> Iterator[tuple[HoleFinder, list[Candidate]]]:
-    """What may be holes: first where they are expected, then all over the box, in one way after the other."""
+    """What may be holes: where they are expected, then all over the box in one way after the other, then in shadow."""
     yield finders[0], finders[0].expected(place)
     for finder in finders:
         yield finder, finder.all_over(box)
+    yield finders[0], finders[0].expected(place, shaded=True)
 
 
 def close_box(view: View, general: GeneralLocation) -> BoundingBox | None:

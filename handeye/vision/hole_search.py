@@ -88,13 +88,16 @@ class HoleFinder:
         self._across, self._down = view.resolution(view.back_project(middle, self._z)[0])
         self._step, self._bright = levels.step(search), search.face * levels.face
 
-    def expected(self, place: tuple[float, float]) -> list[Candidate]:
+    def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
         """The largest hole where the part's reference point (x, y), m, lets it be expected, and what is around it.
 
         The second hole is met by beams that go out from the first, at all angles that the part may be turned by.
+        `shaded`: a shadow lies across the border of the first, and stops one of the characteriser's four beams; a
+        circle of its size is looked for instead.
         """
         part = self._part
-        first = self._tried(self._view.project(hole_places(part, (*place, part.at[3]))[0])[0])
+        seed = self._view.project(hole_places(part, (*place, part.at[3]))[0])[0]
+        first = self._circle(seed) if shaded else self._tried(seed)
         if first is None or abs(first.size / part.holes[0].diameter - 1) > SIZE_ERROR:
             return []
         found = [first]
@@ -102,6 +105,23 @@ class HoleFinder:
             if not any(_within(seed, known.blob) for known in found):
                 found += filter(None, [self._tried(seed)])
         return found
+
+    def _circle(self, middle: Array) -> Candidate | None:
+        """The largest hole, by as much of its border as is met around a place (u, v), and again around its centre."""
+        diameter = self._part.holes[0].diameter
+        width, height = diameter * self._across, diameter * self._down
+        for _ in range(2):
+            points = rim(
+                self._scan, (float(middle[0]), float(middle[1])), self._step, width,
+                wide=True, beyond=0.9 * self._bright,
+            )  # fmt: skip
+            centre = fit_circle(self._view, points, self._z, diameter)
+            if centre is None:
+                return None
+            x, y = centre
+            middle = self._view.project(np.array([x, y, self._z]))[0]
+        u, v = middle.tolist()
+        return Candidate(Blob(u=u, v=v, width=width, height=height, bounces=0), x, y, diameter)
 
     def _around(self, first: Candidate) -> Array:
         """Places (u, v) just within what beams from the largest hole outwards meet, shape (n, 2)."""

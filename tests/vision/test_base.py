@@ -6,7 +6,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
-from synthetic import Canvas, draw_base, part, view
+from synthetic import FINE, Canvas, draw_base, part, view
 
 from handeye.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS
@@ -96,6 +96,17 @@ def test_holes_that_are_not_where_they_are_expected_are_found_all_the_same():
     found = locate_specific(*close(POSES[0]), PART, elsewhere)
     assert found.pose[:2] == pytest.approx(POSES[0][:2], abs=0.02 * INCH)
     assert found.points > located(POSES[0]).points
+
+
+def test_a_shadow_across_the_border_of_the_largest_hole_does_not_hide_it():
+    where, canvas = view(0.050, (POSES[0][0], POSES[0][1] + 1.5 * INCH, 2.75 * INCH)), Canvas()
+    draw_base(canvas, where, PART, POSES[0])
+    u, v = (where.project(np.array([*POSES[0][:2], 2.75 * INCH]))[0] * FINE).astype(int)
+    canvas.fine[v - 8 * FINE : v + 8 * FINE, u + 14 * FINE :] *= 0.25
+    picture = canvas.picture(np.random.default_rng(1), noise=1.0, blur=0.6)
+    found = locate_specific(picture, where, PART, locate_general(*wide(POSES[0]), PART))
+    assert isinstance(found, SpecificLocation)
+    assert found.pose[:2] == pytest.approx(POSES[0][:2], abs=0.03 * INCH)
 
 
 @pytest.mark.row(54)
