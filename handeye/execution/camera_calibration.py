@@ -64,11 +64,12 @@ def calibrate_camera(
     home = drive.state.q.copy()
     numbers, views = count(1), sum(len(look.places) for look in looks)
     sightings: list[Sighting] = []
+    ready = 0.0
     for look in looks:
-        _set_up(drive, drawing, look)
+        ready = max(ready, cell.clock.now) + _set_up(_camera(drive), drawing, look)
         for place in look.places:
             viewed(next(numbers), views)
-            sightings += _sightings(drive, look, place)
+            sightings += _sightings(drive, look, place, ready)
     for lens in {look.lens for look in looks}:
         seen = sum(s.lens == lens for s in sightings)
         if seen < FEWEST:
@@ -93,16 +94,18 @@ def _camera(drive: ArmDrive) -> TvCamera:
     return camera
 
 
-def _set_up(drive: ArmDrive, drawing: CameraModel, look: CalibrationLook) -> None:
-    """Turn the lens in, aim and focus."""
-    camera = _camera(drive)
-    drive.brake(camera.lens(look.lens))
-    drive.brake(camera.aim(*drawing.aim(look.at, look.lens)))
-    drive.brake(camera.focus(math.dist(look.sharp, drawing.mount)))
+def _set_up(camera: TvCamera, drawing: CameraModel, look: CalibrationLook) -> float:
+    """Turn the lens in, aim and focus; seconds that it takes, in which the arm may move."""
+    turning = camera.lens(look.lens)
+    slewing = camera.aim(*drawing.aim(look.at, look.lens))
+    return turning + slewing + camera.focus(math.dist(look.sharp, drawing.mount))
 
 
-def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3) -> Iterator[Sighting]:
-    """Show the lamp at a place: one sighting, or none where the arm cannot go or the camera does not see it."""
+def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: float) -> Iterator[Sighting]:
+    """Show the lamp at a place to a camera that is ready at a time (s).
+
+    One sighting, or none where the arm cannot go or the camera does not see it.
+    """
     camera = _camera(drive)
     assert drive.arm.hand.lamp is not None
     on_hand = np.array(drive.arm.hand.lamp)
@@ -113,6 +116,7 @@ def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3) -> Iterat
     if isinstance(trajectory, IKResult):
         return
     _go(drive, trajectory)
+    drive.brake(max(0.0, ready - drive.cell.clock.now))
     dark, seconds = camera.digitise()
     drive.state.lamp = True
     drive.brake(seconds)

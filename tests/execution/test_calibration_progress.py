@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from fakes import FakeArm, FakeCell
+from fakes import FakeArm, FakeCamera, FakeCell
 
 from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
 from handeye.execution.state import DriveState
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.pose import Array
 from handeye.tasks import task
 from handeye.tasks.interface import Eye
@@ -48,6 +48,29 @@ def test_a_camera_whose_picture_does_not_change_is_told_of() -> None:
         CalibrationFailed, match=r"^the camera gives the same picture again, with the lamp lit as"
     ):
         shown(cell)
+
+
+class FirstPicture(Exception):
+    """A picture was taken."""
+
+
+class Turret(FakeCamera):
+    """A camera whose turret is slow, and that raises the first time it is to take a picture."""
+
+    def lens(self, focal_length: float) -> float:
+        return 50.0
+
+    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
+        raise FirstPicture
+
+
+def test_the_arm_goes_while_the_camera_turns_and_no_picture_is_taken_before_both_are_there() -> None:
+    cell = FakeCell(np.array(PARK))
+    cell.devices = replace(cell.devices, camera=Turret())
+    with pytest.raises(FirstPicture):
+        shown(cell)
+    assert cell.clock.now == pytest.approx(50 + 1 + 1, abs=0.02)
+    assert np.abs(cell.arm.q - PARK).max() > 0.1
 
 
 class FirstTorque(Exception):

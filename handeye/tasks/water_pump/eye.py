@@ -20,15 +20,21 @@ Chosen so that no part of the arm hides the base; the offset of the lenses is a 
 _HAND_ANGLE: Final = 135 * DEGREE
 
 
+_ALL: Final = (0, 1, 2, 3, 4, 5)
+_TRIANGLE: Final = (0, 2, 4)
+"""Places of a grid of six: two rows of three."""
+
+
 def _looks(
-    lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
+    chosen: tuple[int, ...], lens: float, x: float, y: float, dx: float, dy: float, heights: tuple[float, ...]
 ) -> Iterator[CalibrationLook]:
-    """A look at each of six places on a grid about (x, y), with the lamp shown left and right, high and low; inches.
+    """A look at each of some places of a grid about (x, y), with the lamp shown left and right, high and low; inches.
 
     The camera is aimed anew for each look, because the reading of its pan and tilt has an error of its own
-    each time; the heights are mixed, because places of one height would not tell height from depth.
+    each time; two places of one look tell how the camera is rolled. The heights are mixed, because places of one height
+    would not tell height from depth.
     """
-    for k in range(6):
+    for k in chosen:
         cx, cy = x + dx * (k % 3 - 1), y + dy * (k // 3 - 0.5)
         low, high = heights[k % len(heights)], heights[(k + 2) % len(heights)]
         places = ((cx - dx / 2, cy - dy / 4, low), (cx + dx / 2, cy + dy / 4, high))
@@ -45,11 +51,12 @@ def _metres(inches: Vector3) -> Vector3:
 
 
 LOOKS: Final = (
-    *_looks(WIDE, 42.5, 29.0, 5.0, 6.0, (7.5, 10.0, 12.5)),
-    *_looks(CLOSE_UP, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
-    *_looks(CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
+    *_looks(_ALL, WIDE, 42.5, 29.0, 5.0, 6.0, (7.5, 10.0, 12.5)),
+    *_looks(_ALL, CLOSE_UP, 42.5, 29.0, 3.5, 4.0, (8.0, 12.0, 7.5, 10.0)),
+    *_looks(_TRIANGLE, CLOSE_UP, 28.0, 35.0, 3.0, 4.0, (6.0, 9.0, 7.5)),
 )
-"""Both lenses over the belt, and the close-up lens from there to the standard position too.
+"""Both lenses over the belt, and the close-up lens from there to the standard position too: half the looks do
+there, as the others have told most.
 
 The fingers reach 3.5 in below the lamp, and have to stay clear of a base 2.75 in high on the belt.
 """
