@@ -101,10 +101,12 @@ class JointFriction(Record, frozen=True, kw_only=True):
     friction: float
 
 
-class FrictionMeasured(Event, frozen=True, kw_only=True):
-    """The arm has measured the friction of its joints, before the working phase; it took so many simulated seconds."""
+class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
+    """The arm has measured its joints and weighed its links before the working phase, in so many simulated seconds."""
 
     joints: tuple[JointFriction, ...]
+    links: tuple[float, ...] = ()
+    """How heavy it has found each link to be, over the model's; none in recordings that do not tell."""
     seconds: float
 
 

@@ -180,7 +180,8 @@ class ProgramSystem(System):
             joints = ArmNames.of(self.arm).joints
             measured = zip(joints, drive.friction.tolist(), strict=True)
             found = tuple(JointFriction(joint=joint, friction=round(value, 6)) for joint, value in measured)
-            yield FrictionMeasured(time=self.time, joints=found, seconds=seconds)
+            links = tuple(round(factor, 6) for factor in drive.links.tolist())
+            yield FrictionMeasured(time=self.time, joints=found, links=links, seconds=seconds)
 
     def _calibrate(self, eye: Eye) -> None:
         """Calibrate the camera; the arm is held where that leaves it."""

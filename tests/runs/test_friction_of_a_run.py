@@ -1,9 +1,10 @@
 """A run that goes by forces measures the friction of the joints first, and tells what cannot be told from it."""
 
+import msgspec
 import pytest
 from short_runs import begin, plan_of, through
 
-from handeye.events import FrictionMeasured, GuardFaint, RunStarted
+from handeye.events import AnyEvent, FrictionMeasured, GuardFaint, RunStarted
 from handeye.report.summary import timing, warnings
 from handeye.runs.host_seconds import HostSeconds
 from handeye.runs.programs import context_of
@@ -51,6 +52,20 @@ def test_friction_is_measured_before_the_first_instruction(felt: Runner) -> None
     assert isinstance(measured, FrictionMeasured)
     assert [each.joint.name for each in measured.joints][::2] == ["column", "boom", "wrist bend"]
     assert [each.friction for each in measured.joints][::2] == pytest.approx([0.4, 1.6, 0.08], abs=0.1)
+
+
+def test_the_record_tells_how_heavy_the_arm_has_found_its_links(felt: Runner) -> None:
+    _, measured, *_ = felt.events
+    assert isinstance(measured, FrictionMeasured)
+    known = context_of(felt.system).state.drive.links
+    assert known is not None
+    assert measured.links == pytest.approx(known, abs=1e-6)
+    assert measured.links != pytest.approx([1.0] * 6, abs=0.001)
+
+
+def test_a_record_of_before_tells_of_no_links_and_is_still_read() -> None:
+    told = b'{"event": "FrictionMeasured", "time": 0.0, "joints": [], "seconds": 3.3}'
+    assert msgspec.json.decode(told, type=AnyEvent) == FrictionMeasured(time=0.0, joints=(), seconds=3.3)
 
 
 def test_the_time_it_takes_stands_by_itself(felt: Runner) -> None:
