@@ -15,7 +15,7 @@ from handeye.judge.measured import Measured
 from handeye.tasks.water_pump.scene.arm import ARM
 
 FASTENER = 8
-BORE = 4
+BORE = 4 | 512
 FLAT = 16 | 32 | 64 | 128
 PIERCED = 256
 """Contact bits of scenes/water_pump/workcell.xml."""

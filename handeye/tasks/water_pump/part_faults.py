@@ -218,6 +218,9 @@ def _thicken(spec: mujoco.MjSpec, factor: float) -> None:
         geom.pos[2] *= factor
         if not geom.meshname:
             geom.size[2] *= factor
+    for ball in spec.body("gasket_lands").geoms:
+        ball.pos[2] *= factor
+        ball.size[0] *= factor
     for hole in gasket.sites:
         hole.pos[2] *= factor
 
