@@ -185,7 +185,7 @@ LT:     MOVE    TOPON
         SKIPN   23
         WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
-        CHANGE  [0 0 1] 1
+        CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
 
         STAGE   "drive the first two screws"
         OPEN    1.6
