@@ -30,7 +30,7 @@ def crept(arm: ArmModel, change: Array) -> "Disagreement | None":
     if (excess <= 1).all():
         return None
     joint = int(np.argmax(excess))
-    return Disagreement(joint=joint, potentiometer=float(change[joint]), tachometer=0.0)
+    return Disagreement(joint=joint, potentiometer=float(change[joint]), tachometer=0.0, braked=True)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +40,8 @@ class Disagreement:
     joint: int
     potentiometer: float
     tachometer: float
+    braked: bool = False
+    """Since the brakes were set, that is."""
 
 
 @dataclass(slots=True, kw_only=True)

@@ -127,6 +127,7 @@ class SimulatedCell(Clock):
             for part in self._mechanisms:
                 part.before(steps * model.opt.timestep)
             if asleep(data):
+                self.lines.before((left - steps) * model.opt.timestep)  # what is broken drifts on
                 steps = left
                 data.time += steps * model.opt.timestep
             else:

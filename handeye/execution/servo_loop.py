@@ -274,6 +274,7 @@ class ServoLoop(Servo):
         cause = JointSensesApart(
             joint=JointName(name=joint.name, kind=joint.kind),
             potentiometer=round(found.potentiometer, 6), tachometer=round(found.tachometer, 6),
+            braked=found.braked,
         )  # fmt: skip
         return Outcome(error=errors.JOINT_SENSE_WRONG, cause=cause)
 

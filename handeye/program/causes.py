@@ -174,6 +174,8 @@ class JointSensesApart(CauseRecord, frozen=True, kw_only=True):
     joint: JointName
     potentiometer: float
     tachometer: float
+    braked: bool = False
+    """Since the brakes were set: then it may be a brake that slips."""
 
 
 class CurrentSilent(CauseRecord, frozen=True, kw_only=True):

@@ -26,7 +26,8 @@ def doubt_sentence(cause: c.SenseCause) -> str:
             return _in_air(cause)
         case c.JointSensesApart():
             pot, tachometer = (_way(cause.joint, way) for way in (cause.potentiometer, cause.tachometer))
-            return f"{cause.joint.name} has gone {pot} by its potentiometer, {tachometer} by its tachometer"
+            ways = f"{cause.joint.name} has gone {pot} by its potentiometer, {tachometer} by its tachometer"
+            return f"{ways}, under its brake: or the brake slips" if cause.braked else ways
         case c.CurrentSilent():
             return f"it showed {cause.torque / OUNCE_INCH:.1f} oz-in at most, less than it takes to start"
         case c.PictureRepeated():

@@ -72,6 +72,11 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=-1 * DEGREE),
         "wrist has gone 2.0 degrees by its potentiometer, -1.0 degrees by its tachometer",
     ),
+    (
+        c.JointSensesApart(joint=ARM.joints[1], potentiometer=2 * DEGREE, tachometer=0.0, braked=True),
+        "wrist has gone 2.0 degrees by its potentiometer, 0.0 degrees by its tachometer, under its brake: or the brake "
+        "slips",
+    ),
     (c.CurrentSilent(torque=0.0), "it showed 0.0 oz-in at most, less than it takes to start"),
     (
         c.PictureRepeated(picture="AFTER", earlier="BEFORE"),

@@ -8,6 +8,7 @@ import pytest
 from driving import Drive, tick
 
 from handeye.cell.lines import LinesState
+from handeye.cell.sleep import asleep
 from handeye.errors import ERRORS, FEATURES_NOT_SEEN, SWITCH_WRONG
 from handeye.faults import UNKNOWN, Fault
 from handeye.planfile.store import read_plan
@@ -44,6 +45,18 @@ def carried() -> list[tuple[str, bool]]:
 @pytest.mark.slow
 def test_every_line_that_a_fault_breaks_is_one_that_a_device_uses() -> None:
     assert [line for line, used in carried() if not used] == []
+
+
+@pytest.mark.slow
+def test_a_fault_goes_on_while_everything_in_the_cell_is_asleep() -> None:
+    fault = Fault(name="potentiometer.1.drift", value=1e-4)
+    cell = build_cell(PumpWorld.draw(WorldSpec(seed=3, faults=(fault,))), camera="ray")
+    cell.devices.arm.drive(None)
+    cell.advance(2.0)
+    assert asleep(cell.truth.data)
+    state = cell.truth.states["lines"]
+    assert isinstance(state, LinesState)
+    assert state.defects[0].seconds == pytest.approx(2.0)
 
 
 def test_the_catalogue_has_every_fault_of_a_device() -> None:
