@@ -76,12 +76,14 @@ def _potentiometers() -> Iterator[tuple[str, Expected]]:
 EXPECTED: Final[dict[str, Expected]] = {
     "finger_switch": Expected(errors=(SWITCH_WRONG,)),
     "gap_potentiometer": Expected(errors=(GAP_WRONG,)),
-    "finger_motor": Expected(errors=(GAP_WRONG, NOTHING_HELD)),
+    "finger_motor": Expected(errors=(GAP_WRONG, NOTHING_HELD, FORCE_WRONG)),
     "force": Expected(errors=(FORCE_WRONG,), at_setup=True),
     "tachometer": Expected(errors=(JOINT_SENSE_WRONG,), at_setup=True),
     "drive": Expected(errors=(FORCE_WRONG, SERVO_LAG), at_setup=True),
     "brake": Expected(
-        harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where the arm sank."
+        errors=(JOINT_SENSE_WRONG,),
+        at_setup=True,
+        harmless="The brakes hold for as long as a picture takes, and the potentiometers tell where the arm sank.",
     ),
     "screwdriver.current": Expected(errors=(CURRENT_WRONG,)),
     "screwdriver.motor": Expected(errors=(CURRENT_WRONG,), calls=(_loose(1),)),
