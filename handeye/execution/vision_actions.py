@@ -94,8 +94,9 @@ def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
     """Brakes on while the camera's mechanism is busy."""
     if seconds <= 0:
         return
+    begun = run.time
     run.drive.brake(seconds)
-    run.emit(CameraBusy(time=run.time, action=action, seconds=round(seconds, 6)))
+    run.emit(CameraBusy(time=run.time, action=action, seconds=round(run.time - begun, 6)))
 
 
 def _no_picture(number: int, picture: str) -> Fault:
