@@ -2,8 +2,11 @@
 
 import re
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
 from cyclopts import App, Parameter
 
@@ -25,6 +28,7 @@ from handeye.tasks.trial import Known
 from handeye.variation import WorldSpec
 
 if TYPE_CHECKING:
+    from handeye.report.result import Result
     from handeye.trials.faults import FaultTrial
 
 OUTCOMES: Final = Kind("list of outcomes", rb'\{"fault":')
@@ -66,34 +70,51 @@ def assembly_trials(
 
     Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed.
     """
-    import msgspec
-
     from handeye.trials.seeds import assemble_many
 
     chosen = _range(seeds)
     _some(jobs, "process")
-    if out is not None:
-        check_place(out, RESULTS)
-    results = []
     plan = compiled(default_script())
     worlds = [broken(errors.spec(seed), fault, plan.program) for seed in chosen]
-    for result in assemble_many(plan, worlds, camera=camera, jobs=jobs):
-        results.append(result)
-        word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
-        detail = f"{result.stopped_at or ''}: {result.message}"
-        if result.exit_code == 0:
-            detail = "; ".join(f"caution: {sentence}" for sentence in result.cautions)
-        if result.exit_code == 3:
-            detail = "; ".join(check.told for check in result.referee.values() if check.refuses)
-        speed = f"{result.timing.real_time_factor:4.1f}x"
-        say(f"seed {result.seed:4}  {word:10}  {speed}  {detail}")
+    with _kept(out, RESULTS, by="seed") as results:
+        for result in assemble_many(plan, worlds, camera=camera, jobs=jobs):
+            results.append(result)
+            say(_line(result))
     done = sum(result.exit_code == 0 for result in results)
     silent = sum(result.exit_code == 3 for result in results)
     say(f"{done} of {len(results)} assembled, {silent} silent failures")
-    if out is not None:
-        lines = (msgspec.json.encode(r) + b"\n" for r in sorted(results, key=lambda r: r.seed))
-        write_over(out, b"".join(lines), RESULTS)
     return 3 if silent else 0
+
+
+def _line(result: "Result") -> str:
+    """A line on a run."""
+    word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
+    detail = f"{result.stopped_at or ''}: {result.message}"
+    if result.exit_code == 0:
+        detail = "; ".join(f"caution: {sentence}" for sentence in result.cautions)
+    if result.exit_code == 3:
+        detail = "; ".join(check.told for check in result.referee.values() if check.refuses)
+    return f"seed {result.seed:4}  {word:10}  {result.timing.real_time_factor:4.1f}x  {detail}"
+
+
+@contextmanager
+def _kept(out: Path | None, kind: Kind, *, by: str) -> Iterator[list[Any]]:
+    """A list of records that are written to a file in the end, in order of a field; also where trials are broken off.
+
+    Raises:
+        InvalidInput: that file cannot be written.
+    """
+    import msgspec
+
+    if out is not None:
+        check_place(out, kind)
+    records: list[Any] = []
+    try:
+        yield records
+    finally:
+        if out is not None and records:
+            lines = [msgspec.json.encode(each) + b"\n" for each in sorted(records, key=attrgetter(by))]
+            write_over(out, b"".join(lines), kind)
 
 
 def fault_trials(
@@ -126,20 +147,14 @@ def fault_trials(
     kinds = chosen(task().faults(spec.seed), only or ())
     number = None if stage is None else stage_of(plan.program)(stage)
     _some(jobs, "process")
-    if out is not None:
-        check_place(out, OUTCOMES)
-    tried = []
-    for trial in try_faults(plan, spec, kinds, stage=number, camera=camera, jobs=jobs):
-        tried.append(trial)
-        line = msgspec.json.encode(trial).decode()
-        if json:
-            put_line(line)
-        else:
-            say(_told(trial))
+    with _kept(out, OUTCOMES, by="fault") as tried:
+        for trial in try_faults(plan, spec, kinds, stage=number, camera=camera, jobs=jobs):
+            tried.append(trial)
+            if json:
+                put_line(msgspec.json.encode(trial).decode())
+            else:
+                say(_told(trial))
     (note if json else say)(f"{len(tried)} faults: {counted_verdicts(tried)}")
-    if out is not None:
-        lines = (msgspec.json.encode(trial) + b"\n" for trial in sorted(tried, key=lambda each: each.fault))
-        write_over(out, b"".join(lines), OUTCOMES)
     return 0 if all(trial.verdict in GOOD for trial in tried) else 3
 
 
