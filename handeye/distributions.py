@@ -68,6 +68,18 @@ class Fixed(Distribution):
 
 
 @dataclass(frozen=True, slots=True)
+class Step(Distribution):
+    """A step of a converter: the same in every world of every level, for the controller knows its bits."""
+
+    name = "step"
+    is_error = False
+    spread: float
+
+    def draw(self, rng: np.random.Generator, nominal: float) -> float:
+        return self.spread
+
+
+@dataclass(frozen=True, slots=True)
 class Range(Distribution):
     """Even from `low` to `high`: what the job is for, and no error."""
 

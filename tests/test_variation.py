@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
+from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Step, Uniform
 from handeye.errors import InvalidInput
 from handeye.units import DEGREE, INCH
 from handeye.variation import DRAWING, Level, Overrides, Quantity, Variation, World, WorldSpec
@@ -23,6 +23,7 @@ TABLE = Variation(
     quantity("camera.noise", Noise(0.07), "deg"),
     quantity("slip", Uniform(1.0), nominal=2.0),
     quantity("wave", Fixed(0.03)),
+    quantity("step", Step(0.01)),
     quantity("start", Phase(), "deg"),
     quantity("belt", Range(41.5, 47.5), nominal=44.5),
 )
@@ -49,7 +50,7 @@ def test_equal_specifications_give_equal_worlds(seed: int) -> None:
 
 
 def test_different_seeds_give_different_worlds() -> None:
-    assert differing(drawn(7), drawn(8)) == TABLE.quantities.keys() - {"camera.noise", "wave"}
+    assert differing(drawn(7), drawn(8)) == TABLE.quantities.keys() - {"camera.noise", "wave", "step"}
 
 
 @given(SEEDS)
@@ -97,7 +98,7 @@ def test_the_high_level_doubles_every_error_and_the_low_one_halves_it(seed: int)
 
 @given(SEEDS)
 def test_levels_leave_alone_what_is_no_error(seed: int) -> None:
-    assert not {"belt", "start"} & differing(drawn(seed, "low"), drawn(seed, "high"))
+    assert not {"belt", "start", "step"} & differing(drawn(seed, "low"), drawn(seed, "high"))
 
 
 def test_values_are_si() -> None:

@@ -9,7 +9,7 @@ import msgspec
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from handeye.distributions import Fixed, Noise, Normal, Range, Uniform
+from handeye.distributions import Fixed, Noise, Normal, Range, Step, Uniform
 from handeye.variation import SPREADS, Quantity, Variation, World, WorldSpec
 
 
@@ -82,6 +82,8 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, float] | 
     match quantity.distribution:
         case Range(low, high):
             return low, high
+        case Step(spread):
+            return spread
         case Normal(spread) | Uniform(spread) | Noise(spread) | Fixed(spread):
             return factor * spread
     return None

@@ -11,7 +11,7 @@ import numpy as np
 
 from handeye.arm.converters import SENSE_BITS, TORQUE_BITS, position_step, rate_step, torque_step
 from handeye.arm.robots.stanford import STANFORD
-from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Uniform
+from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Step, Uniform
 from handeye.tasks.water_pump.stations import stations
 from handeye.units import UNITS
 from handeye.variation import Quantity, Variation
@@ -80,7 +80,7 @@ def _group(
     nominals = np.broadcast_to(nominal, len(components))
     for (name, distribution), its, middle in zip(components.items(), units, nominals, strict=True):
         most = min(greatest, _MOST[its])
-        low = 0.0 if isinstance(distribution, Noise | Fixed) else max(least, -most)
+        low = 0.0 if isinstance(distribution, Noise | Fixed | Step) else max(least, -most)
         yield Quantity(
             name=f"{group}.{name}",
             unit=its,
@@ -91,7 +91,9 @@ def _group(
         )
 
 
-def _numbered(kind: type[Normal | Uniform | Noise | Fixed], *spreads: float) -> dict[str, Distribution]:
+def _numbered(
+    kind: type[Normal | Uniform | Noise | Fixed | Step], *spreads: float
+) -> dict[str, Distribution]:
     return {str(number): kind(spread) for number, spread in enumerate(spreads, 1)}
 
 
@@ -136,7 +138,7 @@ def _sensors() -> Iterator[Quantity]:
         "Reading-to-reading noise of the potentiometers, before the converter. Placeholder: far inside a step.",
     )  # fmt: skip
     yield from _group(
-        "arm.pot_step", _numbered(Fixed, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
+        "arm.pot_step", _numbered(Step, *(position_step(STANFORD) / size).tolist()), JOINT_UNITS,
         f"One step of the converter of a potentiometer: {SENSE_BITS} bits over the joint's travel. Data sheet of 1974.",
     )  # fmt: skip
     yield from _group(
@@ -144,7 +146,7 @@ def _sensors() -> Iterator[Quantity]:
         "Noise of the tachometers, before the converter. Placeholder: far inside a step.",
     )  # fmt: skip
     yield from _group(
-        "arm.tachometer_step", _numbered(Fixed, *rate_step(STANFORD).tolist()), _RATES,
+        "arm.tachometer_step", _numbered(Step, *rate_step(STANFORD).tolist()), _RATES,
         f"One step of the converter of a tachometer: {SENSE_BITS} bits over the joint's speeds in both directions. "
         "Data sheet of 1974; that it reaches just the greatest speed is inferred.",
     )  # fmt: skip
@@ -152,7 +154,7 @@ def _sensors() -> Iterator[Quantity]:
 
 def _drives() -> Iterator[Quantity]:
     yield from _group(
-        "arm.torque_step", _numbered(Fixed, *torque_step(STANFORD).tolist()), _TORQUES,
+        "arm.torque_step", _numbered(Step, *torque_step(STANFORD).tolist()), _TORQUES,
         f"One step of the converter that a drive gets its torque from: {TORQUE_BITS} bits over its torques in both "
         'directions. Data sheet of 1974: "8 bits or more".',
     )  # fmt: skip
@@ -203,7 +205,7 @@ def _hand() -> Iterator[Quantity]:
         "Noise of the gap as read, before the converter. Placeholder: a third of a step.",
     )  # fmt: skip
     yield from _group(
-        "hand", {"gap_step": Fixed(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
+        "hand", {"gap_step": Step(STANFORD.hand.gap_max / UNITS["in"].size / 2**SENSE_BITS)}, "in",
         f"One step of the converter of the gap: {SENSE_BITS} bits over the opening. Data sheet of 1974.",
     )  # fmt: skip
     yield from _group(
