@@ -44,7 +44,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
     """
 
     kind = ArmState
-    changes = ("dof_frictionloss",)
+    changes = ("dof_frictionloss", "tree_sleep_policy")
 
     def __init__(
         self,
