@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import ExitStack, contextmanager
 from functools import partial
-from multiprocessing import active_children, get_context
+from multiprocessing import active_children, get_context, resource_tracker
 from typing import Any, TypeVar
 
 from handeye.planfile.plan import Plan
@@ -43,7 +43,7 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
                     jobs, get_context("spawn"), _begin, (trial,), max_tasks_per_child=1
                 )
                 closing.enter_context(pool)
-                closing.callback(pool.shutdown, wait=False, cancel_futures=True)
+                closing.callback(pool.shutdown, cancel_futures=True)
                 runs = [pool.submit(_one, world) for world in worlds]
             for run in as_completed(runs):
                 yield run.result()
@@ -57,25 +57,31 @@ def in_processes(trial: Callable[[Item], T], worlds: Sequence[Item], jobs: int) 
 def _deaf_to_interrupts() -> Iterator[None]:
     """While processes are begun that shall not hear Ctrl-C at the terminal: we do, and end them without their words.
 
-    Threads that begin here, and the processes that those begin, are deaf for good. Being told to end, which they must
-    hear, waits here until they have begun: half begun, they would complain.
+    Threads that begin here, and the processes that those begin, are deaf for good. We ourselves are interrupted, or
+    told to end, when all have begun: half begun, one would not be known, and complain.
 
     Raises:
-        KeyboardInterrupt: behind it, if we were told to end meanwhile.
+        KeyboardInterrupt: behind it, if we were interrupted or told to end meanwhile.
     """
     if not hasattr(signal, "pthread_sigmask"):  # as on Windows
         yield
         return
+    resource_tracker.ensure_running()  # where it begins by itself, it takes the mask away
     masked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     told: list[int] = []
     handles = threading.current_thread() is threading.main_thread()  # no other thread may, or is interrupted
-    handler = signal.signal(signal.SIGTERM, lambda number, _: told.append(number)) if handles else None
+    # A thread of a library may be there that is not masked: it takes Ctrl-C to our handler all the same.
+    before = {
+        each: signal.signal(each, lambda number, _: told.append(number))
+        for each in (signal.SIGINT, signal.SIGTERM)
+        if handles
+    }
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, masked)
-        if handles:
-            signal.signal(signal.SIGTERM, handler)
+        for each, handler in before.items():
+            signal.signal(each, handler)
     if told:
         raise KeyboardInterrupt
 
