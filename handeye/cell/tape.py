@@ -29,7 +29,7 @@ _FIGURES: Final = ("actuator_trnid",)
 """Figures of the model that a cell changes and keeps in the state of a mechanism, beside those kept as figures."""
 
 Call = Callable[..., Any]
-_Written = tuple[str, Any]
+Written = tuple[str, Any]
 """Name of a place, and what was written there."""
 
 
@@ -49,7 +49,7 @@ def physics_through(through: Callable[[Call], Call]) -> Iterator[None]:
             setattr(mujoco, name, call)
 
 
-class _Place(Protocol):
+class Place(Protocol):
     """Somewhere in the simulator that can be read and written as a whole."""
 
     def __getitem__(self, whole: EllipsisType, /) -> Any: ...
@@ -71,38 +71,24 @@ class _Number:
 
 
 @dataclass(frozen=True, slots=True)
-class _Move:
+class Move:
     """A call of the simulator, and what was written before it."""
 
     call: str
     arguments: tuple[Any, ...]
-    written: tuple[_Written, ...]
+    written: tuple[Written, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Stretch:
+class Stretch:
     """Calls from one reset on, and the state they have led to."""
 
-    moves: Sequence[_Move]
-    left: tuple[_Written, ...]
+    moves: Sequence[Move]
+    left: tuple[Written, ...]
     """Written after the last call: the clock, if everything sleeps then."""
     end: bytes
     end_s: float
     """The cell's clock then."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Bare:
-    """What a tape came to when it was played."""
-
-    seconds: float
-    """By the clock that was given."""
-    physics_steps: int
-    stretches: int
-    same: int
-    """Stretches that ended in the state of the run, bit for bit."""
-    apart_s: float | None
-    """The cell's clock at the end of the first that did not."""
 
 
 class Tape:
@@ -111,13 +97,15 @@ class Tape:
     def __init__(self, cell: SimulatedCell) -> None:
         """An empty tape; the cell is at the beginning of what will be recorded."""
         truth = cell.truth
+        self.model = copy.deepcopy(truth.model)
+        """The model at the beginning."""
+        self.figures = (*cell.capture().figures, *_FIGURES)
+        """Fields of the model that are watched."""
+        self.stretches: list[Stretch] = []
         self._cell, self._data = cell, truth.data
-        self._model = copy.deepcopy(truth.model)
-        self._figures = (*cell.capture().figures, *_FIGURES)
-        self._places = _places(truth.model, truth.data, self._figures)
+        self._places = places(truth.model, truth.data, self.figures)
         self._before: dict[str, bytes] = {}
-        self._moves: list[_Move] = []
-        self._stretches: list[_Stretch] = []
+        self._moves: list[Move] = []
 
     @contextmanager
     def recording(self) -> Iterator[None]:
@@ -133,14 +121,14 @@ class Tape:
                 return call(model, data, *arguments)
             if call.__name__ == _RESET:
                 self._cut()
-            self._moves.append(_Move(call.__name__, arguments, tuple(self._written())))
+            self._moves.append(Move(call.__name__, arguments, tuple(self._written())))
             result = call(model, data, *arguments)
             self._before = {name: place[...].tobytes() for name, place in self._places.items()}
             return result
 
         return through
 
-    def _written(self) -> Iterator[_Written]:
+    def _written(self) -> Iterator[Written]:
         for name, place in self._places.items():
             if place[...].tobytes() != self._before.get(name):
                 yield name, np.array(place[...])
@@ -148,39 +136,14 @@ class Tape:
     def _cut(self) -> None:
         """End a stretch."""
         if self._moves:
-            end = _state(self._cell.truth.model, self._data)
+            end = state_of(self._cell.truth.model, self._data)
             left = tuple(self._written())
-            self._stretches.append(_Stretch(moves=self._moves, left=left, end=end, end_s=self._cell.now))
+            self.stretches.append(Stretch(moves=self._moves, left=left, end=end, end_s=self._cell.now))
         self._moves = []
 
-    def play(self, clock: Callable[[], float]) -> Bare:
-        """Do all of it again in a simulator of its own, and take the time of that."""
-        model = copy.deepcopy(self._model)
-        data = mujoco.MjData(model)
-        places = _places(model, data, self._figures)
-        seconds, apart = 0.0, []
-        for stretch in self._stretches:
-            moves = [_ready(move, places) for move in stretch.moves]
-            begun = clock()
-            for call, arguments, written in moves:
-                for place, values in written:
-                    place[...] = values
-                call(model, data, *arguments)
-            seconds += clock() - begun
-            for name, values in stretch.left:
-                places[name][...] = values
-            if _state(model, data) != stretch.end:
-                apart.append(stretch.end_s)
-        return Bare(
-            seconds=seconds,
-            physics_steps=sum(_steps(move) for stretch in self._stretches for move in stretch.moves),
-            stretches=len(self._stretches),
-            same=len(self._stretches) - len(apart),
-            apart_s=apart[0] if apart else None,
-        )
 
-
-def _places(model: mujoco.MjModel, data: mujoco.MjData, figures: Sequence[str]) -> dict[str, _Place]:
+def places(model: mujoco.MjModel, data: mujoco.MjData, figures: Sequence[str]) -> dict[str, Place]:
+    """All places that are watched, by their names."""
     return {
         "data.time": _Number(data, "time"),
         "model.opt.timestep": _Number(model.opt, "timestep"),
@@ -189,21 +152,8 @@ def _places(model: mujoco.MjModel, data: mujoco.MjData, figures: Sequence[str]) 
     }
 
 
-def _ready(move: _Move, places: dict[str, _Place]) -> tuple[Call, tuple[Any, ...], list[tuple[_Place, Any]]]:
-    return (
-        getattr(mujoco, move.call),
-        move.arguments,
-        [(places[name], values) for name, values in move.written],
-    )
-
-
-def _steps(move: _Move) -> int:
-    if move.call not in ("mj_step", "mj_step2"):
-        return 0
-    return int(move.arguments[0]) if move.arguments else 1
-
-
-def _state(model: mujoco.MjModel, data: mujoco.MjData) -> bytes:
+def state_of(model: mujoco.MjModel, data: mujoco.MjData) -> bytes:
+    """The integration state, bit for bit."""
     state = np.empty(mujoco.mj_stateSize(model, INTEGRATION))
     mujoco.mj_getState(model, data, state, INTEGRATION)
     return state.tobytes()

@@ -7,16 +7,15 @@ without an account, and the tape is played: so neither recording nor playing is 
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
 
-from handeye.cell.tape import Bare, Tape
+from handeye.cell.bare_physics import Bare, play
+from handeye.cell.tape import Tape
 from handeye.events import AnyEvent, StageStarted
 from handeye.report.finishing import outcome
-from handeye.report.result import Result
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
 from handeye.runs.host_seconds import Meter
@@ -24,133 +23,9 @@ from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.trials.cpu_account import CpuAccount, Place
-from handeye.trials.run_components import COMPONENTS, PICTURES, charged_to
-
-PREPARATION: Final[Place] = ("preparation",)
-REFEREE: Final[Place] = ("referee",)
-_STAGE: Final = "stage"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Spent:
-    """CPU seconds of one run, or of several, by place and component."""
-
-    each: Mapping[tuple[Place, str], float]
-
-    @classmethod
-    def summed(cls, several: Iterable["Spent"]) -> "Spent":
-        """Of several runs together."""
-        each: dict[tuple[Place, str], float] = {}
-        for spent in several:
-            for what, seconds in spent.each.items():
-                each[what] = each.get(what, 0.0) + seconds
-        return cls(each=each)
-
-    @property
-    def preparation_cpu_s(self) -> float:
-        """The cell built, joints and camera measured."""
-        return self._of(PREPARATION)
-
-    @property
-    def referee_cpu_s(self) -> float:
-        """The referee, and the result."""
-        return self._of(REFEREE)
-
-    @property
-    def work_cpu_s(self) -> float:
-        """The working phase."""
-        return sum(self.components().values())
-
-    @property
-    def pictures_cpu_s(self) -> float:
-        """The share of the working phase that pictures take, made and looked at."""
-        return sum(self.components()[component] for component in PICTURES)
-
-    @property
-    def cpu_s(self) -> float:
-        """All of it."""
-        return sum(self.each.values())
-
-    def components(self, *stages: str) -> dict[str, float]:
-        """CPU s of the components in the working phase, or in some stages of it."""
-        return {
-            component: sum(
-                seconds
-                for (place, of), seconds in self.each.items()
-                if of == component and place[:1] == (_STAGE,) and (not stages or place[1] in stages)
-            )
-            for component in COMPONENTS
-        }
-
-    def _of(self, place: Place) -> float:
-        return sum(seconds for (where, _), seconds in self.each.items() if where == place)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RunCost:
-    """What one run has cost."""
-
-    result: Result
-    spent: Spent
-    account_cpu_s: float
-    """What measuring took of that."""
-    bare: Bare | None = None
-    """The physics of its working phase, alone."""
-
-    @property
-    def simulated_s(self) -> float:
-        """Of the working phase, by the cell's clock."""
-        return self.result.timing.working_s
-
-    @property
-    def ratio(self) -> float | None:
-        """Working phase to its physics alone."""
-        return None if self.bare is None else self.spent.work_cpu_s / self.bare.seconds
-
-    @property
-    def ratio_without_pictures(self) -> float | None:
-        """The same, what pictures take left out."""
-        spent = self.spent
-        return None if self.bare is None else (spent.work_cpu_s - spent.pictures_cpu_s) / self.bare.seconds
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Speed:
-    """What a process has cost that planned once and carried the plan out in some worlds."""
-
-    start_cpu_s: float
-    """The interpreter, and everything imported."""
-    planning_cpu_s: float
-    stages: tuple[str, ...]
-    runs: tuple[RunCost, ...]
-    peak_memory_mib: float | None
-    """Of the process when the last world was judged; None: this system does not tell."""
-
-    @property
-    def spent(self) -> Spent:
-        """Of all worlds."""
-        return Spent.summed(run.spent for run in self.runs)
-
-    @property
-    def cpu_s(self) -> float:
-        """The whole process, but for the tapes."""
-        return self.start_cpu_s + self.planning_cpu_s + self.spent.cpu_s
-
-    @property
-    def accepted(self) -> int:
-        """Worlds in which the referee found everything right."""
-        return sum(run.result.assembled is True for run in self.runs)
-
-    @property
-    def accepted_per_core_hour(self) -> float:
-        """As many would be accepted in an hour of one processor."""
-        return self.accepted / self.cpu_s * 3600
-
-    @property
-    def simulated_s_per_cpu_s(self) -> float:
-        """Of the working phases."""
-        return sum(run.simulated_s for run in self.runs) / self.spent.work_cpu_s
+from handeye.trials.cpu_account import CpuAccount
+from handeye.trials.run_components import charged_to
+from handeye.trials.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent
 
 
 @dataclass(slots=True)
@@ -161,7 +36,7 @@ class _Stages(Observer):
 
     def event(self, event: AnyEvent) -> None:
         if isinstance(event, StageStarted):
-            self.account.at((_STAGE, event.stage))
+            self.account.at((STAGE, event.stage))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -218,7 +93,7 @@ def bare(begun: Checkpoint, watching: Watching) -> Bare:
     tape = Tape(runner.cell)
     with tape.recording():
         advance(runner)
-    return tape.play(time.process_time)
+    return play(tape, time.process_time)
 
 
 def measure(

@@ -10,7 +10,7 @@ from rich.text import Text
 from handeye.diagnostics import visible
 from handeye.report.page import clock
 from handeye.trials.run_components import COMPONENTS, PHYSICS, PICTURES
-from handeye.trials.speed import RunCost, Speed
+from handeye.trials.run_cost import RunCost, Speed
 
 _COLUMNS: Final = {
     PHYSICS: (PHYSICS,),
