@@ -261,7 +261,7 @@ from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught
 from handeye.source import Source
 
-SCRIPT = "TRANS P [25 38 6 90 90 0]\\nMOVE P\\nCLOSE 0\\nFREE 1,X\\nCHANGE Z,1\\nOPEN 1"
+SCRIPT = "TRANS P [25 38 6 90 90 0]\\nMOVE P\\nCLOSE\\nSKIPE 2\\nOPEN 1\\nFREE 1,X\\nCHANGE Z,1\\nOPEN 1"
 program, _ = compile_text(Source(name="wall.al", text=SCRIPT), Taught(positions={}, parts={}))
 plan, _ = make_plan(program, STANFORD)
 cell = FakeCell(np.array(plan.motions[0].knots[0])).devices

@@ -196,13 +196,13 @@ _TABLE = (
     Instruction(
         op="CLOSE",
         group=HAND_WORDS,
-        help="close on something; error 2 if thinner than the minimum (in), 7 if thicker than the maximum",
+        help="close on something; error 2 on nothing or less than the minimum (in), 7 on more than the maximum",
         operands=(gap("minimum", optional=True), gap("maximum", optional=True, ours=True)),
     ),
     Instruction(
         op="CENTER",
         group=HAND_WORDS,
-        help="close without pushing the thing: the arm gives way; error 2 below the minimum (in)",
+        help="close without pushing the thing: the arm gives way; error 2 on nothing or less than the minimum (in)",
         operands=(gap("minimum", optional=True),),
     ),
     Instruction(

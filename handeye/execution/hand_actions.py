@@ -20,7 +20,7 @@ from handeye.program.causes import (
 from handeye.program.motion_operations import Center, Close, Open
 from handeye.program.operation import Operation
 from handeye.touch.centring import Centring
-from handeye.touch.hold import at_least, at_most
+from handeye.touch.hold import at_least, at_most, least_gap
 from handeye.touch.senses import FOLLOWED, FREED, followed, stood_still
 
 _SHUT: Final = -0.02
@@ -51,20 +51,21 @@ def _to_gap(run: ExecutionContext, goal: float) -> None:
 
 
 def close(run: ExecutionContext, operation: Close) -> Fault | None:
-    """Close until both switches fire or the gap falls below the minimum, then see what is held."""
+    """Close until both switches fire or the gap falls below what anything would leave, then see what is held."""
     fault = _begin_to_close(run)
     if fault is not None:
         return fault
     drive, grasp = run.drive, run.arm.hand.grasp
     start = drive.state.gap = drive.sensed.gap
-    floor = min(operation.minimum, drive.state.gap)
+    least = least_gap(operation.minimum)
+    floor = min(least, drive.state.gap)
     while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
         drive.state.gap -= grasp.speed * drive.period
         drive.hold(1)
     driven = _driven(start, drive.state.gap)
     drive.state.gap = _SHUT
     drive.hold(grasp.settle)
-    return _still(run, start, driven) or _held(run, operation.minimum, operation.maximum)
+    return _still(run, start, driven) or _held(run, least, operation.maximum)
 
 
 def center(run: ExecutionContext, operation: Center) -> Fault | None:
@@ -89,10 +90,11 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     still = _still(run, start, _driven(start, drive.state.gap))
     if still is not None:
         return still
+    least = least_gap(operation.minimum)
     if centring.error:
-        return _nothing_centred(run, operation.minimum)
+        return _nothing_centred(run, least)
     run.state.finger_line = line
-    return _thick_enough(run, operation.minimum)
+    return _thick_enough(run, least)
 
 
 # -- what the senses say of it ------------------------------------------------------------------------
@@ -125,18 +127,18 @@ def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
     return _gap_wrong(GapStill(gap=round(run.drive.sensed.gap, 6), driven=round(driven, 6)))
 
 
-def _nothing_centred(run: ExecutionContext, minimum: float) -> Fault:
+def _nothing_centred(run: ExecutionContext, least: float) -> Fault:
     """The error of fingers that did not both touch anything: held apart all the same, they touch it unnoticed."""
     gap = run.drive.sensed.gap
-    if at_least(gap, minimum + FREED):
+    if at_least(gap, least + FREED):
         return _switches_open(run)
     return Fault(number=errors.NOTHING_HELD, cause=NothingBetween(gap=round(gap, 6)))
 
 
-def _held(run: ExecutionContext, minimum: float, maximum: float | None) -> Fault | None:
+def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:
     """See that something is held, by the gap and by both switches."""
     gap, touch = run.drive.sensed.gap, run.drive.sensed.touch
-    thin = _thick_enough(run, minimum)
+    thin = _thick_enough(run, least)
     if thin is not None:
         return thin
     if not all(touch) and at_least(gap, FOLLOWED):
@@ -146,11 +148,11 @@ def _held(run: ExecutionContext, minimum: float, maximum: float | None) -> Fault
     return None
 
 
-def _thick_enough(run: ExecutionContext, minimum: float) -> Fault | None:
+def _thick_enough(run: ExecutionContext, least: float) -> Fault | None:
     gap = run.drive.sensed.gap
-    if at_least(gap, minimum):
+    if at_least(gap, least):
         return None
-    return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=minimum))
+    return Fault(number=errors.NOTHING_HELD, cause=GapTooSmall(gap=round(gap, 6), minimum=least))
 
 
 def _switches_open(run: ExecutionContext) -> Fault:

@@ -92,13 +92,13 @@ def _with_force(operation: Change) -> list[str]:
 
 
 def _closed(operation: Close) -> list[str]:
-    said = [_held(operation)] if operation.minimum > 0 else []
-    most = operation.maximum
+    said, most = [_held(operation)], operation.maximum
     return said if most is None else [*said, f"{inches(most)} or less, else error {WRONG_THICKNESS}"]
 
 
 def _held(operation: Close | Center) -> str:
-    return f"holds {inches(operation.minimum)} or more, else error {NOTHING_HELD}"
+    held = f"{inches(operation.minimum)} or more" if operation.minimum else "anything"
+    return f"holds {held}, else error {NOTHING_HELD}"
 
 
 def _gone(operation: Travel) -> list[str]:

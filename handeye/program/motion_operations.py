@@ -152,7 +152,7 @@ class Open(Operation, frozen=True, kw_only=True):
 
 
 class Close(Operation, frozen=True, kw_only=True):
-    """Close until both switches fire; error 2 below `minimum`, error 7 above `maximum` (m)."""
+    """Close until both switches fire; error 2 below `minimum` (m; 0: on nothing), error 7 above `maximum`."""
 
     family: ClassVar = "hand"
     needs: ClassVar = "hand"
@@ -171,7 +171,7 @@ class Close(Operation, frozen=True, kw_only=True):
 
 
 class Center(Operation, frozen=True, kw_only=True):
-    """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m)."""
+    """Close, moving the hand so that the object is not pushed; error 2 below `minimum` (m; 0: on nothing)."""
 
     family: ClassVar = "hand"
     needs: ClassVar = "hand"

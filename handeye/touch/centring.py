@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.errors import NOTHING_HELD
-from handeye.touch.hold import NEARLY_ZERO
+from handeye.touch.hold import least_gap
 
 SPARE: Final = 0.005
 """How much farther than the opening the fingers are told to close before they count as stalled, m.
@@ -33,7 +33,7 @@ class Centring:
     """
 
     minimum: float = 0.0
-    """Gap (m) beyond which there is nothing, or too thin a thing, to centre on."""
+    """Gap (m) beyond which there is nothing, or too thin a thing, to centre on; 0: anything will do."""
     speed: float
     """Rate at which the gap closes, m/s. The hand moves with half of it."""
     done: bool = field(default=False, init=False)
@@ -52,7 +52,7 @@ class Centring:
         left = gap + SPARE if self._left is None else self._left
         if all(touch):
             self.done = True
-        elif gap <= max(self.minimum, NEARLY_ZERO) or left <= 0:
+        elif gap <= least_gap(self.minimum) or left <= 0:
             self.done, self.error = True, NOTHING_HELD
         if self.done:
             return CentringStep()

@@ -1,5 +1,7 @@
 """Is something held? The fingers close on fins of some thickness and on a pin, and the gap that is left tells."""
 
+from dataclasses import replace
+
 import pytest
 from block_task import block_run
 from pump_bench import bench
@@ -66,6 +68,18 @@ def test_a_close_with_a_range_rejects_both_sides_of_it(
     seed: int, thickness: float, error: int | None
 ) -> None:
     assert closed("CLOSE .2 .3", seed, thickness) == (pytest.approx(thickness, abs=SOFT), error)
+
+
+def test_a_close_without_a_minimum_holds_anything_that_is_thicker_than_a_twentieth() -> None:
+    assert closed("CLOSE", 0, 0.07) == (pytest.approx(0.07, abs=SOFT), None)
+
+
+@pytest.mark.parametrize("off", [-0.04, 0.0, 0.04])
+def test_a_close_without_a_minimum_holds_anything_and_not_nothing(off: float) -> None:
+    """Shut on nothing, by hands whose gap is off by as much as at the high level (in)."""
+    world = PumpWorld.sample(0)
+    wrong = replace(world, hand=replace(world.hand, gap_offset=off * INCH))
+    assert bench("OPEN 1\nCLOSE", world=wrong).go().called.error == NOTHING_HELD
 
 
 @pytest.mark.row(29, nominal=1, drawn=len(SEEDS))
