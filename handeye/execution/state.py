@@ -25,6 +25,7 @@ from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
+from handeye.vision.grasp_line import GraspLine
 from handeye.vision.marks import Mark, marks
 
 
@@ -75,11 +76,15 @@ class Found:
 
     general: GeneralLocation | None = None
     specific: SpecificLocation | None = None
+    grasp: GraspLine | None = None
+    """Of the first grasp of the part that was located."""
     inspection: GasketInspection | None = None
 
     def marks(self) -> list[Mark]:
         """The same as marks on the picture."""
-        return marks(general=self.general, specific=self.specific, inspection=self.inspection)
+        return marks(
+            general=self.general, specific=self.specific, grasp=self.grasp, inspection=self.inspection
+        )
 
 
 class DriveState(MutableRecord, kw_only=True):

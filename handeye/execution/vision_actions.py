@@ -9,14 +9,16 @@ from handeye import errors
 from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
+from handeye.planning.first_grasp import first_grasp
 from handeye.ports.camera import Picture, TvCamera
 from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
-from handeye.vision.camera_model import CameraModel
+from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import inspect as inspect_gasket
+from handeye.vision.grasp_line import GraspLine, grasp_line
 from handeye.vision.live import blank, repeated
 from handeye.vision.marks import Mark
 
@@ -133,11 +135,22 @@ def specific(run: ExecutionContext, operation: Specific) -> Fault | None:
         found = locate_specific(shot.picture, shot.view, part, general)
     if isinstance(found, Failure):
         return Fault(number=errors.FEATURES_NOT_SEEN, cause=found.cause)
-    run.state.found[operation.picture] = Found(specific=found)
     x, y, angle = (round(value, 9) for value in found.pose)
     run.world.measure(operation.part, planar(x, y, part.at[2], angle))
+    run.state.found[operation.picture] = Found(
+        specific=found, grasp=_grasp_line(run, shot.view, operation.part)
+    )
     run.emit(PartSeen(time=run.time, part=operation.part, x=x, y=y, yaw=angle))
     return None
+
+
+def _grasp_line(run: ExecutionContext, view: View, name: str) -> GraspLine | None:
+    """The line of the first grasp of a part that was located, on its upper face."""
+    assert run.state.at is not None
+    grasp, part = first_grasp(run.plan.program, run.arm.hand, run.state.at, name), run.world.parts[name]
+    if grasp is None:
+        return None
+    return grasp_line(view, run.world.position(grasp.position), grasp.gap, part.at[2] + part.face)
 
 
 def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:

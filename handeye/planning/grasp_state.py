@@ -16,6 +16,8 @@ class GraspState:
     hand: HandModel
     gap: float = 0.0
     """m; after a grasp the least thickness that the program asks of the thing, for it says no more."""
+    closed_at: str | None = None
+    """The position at which it has closed since it was last opened; empty: none."""
     held: str | None = None
     taken: int | None = None
     """The step by which it is held."""
@@ -31,9 +33,11 @@ class GraspState:
             case Move(goal=goal):
                 self._goal = goal
             case Open(gap=gap):
-                self.gap, self.held, self.taken = gap, None, None
+                self.gap, self.closed_at, self.held, self.taken = gap, None, None, None
             case Close(minimum=least) | Center(minimum=least):
                 self.gap = least
+                if self.closed_at is None:
+                    self.closed_at = self._goal
                 if self.held is None and self._goal in self._holds:
                     self.held, self.taken = self._holds[self._goal], number
 

@@ -1,7 +1,8 @@
 """Marks for people on a picture: what was found in it, in picture points, for whoever draws.
 
-The box of general location is white; holes have a red cross and a yellow box, with the line of centres between them;
-expected centres of a gasket are red crosses, found ones discs, green if it is right.
+The box of general location is white; holes have a red cross and a yellow box, with the line of centres between them.
+The line of the first grasp is blue: picture 10 of the paper has these two lines. Expected centres of a gasket are red
+crosses, found ones discs, green if it is right.
 """
 
 from dataclasses import dataclass
@@ -9,6 +10,7 @@ from typing import Final
 
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.gasket import GasketInspection
+from handeye.vision.grasp_line import GraspLine
 
 Colour = tuple[int, int, int]
 """Red, green, blue, each 0 to 255."""
@@ -19,6 +21,7 @@ WHITE: Final = (255, 255, 255)
 RED: Final = (235, 40, 40)
 YELLOW: Final = (240, 220, 0)
 GREEN: Final = (60, 200, 90)
+BLUE: Final = (40, 110, 255)
 BOLD: Final = 2 / 3
 THIN: Final = 1 / 3
 ARM: Final = 4.0
@@ -62,6 +65,7 @@ def marks(
     *,
     general: GeneralLocation | None = None,
     specific: SpecificLocation | None = None,
+    grasp: GraspLine | None = None,
     inspection: GasketInspection | None = None,
 ) -> list[Mark]:
     """The marks of what was found in a picture, in the order in which they are drawn."""
@@ -73,6 +77,8 @@ def marks(
         first, second = specific.holes
         drawn.append(Line(ends=((first.u, first.v), (second.u, second.v)), colour=RED))
         drawn += [mark for hole in specific.holes for mark in _hole(hole)]
+    if grasp:
+        drawn.append(Line(ends=grasp, colour=BLUE, width=BOLD))
     if inspection:
         drawn += [mark for u, v in inspection.expected for mark in _cross(u, v)]
         colour = GREEN if inspection.ok else RED

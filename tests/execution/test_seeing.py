@@ -8,6 +8,7 @@ from synthetic import Canvas, draw_base, part, view
 from handeye.errors import PART_NOT_SEEN
 from handeye.ports.camera import Picture
 from handeye.pose import yaw
+from handeye.program.program import Position
 from handeye.units import DEGREE, INCH
 
 PART = part()
@@ -26,9 +27,15 @@ def aimed(lens: float, x: float, y: float) -> Picture:
     return canvas.picture()
 
 
-def looked() -> FakeRun:
+WALL = Position(at=(0.0, 1.53 * INCH, 2.75 * INCH, 90 * DEGREE, 90 * DEGREE, 0.0), of="PUMP")
+"""Where the hand takes the wall beside the large hole, the finger line across it."""
+GRASP = "OPEN 1.8\nMOVE WALL\nCLOSE .5"
+
+
+def looked(then: str = "WHERE") -> FakeRun:
     """The base was found in a wide picture, the camera aimed anew, and its holes found in a close one."""
-    run = fake_run(SCRIPT, parts={"PUMP": PART})
+    script = f"{SCRIPT}\nJUMP END\n{then}\nEND: WHERE"
+    run = fake_run(script, parts={"PUMP": PART}, positions={"WALL": WALL})
     run.cell.camera.pictures = [aimed(0.025, *PART.at[:2])]
     while "LENS 50" not in run.steps:
         run.executor.step()
@@ -44,6 +51,22 @@ def test_a_part_is_believed_where_its_holes_were_seen() -> None:
     assert X_WP[:2, 3] == pytest.approx(POSE[:2], abs=0.03 * INCH)
     assert yaw(X_WP) == pytest.approx(POSE[2], abs=0.6 * DEGREE)
     assert X_WP[2, 3] == PART.at[2]
+
+
+def test_the_line_of_the_first_grasp_goes_from_finger_to_finger_where_the_part_was_seen() -> None:
+    run = looked(GRASP).executor.run
+    found, view = run.state.found["NEAR"], run.state.shots["NEAR"].view
+    assert found.grasp is not None
+    ends = view.back_project(np.array(found.grasp), PART.at[2] + PART.face)[:, :2]
+    x, y, turn = POSE
+    along = np.array([-np.sin(turn), np.cos(turn)])
+    fingers = [(x, y) + along * (1.53 + side * 0.9) * INCH for side in (-1, 1)]
+    assert np.sort(ends, axis=0) == pytest.approx(np.sort(fingers, axis=0), abs=0.04 * INCH)
+
+
+@pytest.mark.parametrize("then", ["WHERE", "OPEN 1.8\nMOVE T\nCLOSE .5", "OPEN 1.8\nMOVE WALL\nOPEN 2"])
+def test_a_part_that_is_not_grasped_has_no_line_of_a_grasp(then: str) -> None:
+    assert looked(then).executor.run.state.found["NEAR"].grasp is None
 
 
 def test_a_part_that_is_not_in_the_picture_is_believed_where_it_was() -> None:

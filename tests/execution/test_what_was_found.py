@@ -13,7 +13,7 @@ from handeye.tasks.water_pump.park import PARK
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.blob import BoundingBox
 from handeye.vision.gasket import GasketInspection
-from handeye.vision.marks import GREEN, RED, WHITE, YELLOW, Disc, Line, Loop, marks
+from handeye.vision.marks import BLUE, BOLD, GREEN, RED, WHITE, YELLOW, Disc, Line, Loop, marks
 
 SCRIPT = """
         LENS    25
@@ -76,6 +76,11 @@ def test_holes_have_boxes_of_their_size_and_a_line_between_their_centres() -> No
     boxes = [mark.points for mark in drawn if isinstance(mark, Loop) and mark.colour == YELLOW]
     assert boxes[0] == ((16.0, 27.0), (24.0, 27.0), (24.0, 33.0), (16.0, 33.0))
     assert len(boxes) == 2
+
+
+def test_the_line_of_the_first_grasp_is_blue() -> None:
+    line = ((15.0, 10.0), (15.0, 50.0))
+    assert Line(ends=line, colour=BLUE, width=BOLD) in marks(specific=HOLES, grasp=line)
 
 
 @pytest.mark.parametrize(("right", "colour"), [(True, GREEN), (False, RED)])

@@ -78,9 +78,11 @@ class FakeRun:
         return np.asarray(self.executor.run.drive.hand()[:3, 3] / INCH - np.array(T.at[:3]) / INCH)
 
 
-def fake_run(script: str, *, parts: dict[str, Part] | None = None) -> FakeRun:
-    """A script that knows the position T, ready to go from there."""
-    taught = Taught(positions={"T": T}, parts=parts or {})
+def fake_run(
+    script: str, *, parts: dict[str, Part] | None = None, positions: dict[str, Position] | None = None
+) -> FakeRun:
+    """A script that knows the position T, and others besides, ready to go from there."""
+    taught = Taught(positions={"T": T, **(positions or {})}, parts=parts or {})
     program, diagnostics = compile_text(Source(name="fake.al", text=script), taught)
     assert program is not None, diagnostics
     plan, problems = make_plan(program, STANFORD, start=AT_T)

@@ -1,0 +1,20 @@
+"""The line of a grasp in a picture: from finger to finger of a hand that comes down on a part there."""
+
+import numpy as np
+
+from handeye.ports.camera import COLUMNS, ROWS
+from handeye.pose import Pose
+from handeye.vision.camera_model import View
+
+GraspLine = tuple[tuple[float, float], tuple[float, float]]
+"""Its two ends (u, v)."""
+
+
+def grasp_line(view: View, X_WT: Pose, gap: float, z: float) -> GraspLine | None:
+    """Where fingers that are `gap` (m) apart cross the height `z` (m), straight below a hand; None: not all in view."""
+    ends = X_WT[:3, 3] + np.array([[-0.5], [0.5]]) * gap * X_WT[:3, 1]
+    ends[:, 2] = z
+    (u, v), (across, down) = view.project(ends).tolist()
+    if not (0 <= min(u, across) <= max(u, across) < COLUMNS and 0 <= min(v, down) <= max(v, down) < ROWS):
+        return None
+    return (u, v), (across, down)
