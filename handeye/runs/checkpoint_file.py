@@ -22,7 +22,7 @@ from handeye.runs.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.system import SystemKind
-from handeye.runs.systems import digest_of, kind_of, listing_of, system_kind
+from handeye.runs.systems import digest_of, kind_of, listing_of, system_kind, written
 from handeye.tasks import DEFAULT
 from handeye.variation import WorldSpec
 from handeye.versions import versions
@@ -112,7 +112,7 @@ def encode(checkpoint: Checkpoint) -> bytes:
     """A checkpoint as bytes."""
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     body = _Body(
-        plan=kind_of(setup).encode(setup.plan).decode(),
+        plan=written(setup).decode(),
         snapshot=None if snapshot is None else _on_disk(snapshot),
         events=checkpoint.events,
     )

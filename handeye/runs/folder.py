@@ -25,7 +25,7 @@ from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.systems import digest_of, kind_of
+from handeye.runs.systems import digest_of, kind_of, written
 from handeye.trace.frames import Frames, NoFrames
 from handeye.trace.recorder import Looks, Recorder
 from handeye.vision.marks import Mark
@@ -109,14 +109,14 @@ class RunFolder(Observer):
         left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
-        write_whole(self.path / PLAN, kind_of(start.setup).encode(start.setup.plan))
+        write_whole(self.path / PLAN, written(start.setup))
         self._first = self.kept.save(start)
 
     def _recording(self, events: Sequence[AnyEvent]) -> Recorder:
         """A recorder that goes on after these events."""
         assert self._runner is not None
         setup, cell = self._runner.setup, self._runner.system.cell
-        plan = kind_of(setup).encode(setup.plan)
+        plan = written(setup)
         frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.task.arm)
         looks = Looks(picture=self._picture, found=self._found)
         return Recorder.resumed(self.path / TRACE, frames, looks, plan, len(events), events)

@@ -1,10 +1,12 @@
 """The kinds of systems there are, by name."""
 
+from functools import lru_cache
 from typing import Final
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.planfile.store import written_digest
+from handeye.record import Record
 from handeye.runs.programs import PROGRAM
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, SystemKind
@@ -38,6 +40,29 @@ def listing_of(setup: Setup) -> Listing:
     return kind_of(setup).listing(setup.plan)
 
 
+def written(setup: Setup) -> bytes:
+    """The plan of a run as bytes. Every checkpoint has them, so they are made once."""
+    return _written(_Identical(setup.system, setup.plan))
+
+
 def digest_of(setup: Setup) -> str:
     """Sixteen hexadecimal digits that stand for what is carried out."""
-    return written_digest(kind_of(setup).encode(setup.plan))
+    return written_digest(written(setup))
+
+
+class _Identical:
+    """A plan that equals itself only: to compare two takes as long as to write one."""
+
+    def __init__(self, system: str, plan: Record) -> None:
+        self.system, self.plan = system, plan
+
+    def __hash__(self) -> int:
+        return id(self.plan)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Identical) and other.system == self.system and other.plan is self.plan
+
+
+@lru_cache(maxsize=2)
+def _written(what: _Identical) -> bytes:
+    return system_kind(what.system).encode(what.plan)

@@ -1,11 +1,12 @@
 """A second system goes through everything that runs are: stepped, broken at, put back, kept, answered, traced."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import msgspec
 import pytest
 from short_runs import begin, history
-from toy_system import Registers, begin_toy
+from toy_system import TOY, Lines, Registers, begin_toy
 
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
@@ -51,6 +52,20 @@ def traced(start: Checkpoint, folder: Path) -> Path:
 def test_it_is_stepped_to_its_end() -> None:
     runner = answered(Runner(begin_toy()))
     assert (values(runner), runner.position, runner.time) == ({"A": 0, "B": 15}, 18, 18.0)
+
+
+def test_a_plan_is_written_once_for_all_checkpoints_of_its_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    plans: list[Lines] = []
+
+    def counted(plan: Lines) -> bytes:
+        plans.append(plan)
+        return TOY.encode(plan)
+
+    monkeypatch.setitem(systems._KINDS, "toy", replace(TOY, encode=counted))
+    start, other = begin_toy(), begin_toy()
+    for checkpoint in (start, start, other):
+        encode(checkpoint)
+    assert plans == [start.setup.plan, other.setup.plan]
 
 
 def test_it_is_broken_at_a_line_a_label_and_a_stage() -> None:
