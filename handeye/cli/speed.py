@@ -14,6 +14,7 @@ from handeye.runs.scripts import default_script
 def register(bench: App) -> None:
     """Add the commands to those that measure."""
     bench.command(speed)
+    bench.command(growth)
 
 
 def speed(
@@ -71,3 +72,37 @@ def speed(
         screen.print(page(found))
     same = all(run.bare is not None and run.bare.apart_s is None for run in found.runs)
     return 0 if same and found.accepted == worlds else 1
+
+
+def growth(
+    *,
+    most: Annotated[
+        WholeNumber,
+        Parameter(help="The largest number of statements; the others are the powers of ten below it."),
+    ] = 10_000,
+    json: Json = False,
+) -> int:
+    """Measure how cost grows with the statements of a program, its trace, and the cells in one process.
+
+    A program of so many statements, with a stage and six motions in each hundred, is checked, planned, carried out and
+    recorded; its trace is opened, compared and told. And one to three cells carry out such a program of a hundred in
+    one process, a step each in turn. Times are of the processor.
+
+    What grows by a power near 1 grows as its cause does: ten times the statements take ten times as long. The power is
+    fitted over the last two powers of ten, since most of what a short program takes is what is done once.
+
+    Exit code 0: all times grow linearly, or less; 1: one grows faster.
+    """
+    from handeye.al.macros import LONGEST
+    from handeye.trials.growth import measure
+    from handeye.trials.growth_page import page
+
+    if not 1 <= most <= LONGEST:
+        raise InvalidInput(f"a program has 1 to {LONGEST} statements, not {most}")
+    with notes.status("measuring") as status:
+        found = list(measure(most, lambda what: status.update(f"measuring {what}")))
+    if json:
+        put_json({"grown": [each.as_json() for each in found]})
+    else:
+        screen.print(page(found))
+    return 0 if all(each.is_linear for each in found if each.unit == "cpu_s") else 1

@@ -8,9 +8,9 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 from handeye.cell.bare_physics import Bare, play
 from handeye.cell.tape import Tape
@@ -48,13 +48,16 @@ class Watching:
     """Told of each view in which the camera is calibrated: its number, of how many."""
 
 
+NOBODY: Final = Watching()
+
+
 def carry_out(
-    setup: Setup, watching: Watching, *, traced: bool = False, calibrate: bool = True
+    setup: Setup, watching: Watching = NOBODY, *, folder: Path | None = None, calibrate: bool = True
 ) -> tuple[RunCost, Checkpoint]:
     """Carry out a run with an account of its time; what it has cost, and the state in which its work began.
 
     Args:
-        traced: trace and checkpoints are kept, in a folder that is removed afterwards.
+        folder: trace and checkpoints are kept there.
         calibrate: the camera is calibrated anew, whatever is kept.
 
     Raises:
@@ -62,24 +65,23 @@ def carry_out(
     """
     account, start = CpuAccount(place=PREPARATION), Checkpoint(setup=setup)
 
+    keeping = None if folder is None else open_new(folder, start)
+
     def observers(runner: Runner) -> Iterator[Observer]:
         yield _Stages(account)
         yield from watching.observers
-        if folder is not None:
-            yield folder.watch(runner, start, again=False)
+        if keeping is not None:
+            yield keeping.watch(runner, start, again=False)
 
-    with ExitStack() as stack:
-        place = stack.enter_context(tempfile.TemporaryDirectory(prefix="handeye-")) if traced else None
-        folder = None if place is None else open_new(Path(place) / "run", start)
-        stack.enter_context(charged_to(account))
+    with charged_to(account):
         runner = Runner(
             start, viewed=watching.viewed, observers=lambda runner: [*observers(runner)], calibrate=calibrate
         )
         begun = runner.checkpoint()
         pause = advance(runner)
         runner.finish()
-        if folder is not None:
-            folder.close()
+        if keeping is not None:
+            keeping.close()
         account.at(REFEREE)
         result = outcome(runner, pause, Meter(), judged=True)
         account.close()
@@ -87,7 +89,7 @@ def carry_out(
     return RunCost(result=result, spent=spent, account_cpu_s=account.own_s()), begun
 
 
-def bare(begun: Checkpoint, watching: Watching) -> Bare:
+def bare(begun: Checkpoint, watching: Watching = NOBODY) -> Bare:
     """Do the work of a run again from where it began, and then its physics alone."""
     runner = Runner(begun, observers=lambda _: watching.observers)
     tape = Tape(runner.cell)
@@ -103,21 +105,27 @@ def measure(
     start_cpu_s: float,
     planning_cpu_s: float,
     traced: bool = False,
-    watching: Watching | None = None,
+    watching: Watching = NOBODY,
 ) -> Speed:
     """Carry out some runs, and then the physics of each alone.
+
+    Args:
+        traced: trace and checkpoints are kept, in a folder that is removed afterwards.
 
     Raises:
         InvalidInput: one of them cannot be had.
     """
-    looking_on = watching or Watching()
-    measured = [carry_out(setup, looking_on, traced=traced) for setup in setups]
+    with tempfile.TemporaryDirectory(prefix="handeye-") as name:
+        folders = [Path(name) / str(number) if traced else None for number in range(len(setups))]
+        measured = [
+            carry_out(setup, watching, folder=folder) for setup, folder in zip(setups, folders, strict=True)
+        ]
     peak = peak_memory_mib()
     return Speed(
         start_cpu_s=start_cpu_s,
         planning_cpu_s=planning_cpu_s,
         stages=stages,
-        runs=tuple(replace(run, bare=bare(begun, looking_on)) for run, begun in measured),
+        runs=tuple(replace(run, bare=bare(begun, watching)) for run, begun in measured),
         peak_memory_mib=peak,
     )
 

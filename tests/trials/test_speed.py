@@ -4,6 +4,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain
+from pathlib import Path
 
 import msgspec
 import mujoco
@@ -45,8 +46,9 @@ def kept() -> Kept:
 
 
 @pytest.fixture(scope="module")
-def measured(kept: Kept) -> tuple[RunCost, Checkpoint]:
-    return carry_out(begin(SHORT).setup, Watching(observers=[kept]), traced=True)
+def measured(kept: Kept, tmp_path_factory: pytest.TempPathFactory) -> tuple[RunCost, Checkpoint]:
+    folder = tmp_path_factory.mktemp("measured") / "run"
+    return carry_out(begin(SHORT).setup, Watching(observers=[kept]), folder=folder)
 
 
 def test_a_measured_run_is_the_same_to_the_byte(measured: object, kept: Kept) -> None:
@@ -88,7 +90,7 @@ def test_functions_are_their_own_again(measured: object) -> None:
 def test_the_physics_alone_ends_every_step_in_the_state_of_the_run(
     measured: tuple[RunCost, Checkpoint],
 ) -> None:
-    alone = bare(measured[1], Watching())
+    alone = bare(measured[1])
     assert (alone.same, alone.apart_s) == (alone.stretches, None)
     assert alone.stretches == 4  # of three steps, and what the last leaves is put back, too
     assert alone.physics_steps == round(measured[0].simulated_s * 960)
@@ -117,6 +119,8 @@ def told(command: Command, monkeypatch: pytest.MonkeyPatch, found: Speed, *words
         asked.extend(setup.world.seed for setup in setups)
         return found
 
+    Path("short.al").write_text("OPEN 1\n", encoding="utf-8")
+    monkeypatch.setattr("handeye.cli.speed.default_script", lambda: Path("short.al"))
     monkeypatch.setattr("handeye.trials.speed.measure", measure)
     code, out, _ = command("bench", "speed", "--seed", "3", "--worlds", "2", *words)
     assert asked == [3, 4]
