@@ -46,6 +46,7 @@ LAYERS = [
         "debugger",
         "teaching",
         "report",
+        "see",
         "trace",
         "trials",
         "editor",

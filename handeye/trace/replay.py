@@ -65,7 +65,7 @@ class Replay:
         """
         self._motion, self._pictures = motion, pictures
         self._told = _tellings(events)
-        self._names, self._poses = _placed(moves(messages), len(motion.times))
+        self.names, self.poses = _placed(moves(messages), len(motion.times))
 
     def seek(self, time: float) -> Moment:
         """The moment at a time (s); before the first servo period as at the first, after the last as at the last."""
@@ -84,7 +84,7 @@ class Replay:
 
     def _there(self, row: int) -> Iterable[tuple[str, Pose7]]:
         """The frames that there are in a servo period."""
-        for name, pose in zip(self._names, self._poses[row].tolist(), strict=True):
+        for name, pose in zip(self.names, self.poses[row].tolist(), strict=True):
             x, y, z, qw, qx, qy, qz = pose
             if x == x:  # not NaN
                 yield name, (x, y, z, qw, qx, qy, qz)

@@ -22,6 +22,7 @@ from handeye.plain_text import one_line
 from handeye.pose import Array
 from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS, REPEATABLE
 from handeye.trace.forces import Forces, recorded_forces
+from handeye.trace.messages import Poses
 from handeye.trace.motion import Motion, read_motion
 from handeye.trace.pictures import TakenPicture, read_pictures
 from handeye.trace.reckoning import reckoned_forces
@@ -98,6 +99,14 @@ class Trace:
     def gaps(self) -> Array:
         """Opening of the fingers by the sensor, shape (n,), m."""
         return self.motion.gaps
+
+    @property
+    def poses(self) -> dict[str, Poses]:
+        """Where each body was, by its name, shape (n, 7): place in W (m), then a unit quaternion w, x, y, z.
+
+        NaN where a body was not there, as a screw in its thread is not before it is driven.
+        """
+        return dict(zip(self._replay.names, self._replay.poses.swapaxes(0, 1), strict=True))
 
     @cached_property
     def motion(self) -> Motion:
@@ -179,21 +188,25 @@ class Trace:
         from handeye.cell.photograph import smooth_photograph
         from handeye.cell.posed import posed
 
-        self.check_repeatable()
-        model, data = posed(self._scene, self.at(time).poses)
+        model, data = posed(self.scene, self.at(time).poses)
         return smooth_photograph(model, data, camera=camera, width=width, height=height)
+
+    @cached_property
+    def scene(self) -> Any:
+        """Model of the scene of its world as it is drawn, before anything has happened in it.
+
+        Raises:
+            InvalidInput: an older handeye recorded the run, or what it was drawn by is not known here.
+        """
+        from handeye.tasks import task
+
+        self.check_repeatable()
+        return task(self.head.task).scene(self.head.world)
 
     @cached_property
     def _replay(self) -> Replay:
         motion, pictures = self.motion, self.pictures
         return self._read(lambda messages: Replay(motion, messages, self.events, pictures))
-
-    @cached_property
-    def _scene(self) -> Any:
-        """Model of the cell, which only what draws it knows."""
-        from handeye.tasks import task
-
-        return task(self.head.task).scene(self.head.world)
 
     # -- what it can be used for -------------------------------------------------------------------------
 

@@ -48,6 +48,13 @@ def test_the_pictures_are_a_sequence(trace: Trace) -> None:
     assert [(picture.name, round(picture.time, 2)) for picture in trace.pictures] == [("WIDE", 10.8)]
 
 
+def test_poses_are_told_body_by_body_and_none_where_one_is_not_there(trace: Trace) -> None:
+    assert [trace.at(time).poses.get("carrier") for time in trace.times] == [
+        None if np.isnan(row[0]) else tuple(row.tolist()) for row in trace.poses["carrier"]
+    ]
+    assert trace.poses["finger"].shape == (len(trace.times), 7)
+
+
 def test_a_trace_without_motion_has_empty_columns(tmp_path: Path) -> None:
     Recording(tmp_path / "short.mcap").begin().play(last=2).close()
     trace = read_trace(tmp_path / "short.mcap")

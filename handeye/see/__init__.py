@@ -1,0 +1,1 @@
+"""Shows runs to people: reads traces and results, and drives nothing."""

@@ -1,0 +1,108 @@
+import { add, dot, length, rotated, sides, subtract } from './geometry.js';
+import { rowsOf, summed } from './packed.js';
+import { DEPTH } from './shaders.js';
+
+const SMALL = 20; // points from its middle to its rim: a body that is smaller is drawn coarsely
+const STILL = 40; // pictures in which a body has not moved, so that it is taken to stand still
+const SHIFT = 2e-5, TURN = 1e-5; // what counts as a movement, m and parts of a quaternion
+
+// The bodies of a scene: what they look like, and where they are now.
+export class Bodies {
+  constructor(graphics, { header, array }) {
+    this.graphics = graphics;
+    this.list = header.bodies.map(body => ({ ...body, mesh: header.meshes[body.mesh], pose: null, since: 0 }));
+    this.named = new Map(this.list.map(body => [body.name, body]));
+    this.world = this.list.find(body => body.mesh.parts);
+    this.inOrder = [...this.list.filter(body => body !== this.world), this.world].filter(Boolean); // it is behind the others
+    if (this.world) this.world.pose = [0, 0, 0, 1, 0, 0, 0];
+    this.pictures = 0;
+    this.surfaces = graphics.surfaces(...corners(array), summed(array('triangles')));
+    this.depth = graphics.program(DEPTH);
+  }
+
+  // Put a body where it is, null where it is not there; true if that is news.
+  put(name, pose) {
+    const body = this.named.get(name);
+    if (!body || !moved(body.pose, pose)) return false;
+    body.pose = pose;
+    body.since = this.pictures;
+    return true;
+  }
+
+  // Count a picture, and tell what stands still in it: a test of a body, and a text that changes with the answers.
+  count() {
+    this.pictures++;
+    const first = this.pictures <= STILL, still = body => (first ? !body.since : this.pictures - body.since > STILL);
+    return { still, moving: body => !still(body), key: this.list.map(body => (body.pose ? +still(body) : 2)).join('') };
+  }
+
+  drawDepth(view, which) {
+    const { gl } = this.graphics;
+    this.begin(this.depth, view);
+    for (const body of this.inOrder) if (body.pose && which(body)) this.drawBody(this.depth, body, body.mesh.coarse ?? body.mesh.fine);
+    gl.bindVertexArray(null);
+  }
+
+  // Draw with a program that is in use, what is in sight only. `points`: of a metre a metre away.
+  draw(uniforms, { eye, matrix, points }, which) {
+    const planes = sides(matrix);
+    this.begin(uniforms, matrix);
+    for (const body of this.inOrder) {
+      if (!body.pose || !which(body)) continue;
+      const [x, y, z, radius] = body.mesh.ball, middle = add(rotated(body.pose.slice(3), [x, y, z]), body.pose);
+      if (body !== this.world && planes.some(plane => dot(plane, middle) + plane[3] < -radius)) continue;
+      const small = radius * points < SMALL * length(subtract(middle, eye));
+      this.drawBody(uniforms, body, (small && body.mesh.coarse) || body.mesh.fine);
+    }
+  }
+
+  // What is drawn at one point of a picture: the name for people of a body, or of a part of the world; or null.
+  pick(matrix) {
+    const { gl } = this.graphics, names = [], red = new Uint8Array(4), target = this.graphics.target('pick', 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24);
+    this.graphics.into(target, 1, 1);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    this.begin(this.depth, matrix);
+    for (const body of this.inOrder) {
+      if (!body.pose) continue;
+      for (const [name, ...range] of body.mesh.parts ?? [[body.label, ...body.mesh.fine]]) {
+        names.push(name);
+        gl.uniform4f(this.depth.ink, (names.length & 255) / 255, (names.length >> 8) / 255, 0, 1);
+        this.drawBody(this.depth, body, range);
+      }
+    }
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, red);
+    return names[red[0] + 256 * red[1] - 1] ?? null;
+  }
+
+  begin(uniforms, view) {
+    const { gl } = this.graphics;
+    gl.useProgram(uniforms.program);
+    gl.bindVertexArray(this.surfaces);
+    gl.uniformMatrix4fv(uniforms.view, false, view);
+  }
+
+  drawBody(uniforms, { pose, mesh }, [first, count]) {
+    const { gl } = this.graphics, [x, y, z, ...turn] = pose;
+    gl.uniform3f(uniforms.place, x, y, z);
+    gl.uniform4fv(uniforms.turn, turn);
+    gl.uniform4fv(uniforms.scale, mesh.scale);
+    gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, first * 4);
+  }
+}
+
+function moved(old, now) {
+  if (!old || !now) return old !== now;
+  return now.some((x, i) => Math.abs(x - old[i]) > (i < 3 ? SHIFT : TURN));
+}
+
+// Points and normals as a graphics card takes them, four numbers to a corner; the third of the latter is the material.
+function corners(array) {
+  const packed = rowsOf(array('points'), 3), steep = array('normals'), materials = array('materials'), count = materials.length;
+  const points = new Uint16Array(count * 4), normals = new Int8Array(count * 4);
+  for (let i = 0; i < count; i++) {
+    points.set(packed.subarray(i * 3, i * 3 + 3), i * 4);
+    normals.set([steep[i], steep[count + i], materials[i]], i * 4);
+  }
+  return [points, normals];
+}

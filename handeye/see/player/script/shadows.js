@@ -1,0 +1,60 @@
+import { add, axes, multiplied, parallel, perspective, seenFrom, subtract, unit } from './geometry.js';
+
+const POINTS = { draft: 1024, fine: 2048, dome: 1024 }; // along a side of a map
+const SLOPE = 0.58; // tangent of half the angle that the lamp lights
+const SIZE = 0.09; // radius of the lamp, m
+const REACH = [1.5, 0.1, 6]; // radius, nearest and farthest of what throws shadows in light from above, m
+
+// The maps of what the lamp reaches. That of what stands still is kept, and what moves drawn into a copy of it.
+export class Shadows {
+  constructor(graphics, lamp, bodies) {
+    this.graphics = graphics;
+    this.bodies = bodies;
+    this.lamp = lamp;
+    this.draft = graphics.shadowMap(POINTS.draft);
+    this.kept = graphics.shadowMap(POINTS.draft);
+    this.keptFor = null;
+  }
+
+  // The lamp, or a point of it: `off` in parts of its radius.
+  light(off = [0, 0]) {
+    const { eye, at } = this.lamp, { right, up, forward } = axes(subtract(at, eye));
+    const lamp = add(add(eye, right, off[0] * SIZE), up, off[1] * SIZE), away = Math.hypot(...subtract(at, eye));
+    const view = multiplied(perspective(SLOPE, 1, 0.28 * away, 1.9 * away), seenFrom(lamp, axes(subtract(at, lamp))));
+    return { lamp, aim: forward, view };
+  }
+
+  // The map of all shadows of now; `still` and `moving` say which bodies, `key` changes with the first.
+  drawDraft({ view }, still, moving, key) {
+    const { gl } = this.graphics, side = POINTS.draft;
+    if (key !== this.keptFor) this.fill(this.kept, view, still);
+    this.keptFor = key;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.kept.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.draft.frame);
+    gl.blitFramebuffer(0, 0, side, side, 0, 0, side, side, gl.DEPTH_BUFFER_BIT, gl.NEAREST);
+    this.fill(this.draft, view, moving, false);
+  }
+
+  drawFine({ view }) {
+    this.fine ??= this.graphics.shadowMap(POINTS.fine);
+    this.fill(this.fine, view, () => true);
+  }
+
+  // Light from above out of a direction, and its shadows.
+  drawDome(direction, middle) {
+    this.dome ??= this.graphics.shadowMap(POINTS.dome);
+    const eye = add(middle, unit(direction), 3), view = multiplied(parallel(...REACH), seenFrom(eye, axes(subtract(middle, eye))));
+    this.fill(this.dome, view, () => true);
+    return view;
+  }
+
+  fill(map, view, which, anew = true) {
+    const { gl } = this.graphics;
+    this.graphics.into(map, map.size, map.size);
+    if (anew) gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1.5, 3);
+    this.bodies.drawDepth(view, which);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+  }
+}

@@ -1,0 +1,74 @@
+import { rowsOf, summed, unpacked } from './packed.js';
+
+const UNIT = 0x1fff; // what 1 is in a quaternion
+const SAME = 1e-3; // of a servo period: as near as times are told
+
+// How many of increasing numbers are not above a value.
+function countUpTo(numbers, value) {
+  let low = 0, high = numbers.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (numbers[middle] <= value) low = middle + 1; else high = middle;
+  }
+  return low;
+}
+
+// Where a body was: spans of servo periods in which it is there, and in each some poses; others lie between these.
+class Track {
+  constructor({ spans, scale }, periods, places, turns) {
+    let row = 0;
+    this.spans = spans.map(([first, after, rows]) => ({ first, after, row, end: (row += rows) }));
+    Object.assign(this, { scale, periods, places, turns });
+  }
+
+  pose(period) {
+    const now = Math.floor(period + SAME), span = this.spans.find(({ first, after }) => first <= now && now < after);
+    if (!span) return null;
+    const times = this.periods.subarray(span.row, span.end), found = countUpTo(times, period + SAME) - 1;
+    const one = Math.max(found, 0), other = Math.min(one + 1, times.length - 1);
+    const share = other > one ? Math.min((period - times[one]) / (times[other] - times[one]), 1) : 0;
+    return this.between(span.row + one, span.row + other, Math.max(share, 0));
+  }
+
+  between(one, other, share) {
+    const { scale, places, turns } = this, pose = [];
+    for (let k = 0; k < 3; k++) {
+      const a = places[one * 3 + k], b = places[other * 3 + k];
+      pose.push(scale[k] + scale[3] * (a + share * (b - a)));
+    }
+    for (let k = 0; k < 4; k++) pose.push((turns[one * 4 + k] + share * (turns[other * 4 + k] - turns[one * 4 + k])) / UNIT);
+    const size = Math.hypot(pose[3], pose[4], pose[5], pose[6]);
+    for (let k = 3; k < 7; k++) pose[k] /= size;
+    return pose;
+  }
+}
+
+// All bodies of a run, and its clock.
+export class Tracks {
+  constructor(buffer) {
+    const { header, array } = unpacked(buffer), { begin, end, still, moving } = header;
+    Object.assign(this, { begin, end, tracks: new Map() });
+    this.clock = Float64Array.from(array('clock'));
+    this.clock.forEach((step, i, clock) => { clock[i] = i ? clock[i - 1] + step / 1e6 : step / 1e6; });
+    for (const [body, pose] of Object.entries(still)) this.tracks.set(body, { pose: () => pose });
+    const periods = summed(array('periods')), places = rowsOf(array('places'), 3), turns = rowsOf(array('turns'), 4, Int16Array);
+    let row = 0;
+    for (const told of moving) {
+      const end = row + told.spans.reduce((sum, span) => sum + span[2], 0);
+      this.tracks.set(told.body, new Track(told, periods.subarray(row, end), places.subarray(row * 3, end * 3), turns.subarray(row * 4, end * 4)));
+      row = end;
+    }
+  }
+
+  // The servo period that ended at a time, and part of the next.
+  period(seconds) {
+    const { clock } = this, i = Math.max(countUpTo(clock, seconds) - 1, 0);
+    const span = i + 1 < clock.length ? clock[i + 1] - clock[i] : Infinity;
+    return i + Math.max(0, Math.min(1, (seconds - clock[i]) / span));
+  }
+
+  // Place (m) and quaternion of a body, or null where it is not there.
+  pose(body, seconds) {
+    return this.tracks.get(body)?.pose(this.period(seconds)) ?? null;
+  }
+}
