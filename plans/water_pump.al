@@ -330,6 +330,7 @@ D1:     MOVE    DUP
         OPEN    .6
         MOVE    Q1
         RESTORE E1 LEVEL
+        RESTORE HS LEVEL        ;how far the base has moved since, by the hole of the last screw
         CLOSE   .1
         CHANGE  [0 0 1] 2
         SEARCH  .05
@@ -345,6 +346,7 @@ R1:     MOVE    P1UP
         OPEN    .6
         MOVE    Q2
         RESTORE E2 LEVEL
+        RESTORE HS LEVEL
         CLOSE   .1
         CHANGE  [0 0 1] 2
         SEARCH  .05

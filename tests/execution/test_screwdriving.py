@@ -20,17 +20,38 @@ PLAY = 0.04
 """Play (in) of a screw's tip in a mouth, and of the hand that holds the driver."""
 MOVED = (0.1, 0.0)
 """How far the base is moved between two screws (in)."""
-CENTRED = "OPEN .6\nMOVE Q1\nCENTER .1\nSAVE Y1\nOPEN 1\nMOVE Q2\nOPEN .6\nCENTER .1\nSAVE X2\nOPEN 1\n"
+CENTRED = """
+OPEN .6
+MOVE Q1
+CENTER .1
+SAVE Y1
+SAVE E1
+OPEN 1
+MOVE Q2
+OPEN .6
+CENTER .1
+SAVE X2
+SAVE E2
+OPEN 1
+"""
 """What the program has measured at its standing pins by then."""
+SCREWS = stage("drive the first two screws")
 NEXT = "MOVE H5\nRESTORE Y1\nRESTORE X2\nRESTORE HS LEVEL\nSAVE NOTHING"
 """The way to the hole after those of the first two screws."""
+TWO = CENTRED + SCREWS[: SCREWS.index("SEARCH  .07\nD1:")] + NEXT
+AND_PINS = CENTRED + SCREWS + "\n" + stage("take out the aligning pins")
 
 
-def two_screws(seed: int | None) -> Bench:
+def two_screws(seed: int | None, script: str = TWO) -> Bench:
     """The program's own text for the first two screws, on a stack held by its two pins, a little off both blocks."""
-    text = stage("drive the first two screws")
-    script = CENTRED + text[: text.index("SEARCH  .07\nD1:")] + NEXT
     return bench(script, world=world_of(seed), lay=stacked(0.03, -0.03))
+
+
+def gone_on(run: Bench, fresh: Bench) -> Bench:
+    """A run taken up where another is, whose text is the same so far."""
+    fresh.cell.restore(run.cell.capture())
+    fresh.run.restore(copied(run.run.state))
+    return fresh
 
 
 @cache
@@ -42,9 +63,7 @@ def driven(seed: int | None) -> Bench:
 @cache
 def moved(seed: int | None) -> Bench:
     """Taken up where the first screw is home; the experimenter pulls the stack aside, and the second is driven."""
-    run = two_screws(seed)
-    run.cell.restore(driven(seed).cell.capture())
-    run.run.restore(copied(driven(seed).run.state))
+    run = gone_on(driven(seed), two_screws(seed))
     for part in ("base", "gasket", "top", "pin0", "pin1"):
         put(run.cell, part, translated(run.pose(part), (MOVED[0] * INCH, MOVED[1] * INCH, 0.0)))
     return run.to("MOVE H5")
@@ -71,10 +90,17 @@ def test_row_23_the_second_screw_goes_home_all_the_same(seed: int | None) -> Non
 
 @IN_WORLDS
 def test_row_23_the_holes_after_it_use_the_new_place(seed: int | None) -> None:
-    run = moved(seed).to("SAVE NOTHING")
+    run = gone_on(moved(seed), two_screws(seed)).to("SAVE NOTHING")
     X_WB, (x, y) = run.pose("base"), screw_holes()[5]
     hole = X_WB @ planar(x, y, 0.0, 0.0)
     assert run.hand()[:2] == pytest.approx(hole[:2, 3] / INCH, abs=PLAY)
+
+
+@pytest.mark.row(23, **COUNT)
+@IN_WORLDS
+def test_row_23_the_pins_are_taken_where_it_is_now_and_fit_their_holder_at_once(seed: int | None) -> None:
+    run = gone_on(moved(seed), two_screws(seed, AND_PINS)).go()
+    assert (run.finished, run.all(SearchAdvanced)) == (True, [])
 
 
 @pytest.mark.row(60, **COUNT)
