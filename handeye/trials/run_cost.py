@@ -1,6 +1,6 @@
 """What runs have cost: processor time by phase, stage and component, and beside their physics alone."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -57,14 +57,18 @@ class Spent:
 
     def components(self, *stages: str) -> dict[str, float]:
         """CPU s of the components in the working phase, or in some stages of it."""
-        return {
-            component: sum(
-                seconds
-                for (place, of), seconds in self.each.items()
-                if of == component and place[:1] == (STAGE,) and (not stages or place[1] in stages)
-            )
-            for component in COMPONENTS
-        }
+        return self._by_component(lambda place: place[:1] == (STAGE,) and (not stages or place[1] in stages))
+
+    def of_preparation(self) -> dict[str, float]:
+        """CPU s of the components in the preparation."""
+        return self._by_component(lambda place: place == PREPARATION)
+
+    def _by_component(self, counts: Callable[[Place], bool]) -> dict[str, float]:
+        found = dict.fromkeys(COMPONENTS, 0.0)
+        for (place, component), seconds in self.each.items():
+            if counts(place):
+                found[component] += seconds
+        return found
 
     def _of(self, place: Place) -> float:
         return sum(seconds for (where, _), seconds in self.each.items() if where == place)

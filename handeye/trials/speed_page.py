@@ -63,9 +63,10 @@ def _components(speed: Speed) -> Table:
 
 
 def _stages(speed: Speed) -> Table:
-    table = _table("work, by stage, CPU s", "all", *_COLUMNS, "rest")
-    rows = [(visible(stage), speed.spent.components(stage)) for stage in speed.stages]
-    for name, components in (*rows, ("all", speed.spent.components())):
+    table = _table("by stage, CPU s", "all", *_COLUMNS, "rest")
+    spent = speed.spent
+    rows = [(visible(stage), spent.components(stage)) for stage in speed.stages]
+    for name, components in (("preparation", spent.of_preparation()), *rows, ("work", spent.components())):
         columns = [sum(components[component] for component in column) for column in _COLUMNS.values()]
         whole = sum(components.values())
         figures = (whole, *columns, whole - sum(columns))
@@ -143,6 +144,7 @@ def _run_as_json(run: RunCost, stages: Iterable[str]) -> dict[str, object]:
         "work_cpu_s": spent.work_cpu_s,
         "referee_cpu_s": spent.referee_cpu_s,
         "account_cpu_s": run.account_cpu_s,
+        "preparation": _cpu_s(spent.of_preparation()),
         "components": _cpu_s(spent.components()),
         "stages": [{"stage": stage, **_cpu_s(spent.components(stage))} for stage in stages],
         "physics_alone": None if run.bare is None else {

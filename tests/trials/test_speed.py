@@ -71,6 +71,7 @@ def test_every_second_of_the_work_is_in_one_component_of_one_stage(
         spent.work_cpu_s
     )
     assert all(spent.components(stage)["physics"] > 0 for stage in STAGES)
+    assert sum(spent.of_preparation().values()) == pytest.approx(spent.preparation_cpu_s)
     assert spent.cpu_s == pytest.approx(spent.preparation_cpu_s + spent.work_cpu_s + spent.referee_cpu_s)
 
 
