@@ -1,6 +1,6 @@
 """Writes the tables of docs/figures.md on speed and growth from what the commands have measured.
 
-handeye bench speed --seed 1 --worlds 3 --camera gl --json > speed.json
+handeye bench speed --seed 1 --worlds 2 --camera gl --json > speed.json
 handeye bench growth --json > growth.json
 python docs/make_speed.py speed.json growth.json
 """
@@ -104,13 +104,28 @@ def growth(found: dict[str, Any]) -> str:
 
 
 def _grown(of: str, grown: Sequence[dict[str, Any]]) -> str:
-    head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power"]
+    """A table of what was measured at the same sizes, with what one more costs from the least to the largest."""
+    head = [of, *(f"{size:,}" for size in grown[0]["sizes"]), "power", "each more"]
     return _table(head, [_one(each) for each in grown])
 
 
 def _one(each: dict[str, Any]) -> list[str]:
     unit = next(unit for unit in UNITS if unit in each)
-    return [f"{each['what']}, {UNITS[unit]}", *map(_figure, each[unit]), f"{each['power']:.2f}"]
+    values, sizes = each[unit], each["sizes"]
+    more = (values[-1] - values[0]) / (sizes[-1] - sizes[0])
+    return [
+        f"{each['what']}, {UNITS[unit]}",
+        *map(_figure, values),
+        f"{each['power']:.2f}",
+        _small(more, unit),
+    ]
+
+
+def _small(value: float, unit: str) -> str:
+    """A share of a CPU second, or of a MiB."""
+    if unit == "cpu_s":
+        return f"{value * 1e6:,.0f} µs" if value < 0.01 else f"{value * 1e3:,.0f} ms"
+    return f"{value * 2**10:,.1f} KiB" if value < 1 else f"{value:.0f} MiB"
 
 
 def _figure(value: float) -> str:

@@ -135,7 +135,7 @@ def maker() -> ModuleType:
 
 
 def test_the_page_has_what_programs_are_told() -> None:
-    grown = Growth(what="checked", of="statements", unit="cpu_s", sizes=(1, 10), values=(0.5, 2000.0))
+    grown = Growth(what="checked", of="statements", unit="cpu_s", sizes=(1, 10), values=(0.5, 0.509))
     made = maker()
     tables = made.speed(json.loads(msgspec.json.encode(as_json(SPEED))))
     tables += made.growth({"grown": [grown.as_json()]})
@@ -144,7 +144,7 @@ def test_the_page_has_what_programs_are_told() -> None:
         "| lift | 2.50 | 2.00 | 0.00 | 0.00 | 0.00 | 0.50 | 0.00 |",
         "| work | 4.00 | 2.00 | 0.00 | 1.00 | 0.00 | 1.00 | 0.00 |",
         "| accepted pumps an hour of one processor | 327 |",
-        "| checked, CPU s | 0.5000 | 2,000 | 3.60 |",
+        "| checked, CPU s | 0.5000 | 0.5090 | 0.01 | 1,000 µs |",
     ):
         assert row in tables
 
