@@ -8,10 +8,13 @@ from synthetic import FACE, GASKET, Canvas, draw_base, part, view
 
 from handeye.program.causes import BaseHoleUnseen, GasketHoleOff, GasketHoleUnseen, GasketWrong, NoGasket
 from handeye.units import DEGREE, INCH
+from handeye.vision import gasket
+from handeye.vision.characteriser import Blob, characterise
 from handeye.vision.drawing import annotate
 from handeye.vision.gasket import GasketInspection, difference, inspect
 from handeye.vision.holes import hole_places
 from handeye.vision.marks import GREEN, RED, marks
+from handeye.vision.scan import Scan
 
 PART = part(180 * DEGREE)
 POSE = (PART.at[0], PART.at[1], PART.at[3])
@@ -72,6 +75,22 @@ def test_a_gasket_off_by_three_tenths_of_an_inch_is_rejected(direction: int):
     assert not seen.ok
     assert isinstance(seen.cause, GasketWrong)
     assert {type(fault) for fault in seen.cause.faults} <= {GasketHoleOff, GasketHoleUnseen, BaseHoleUnseen}
+
+
+def test_the_characteriser_that_finds_the_base_looks_at_the_expected_centres_in_both_pictures(monkeypatch):
+    asked = []
+
+    def noted(scan: Scan, seed: tuple[float, float], *how: float, **more: float) -> Blob | None:
+        asked.append((seed, characterise(scan, seed, *how, **more)))
+        return asked[-1][1]
+
+    monkeypatch.setattr(gasket, "characterise", noted)
+    seen = inspected((0.01, -0.01))
+    seeds, blobs = zip(*asked, strict=True)
+    assert np.array(seeds) == pytest.approx(np.repeat(seen.expected, 2, axis=0), abs=1.0)
+    assert all(blobs)
+    centres = np.array([(blob.u, blob.v) for blob in blobs[1::2]])
+    assert centres == pytest.approx(np.array(seen.found), abs=1.0)
 
 
 def test_the_shift_of_a_gasket_is_measured_on_its_rim():
