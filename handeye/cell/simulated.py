@@ -16,6 +16,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.sleep import asleep
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
+from handeye.cell.stepper import Stepper
 from handeye.cell.truth import Drawn, Truth
 from handeye.errors import HandeyeError, InvalidInput
 from handeye.ports.camera import Renderer
@@ -89,6 +90,7 @@ class SimulatedCell(Clock):
         )
         """The cell as the working phase knows it."""
         self._most = max(1, round(_HELD / model.opt.timestep))
+        self._stepper = Stepper(model, data)
         mujoco.mj_forward(model, data)
         self._read()
 
@@ -131,7 +133,7 @@ class SimulatedCell(Clock):
                 steps = left
                 data.time += steps * model.opt.timestep
             else:
-                mujoco.mj_step(model, data, steps)
+                self._stepper.step(steps)
                 self._check_physics()
             self._read()
             left -= steps

@@ -84,7 +84,7 @@ def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     taken: list[int] = []
     step = mujoco.mj_step
 
-    def counted(model: mujoco.MjModel, data: mujoco.MjData, number: int) -> None:
+    def counted(model: mujoco.MjModel, data: mujoco.MjData, number: int = 1) -> None:
         taken.append(number)
         step(model, data, number)
 
