@@ -135,6 +135,8 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         MOVE    G DIRECT
         CLOSE   .7
         CHANGE  [0 0 1] 1
+        SKIPN   4               ;it is caught on its stand
+        WAIT    "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
         SEARCH  .05
 LG:     MOVE    GON
         RESTORE E2 LEVEL

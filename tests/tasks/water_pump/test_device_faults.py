@@ -9,7 +9,7 @@ from driving import Drive, tick
 
 from handeye.cell.lines import LinesState
 from handeye.cell.sleep import asleep
-from handeye.errors import ERRORS, FEATURES_NOT_SEEN, SWITCH_WRONG
+from handeye.errors import ERRORS, FEATURES_NOT_SEEN, PART_NOT_SEEN, SEARCH_EXHAUSTED, SWITCH_WRONG
 from handeye.faults import UNKNOWN, Fault
 from handeye.planfile.store import read_plan
 from handeye.program.flow_operations import Wait
@@ -86,6 +86,7 @@ def test_what_is_said_of_screws_goes_by_the_order_in_which_the_program_drives_th
 
 
 def test_what_is_said_of_one_fault_counts_and_not_what_is_said_of_its_group() -> None:
-    assert expected("base.reversed").errors == (FEATURES_NOT_SEEN,)
+    assert expected("pin.1.thick").errors == (SEARCH_EXHAUSTED,)
+    assert expected("base.reversed").errors == (PART_NOT_SEEN, FEATURES_NOT_SEEN)
     assert expected("finger_switch.plus_y.stuck_open").errors == (SWITCH_WRONG,)
     assert expected("gasket.off") == UNKNOWN
