@@ -41,6 +41,7 @@ CHEAP = {
     "diff": "diff job.plan.json job.plan.json",
     "schema": "schema",
     "show": "show run",
+    "report": "report ✓",
     "trace show": "trace show run",
     "trace stats": "trace stats run",
     "trace photograph": "trace photograph run --at 9e9 -o ✓.png",

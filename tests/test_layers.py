@@ -32,6 +32,7 @@ FOUNDATIONS = {
     "whole_numbers",
     "mutable_records",
     "plain_text",
+    "markup",
     "host_time",
     "user_cache",
 }
@@ -236,6 +237,12 @@ def test_nobody_knows_a_task_but_by_its_name(module: str) -> None:
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] not in {"arm", "tasks"}])
 def test_nobody_but_a_task_names_its_robot(module: str) -> None:
     assert {other for other in own(module) if other.startswith("arm.robots.")} <= {"arm.robots.__init__"}
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] == "see"])
+def test_what_shows_runs_drives_none(module: str) -> None:
+    drivers = {"execution", "runs", "debugger", "teaching", "cli", "door"}
+    assert {o for o in own(module) if o.split(".")[0] in drivers} == set()
 
 
 WITHOUT_A_SIMULATOR = """

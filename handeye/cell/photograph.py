@@ -1,5 +1,6 @@
 """Photographs of the cell for people, in colour, through the cameras of the scene. The program never sees them."""
 
+from dataclasses import dataclass
 from typing import Final
 
 import cv2
@@ -23,6 +24,55 @@ Photograph = NDArray[np.uint8]
 """Red, green and blue of every point, shape (height, width, 3)."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Near:
+    """A view of a place from nearby, from the side on which a camera of the scene stands."""
+
+    camera: str
+    place: tuple[float, float, float]
+    """W, m"""
+    distance: float
+    """m"""
+
+
+class Photographer:
+    """Takes photographs of one scene, which OpenGL is given once; bodies may stand elsewhere in each."""
+
+    def __init__(self, scene: mujoco.MjModel, *, width: int, height: int) -> None:
+        """Make ready for pictures of a size.
+
+        Raises:
+            InvalidInput: no OpenGL on this machine.
+        """
+        _, self._gl = context()
+        self._gl.make_current()
+        self._drawing = _drawing(scene)
+        self._viewport = mujoco.MjrRect(0, 0, width, height)
+        self._scene = mujoco.MjvScene(scene, maxgeom=MOST_GEOMS)
+        self._option = mujoco.MjvOption()
+        self._option.geomgroup[:] = SHOWN
+        self._option.sitegroup[:] = 0
+        mujoco.mjr_resizeOffscreen(width, height, self._drawing)
+
+    def take(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> Photograph:
+        """A photograph by a camera of the scene, or from nearby.
+
+        Args:
+            model: the scene, or a copy of it that shows other groups of shapes.
+
+        Raises:
+            InvalidInput: no such camera.
+        """
+        self._gl.make_current()
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._drawing)
+        every = int(mujoco.mjtCatBit.mjCAT_ALL)
+        mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
+        mujoco.mjr_render(self._viewport, self._scene, self._drawing)
+        rgb = np.zeros((self._viewport.height, self._viewport.width, 3), dtype=np.uint8)
+        mujoco.mjr_readPixels(rgb, None, self._viewport, self._drawing)
+        return rgb[::-1]
+
+
 def photograph(
     model: mujoco.MjModel, data: mujoco.MjData, *, camera: str, width: int, height: int
 ) -> Photograph:
@@ -31,26 +81,33 @@ def photograph(
     Raises:
         InvalidInput: no such camera, or no OpenGL on this machine.
     """
+    _number(model, camera)
+    return Photographer(model, width=width, height=height).take(model, data, camera)
+
+
+def _number(model: mujoco.MjModel, camera: str) -> int:
+    """The number of a camera of the scene.
+
+    Raises:
+        InvalidInput: there is no such camera.
+    """
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
         raise InvalidInput(f"no camera {camera}; there are {', '.join(names)}")
-    _, gl = context()
-    gl.make_current()
-    drawing = _drawing(model)
-    mujoco.mjr_resizeOffscreen(width, height, drawing)
-    mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, drawing)
-    scene = mujoco.MjvScene(model, maxgeom=MOST_GEOMS)
-    option = mujoco.MjvOption()
-    option.geomgroup[:] = SHOWN
-    option.sitegroup[:] = 0
+    return names.index(camera)
+
+
+def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvCamera:
+    """The simulator's camera for a view."""
     eye = mujoco.MjvCamera()
-    eye.type, eye.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, names.index(camera)
-    mujoco.mjv_updateScene(model, data, option, None, eye, int(mujoco.mjtCatBit.mjCAT_ALL), scene)
-    viewport = mujoco.MjrRect(0, 0, width, height)
-    mujoco.mjr_render(viewport, scene, drawing)
-    rgb = np.zeros((height, width, 3), dtype=np.uint8)
-    mujoco.mjr_readPixels(rgb, None, viewport, drawing)
-    return rgb[::-1]
+    if isinstance(view, str):
+        eye.type, eye.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, _number(model, view)
+        return eye
+    way = np.subtract(view.place, data.cam_xpos[_number(model, view.camera)])
+    eye.type, eye.lookat[:], eye.distance = mujoco.mjtCamera.mjCAMERA_FREE, view.place, view.distance
+    eye.azimuth = np.degrees(np.arctan2(way[1], way[0]))
+    eye.elevation = np.degrees(np.arctan2(way[2], np.hypot(way[0], way[1])))
+    return eye
 
 
 def photograph_png(model: mujoco.MjModel, data: mujoco.MjData, camera: str, width: int, height: int) -> bytes:

@@ -15,6 +15,7 @@ from handeye.cli import (
     exports,
     plans,
     records,
+    reports,
     runs,
     scripts,
     teaching,
@@ -46,6 +47,7 @@ app = App(
 for commands in (
     runs,
     records,
+    reports,
     teaching,
     scripts,
     editing,

@@ -11,6 +11,7 @@ from typing import Final
 from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
+from handeye.cli.reports import write_report
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import COMMANDS
@@ -28,7 +29,7 @@ from handeye.report.progress import Progress
 from handeye.report.result import Result, to_json
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
-from handeye.runs.folder import PICTURES, RunFolder, open_new
+from handeye.runs.folder import PICTURES, REPORT, RunFolder, open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Operator, attend, parse_policy
@@ -67,6 +68,8 @@ class Job:
     """Ask before every step."""
     on_stop: str | None = None
     json: bool = False
+    report: bool = False
+    """Leave a page of the run in its folder."""
     referee: bool = False
     planning_cpu_s: float = 0.0
     """Of the planning phase."""
@@ -247,11 +250,19 @@ class _Work:
             self._keep(runner.checkpoint())
         result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
         self._print(result)
+        self._report()
         if pause.kind in ("break", "operator"):
             self._tell_how_to_go_on(runner)
         elif self.folder is not None:
             note(f"saved in {self.folder.path}")
         return result.exit_code
+
+    def _report(self) -> None:
+        """Leave a page of the run in its folder, if that is wanted."""
+        if self.job.report and self.folder is not None:
+            place = self.folder.path / REPORT
+            write_report(self.folder.path, place, overwrite=True)
+            note(f"its report: {place}")
 
     def _print(self, result: Result) -> None:
         if self.job.json:

@@ -55,6 +55,7 @@ def assemble(
     out: Out = None,
     overwrite: Overwrite = False,
     camera: Camera = "auto",
+    report: Annotated[bool, Parameter(help="Leave a page of the run in the folder, report.html.")] = False,
     calibrate: Calibrate = False,
     on_stop: OnStop = None,
 ) -> int:
@@ -67,6 +68,8 @@ def assemble(
     from handeye.runs.setup import Setup
     from handeye.runs.snapshot import Checkpoint
 
+    if report and out is None:
+        raise InvalidInput("--report needs --out, the folder that the page is left in")
     spec = world.spec
     started = time.process_time()
     plan = compiled(default_script())
@@ -80,6 +83,7 @@ def assemble(
             calibrate=calibrate,
             on_stop=on_stop,
             json=json,
+            report=report,
             referee=True,
             planning_cpu_s=planning,
         )

@@ -19,6 +19,7 @@ from handeye.cli.common import (
     say,
     screen,
 )
+from handeye.cli.trace_files import trace_file
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
 
@@ -135,22 +136,10 @@ def verify(file: TraceFile, /) -> int:
 
 def _read(file: Path) -> tuple["Trace | None", list["AnyEvent"]]:
     """The trace in a file or folder, and the events that count."""
-    from handeye.runs.folder import EVENTS, PLAN, TRACE
     from handeye.trace.eventlist import effective, read_events
     from handeye.trace.reading import read_trace
-    from handeye.trace.recorder import part
 
-    if file.is_dir():
-        growing = part(file / TRACE)
-        if growing.exists():  # newer than the whole one, which is of before the run was resumed
-            note(f"the run in {file} was interrupted; this is what its trace holds")
-            file = growing
-        elif (file / TRACE).exists():
-            file = file / TRACE
-        elif (file / PLAN).exists() and not (file / EVENTS).exists():
-            raise InvalidInput(f"the run in {file} has not begun")
-        else:
-            file = file / EVENTS
+    file = trace_file(file)
     if file.suffix == ".jsonl":
         return None, effective(read_events(file))
     trace = read_trace(file, lenient=file.suffix == ".part")

@@ -5,6 +5,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Final
 
+from handeye.markup import Content, Markup, markup
+
 _CELL: Final = "padding:1px 10px 1px 0;vertical-align:top"
 _INK: Final = {
     "good": "#2e7d32",
@@ -13,21 +15,6 @@ _INK: Final = {
     "quiet": "#757575",
     "plain": "inherit",
 }
-
-
-class Markup(str):
-    """Markup that is ready for a page; a plain `str` is text, and is escaped."""
-
-    __slots__ = ()
-
-
-Content = str | float | None
-"""Text, a number, or nothing."""
-
-
-def markup(content: Content) -> Markup:
-    """Content as markup."""
-    return content if isinstance(content, Markup) else Markup(escape("" if content is None else str(content)))
 
 
 def inked(content: Content, ink: str) -> Markup:

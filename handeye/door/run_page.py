@@ -2,8 +2,9 @@
 
 from typing import Final
 
-from handeye.door.html import Markup, heading, inked, line, page, picture, table
+from handeye.door.html import heading, inked, line, page, picture, table
 from handeye.door.state import State
+from handeye.markup import Markup
 from handeye.report.page import told_faults, verdict
 from handeye.report.result import Check, Result
 

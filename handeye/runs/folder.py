@@ -1,4 +1,4 @@
-"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result, and what it cost the host.
+"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result, report, and what it cost the host.
 
 It is an observer: it writes down what happens and changes nothing.
 """
@@ -37,6 +37,7 @@ RESULT: Final = "result.json"
 CHECKPOINTS: Final = "checkpoints"
 PICTURES: Final = "pictures"
 HOST: Final = "host.json"
+REPORT: Final = "report.html"
 
 
 class HoldsRun(InvalidInput):
@@ -106,7 +107,7 @@ class RunFolder(Observer):
             InvalidInput: the folder cannot be written to.
         """
         self.kept.drop_after(-1)
-        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST)]
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST, REPORT)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, written(start.setup))
@@ -156,7 +157,8 @@ class RunFolder(Observer):
 
     def _goes_on(self) -> None:
         """What the run came to before is no longer its result."""
-        (self.path / RESULT).unlink(missing_ok=True)
+        for name in (RESULT, REPORT):
+            (self.path / name).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
         assert self._recorder is not None
@@ -279,7 +281,7 @@ def _refuse_run(path: Path) -> None:
 
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
-    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES, HOST}
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES, HOST, REPORT}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)
     others = (

@@ -1,6 +1,7 @@
-"""Marks on a picture as the message that robotics tools draw over the picture."""
+"""Marks on a picture as the message that robotics tools draw over the picture, and back again."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from foxglove_schemas_protobuf.CircleAnnotation_pb2 import CircleAnnotation
 from foxglove_schemas_protobuf.Color_pb2 import Color
@@ -8,7 +9,7 @@ from foxglove_schemas_protobuf.ImageAnnotations_pb2 import ImageAnnotations
 from foxglove_schemas_protobuf.Point2_pb2 import Point2
 from foxglove_schemas_protobuf.PointsAnnotation_pb2 import PointsAnnotation
 
-from handeye.trace.messages import stamp
+from handeye.trace.messages import SECOND, stamp
 from handeye.vision.marks import Colour, Disc, Line, Loop, Mark, Point
 
 
@@ -24,6 +25,35 @@ def annotations(taken: int, marks: Sequence[Mark]) -> bytes:
             case Disc():
                 message.circles.append(_disc(mark, taken))
     return message.SerializeToString()
+
+
+def read_annotations(data: bytes) -> tuple[int, tuple[Mark, ...]]:
+    """The time (ns) at which the picture was taken that some marks are on, and the marks.
+
+    Raises:
+        DecodeError: it is no such message.
+    """
+    message = ImageAnnotations.FromString(data)
+    return message.timestamp.seconds * SECOND + message.timestamp.nanos, tuple(_marks(message))
+
+
+def _marks(message: ImageAnnotations) -> Iterator[Mark]:
+    """The marks of a message: lines first, then discs, which is the order they are drawn in."""
+    for lines in message.points:
+        points = tuple((point.x - 0.5, point.y - 0.5) for point in lines.points)
+        colour = _levels(lines.outline_color)
+        if lines.type == PointsAnnotation.LINE_LOOP:
+            yield Loop(points=points, colour=colour, width=lines.thickness)
+        elif len(points) == 2:
+            yield Line(ends=(points[0], points[1]), colour=colour, width=lines.thickness)
+    for disc in message.circles:
+        centre = disc.position.x - 0.5, disc.position.y - 0.5
+        yield Disc(centre=centre, colour=_levels(disc.fill_color), diameter=disc.diameter)
+
+
+def _levels(colour: Any) -> Colour:
+    r, g, b = (round(255 * share) for share in (colour.r, colour.g, colour.b))
+    return r, g, b
 
 
 def _lines(

@@ -12,7 +12,7 @@ from handeye.files import read_whole
 from handeye.planfile.store import written_digest
 from handeye.trace.channels import EVENTS, FORMAT, VERSION
 from handeye.trace.events_read import read_event
-from handeye.trace.records import Unsound, check, front, is_mcap, read_messages
+from handeye.trace.records import Unsound, check, front, is_ended, is_mcap, read_messages
 from handeye.trace.trace import Trace
 
 __all__ = ["Trace", "read_trace"]
@@ -54,6 +54,16 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
         counts=dict(Counter(message.topic for message in messages)),
         messages=messages,
     )
+
+
+def is_cut_short(path: Path) -> bool:
+    """See whether a file is a trace that was not written to its end.
+
+    Raises:
+        InvalidInput: it cannot be read.
+    """
+    data = read_whole(path)
+    return is_mcap(data) and not is_ended(data)
 
 
 def _identify(path: Path, data: bytes) -> tuple[bytes, int]:

@@ -59,6 +59,11 @@ def is_mcap(data: bytes) -> bool:
     return data.startswith(MCAP0_MAGIC)
 
 
+def is_ended(data: bytes) -> bool:
+    """See whether a file ends as an MCAP file does that was written to its end."""
+    return data.endswith(MCAP0_MAGIC) and len(data) >= 2 * len(MCAP0_MAGIC) + _DATA_END + _FOOTER
+
+
 def check(data: bytes) -> None:
     """See that an MCAP file is whole, and every bit of it as it was written.
 
@@ -67,7 +72,7 @@ def check(data: bytes) -> None:
     Raises:
         Unsound: it is not.
     """
-    if not data.endswith(MCAP0_MAGIC) or len(data) < 2 * len(MCAP0_MAGIC) + _DATA_END + _FOOTER:
+    if not is_ended(data):
         raise Unsound("is cut short")
     footer = len(data) - len(MCAP0_MAGIC) - _FOOTER
     summary, _, summary_crc = struct.unpack_from("<QQI", data, footer + _HEAD.size)

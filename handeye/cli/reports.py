@@ -1,0 +1,101 @@
+"""Command that makes a page of a run."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import say
+from handeye.cli.trace_files import trace_file
+from handeye.cli.traces import TraceFile
+from handeye.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from handeye.report.result import Result
+    from handeye.see.recorded import Recorded
+
+
+def register(app: App) -> None:
+    """Add the command to the command line."""
+    app.command(report)
+
+
+def report(
+    run: TraceFile,
+    /,
+    *,
+    output: Annotated[
+        Path | None,
+        Parameter(
+            name=["--output", "-o"],
+            help="The page, .html; by default report.html in the folder of the run, or beside the trace.",
+        ),
+    ] = None,
+    overwrite: Annotated[bool, Parameter(help="Replace the report that is there.")] = False,
+) -> int:
+    """Make a page of a run: one file with what happened, why, and what was seen and felt.
+
+    Exit code 0: it is written, whatever the run came to; 2: bad input.
+    """
+    from handeye.runs.folder import REPORT
+
+    place = output or (run / REPORT if run.is_dir() else run.with_name(REPORT))
+    write_report(run, place, overwrite=overwrite)
+    say(str(place))
+    return 0
+
+
+def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
+    """Write the report of a run.
+
+    Args:
+        run: its folder, or its trace.
+        overwrite: a report that is there may be replaced.
+
+    Raises:
+        InvalidInput: there is no such run, or the report cannot be written there.
+    """
+    from handeye.files import check_place, write_over
+    from handeye.see.facts.scene import check_scene
+    from handeye.see.page.document import REPORT, report_page
+    from handeye.see.photographs import album
+
+    check_place(place, REPORT)
+    if place.exists() and not overwrite:
+        raise InvalidInput(f"{place} holds a report already; --overwrite replaces it")
+    recorded = _recorded(run)
+    check_scene(recorded)
+    write_over(place, report_page(recorded, album(recorded)), REPORT)
+
+
+def _recorded(run: Path) -> "Recorded":
+    """The run in a folder or a trace, as far as it can be read.
+
+    Raises:
+        InvalidInput: there is none.
+    """
+    from handeye.see.recorded import Recorded
+    from handeye.trace.reading import is_cut_short, read_trace
+
+    file = trace_file(run)
+    if file.suffix == ".jsonl":
+        raise InvalidInput(
+            f"{file} is an event list, which does not say where things were; take the trace.mcap"
+        )
+    cut = is_cut_short(file)
+    result, remarks = _result(run)
+    return Recorded(trace=read_trace(file, lenient=cut), whole=not cut, result=result, remarks=remarks)
+
+
+def _result(run: Path) -> tuple["Result | None", tuple[str, ...]]:
+    """What the folder of a run says that it came to, if it says so, and what is wrong with that."""
+    from handeye.report.kept_run import kept_run
+    from handeye.runs.folder import RESULT
+
+    if not (run / RESULT).is_file():
+        return None, ()
+    try:
+        kept = kept_run(run)
+    except InvalidInput as fault:
+        return None, (str(fault),)
+    return (kept.result if kept.left else None), kept.faults

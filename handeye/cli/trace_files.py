@@ -1,0 +1,28 @@
+"""The file that a run's trace, or what there is of it, is read from."""
+
+from pathlib import Path
+
+from handeye.cli.common import note
+from handeye.errors import InvalidInput
+
+
+def trace_file(path: Path) -> Path:
+    """The trace of the run in a folder, or its event list if there is no trace; of a file, the file.
+
+    Raises:
+        InvalidInput: the run has not begun.
+    """
+    from handeye.runs.folder import EVENTS, PLAN, TRACE
+    from handeye.trace.recorder import part
+
+    if not path.is_dir():
+        return path
+    growing = part(path / TRACE)
+    if growing.exists():  # newer than the whole one, which is of before the run was resumed
+        note(f"the run in {path} was interrupted; this is what its trace holds")
+        return growing
+    if (path / TRACE).exists():
+        return path / TRACE
+    if (path / PLAN).exists() and not (path / EVENTS).exists():
+        raise InvalidInput(f"the run in {path} has not begun")
+    return path / EVENTS

@@ -1,0 +1,70 @@
+"""The command that carries out a run again."""
+
+import shlex
+from typing import Final
+
+from handeye.planfile.store import written_digest
+from handeye.resources import plans
+from handeye.see.recorded import Recorded
+from handeye.tasks import DEFAULT, known
+from handeye.units import UNITS, Unit
+from handeye.variation import Quantity
+
+_CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
+
+
+def command(run: Recorded) -> str | None:
+    """The command; None: code or a task of the caller's own belongs to the run, which no command line has."""
+    head = run.trace.head
+    if head.task != DEFAULT or head.own_parts:
+        return None
+    if _is_shipped(head.plan):
+        words = ["assemble"]
+    else:
+        judged = run.result is not None and run.result.assembled is not None
+        words = ["run", "plan.json", *(["--judge"] if judged else [])]
+    return shlex.join(["handeye", *words, *_world(run), *_camera(run)])
+
+
+def _is_shipped(digest: str) -> bool:
+    """The plan of a run is the one that `assemble` makes."""
+    task = known(DEFAULT)
+    assert task is not None
+    assert task.script is not None
+    made = (plans() / task.script).with_suffix(".plan.json")
+    return made.is_file() and written_digest(made.read_bytes()) == digest
+
+
+def _camera(run: Recorded) -> list[str]:
+    kind = _CAMERAS.get(run.trace.head.camera.method)
+    return [] if kind is None else ["--camera", kind]
+
+
+def _world(run: Recorded) -> list[str]:
+    """The options that stand for its world."""
+    world = run.trace.head.world
+    task = known(run.trace.head.task)
+    assert task is not None
+    quantities, faults = task.variation(world.seed).quantities, task.faults(world.seed)
+    words = ["--seed", str(world.seed)]
+    words += [] if world.level == "nominal" else ["--level", world.level]
+    words += [word for name in world.overrides.without for word in ("--without", name)]
+    for name, value in world.overrides.set.items():
+        words += ["--set", f"{name}={written(quantities.get(name), value)}"]
+    return [*words, *(word for fault in world.faults for word in ("--fault", faults.told(fault)))]
+
+
+def written(quantity: Quantity | None, value: float) -> str:
+    """A value (SI) as it would be typed: in the unit of its quantity, if that is as exact."""
+    if quantity is None:
+        return repr(value)
+    for unit in (quantity.measure, _si(quantity.measure)):
+        number = f"{value / unit.size:.9g}"
+        if float(number) * unit.size == value:
+            return f"{number}{unit.name.replace(' ', '')}"
+    return f"{value!r}{_si(quantity.measure).name.replace(' ', '')}"
+
+
+def _si(unit: Unit) -> Unit:
+    """The SI unit of the same dimension."""
+    return next(each for each in UNITS.values() if each.dimension == unit.dimension and each.size == 1.0)

@@ -1,0 +1,42 @@
+"""What a run was told by its senses, and told people, one after another."""
+
+from typing import Final, NamedTuple
+
+from handeye import events as happened
+from handeye.events import AnyEvent
+from handeye.see.recorded import Recorded
+
+SENSED: Final = (
+    happened.Adjusted,
+    happened.CameraBusy,
+    happened.ErrorRaised,
+    happened.ErrorTested,
+    happened.ExperimentMade,
+    happened.GuardTripped,
+    happened.HandTold,
+    happened.OperatorAnswered,
+    happened.OperatorCalled,
+    happened.PanicStopped,
+    happened.PartInspected,
+    happened.PartSeen,
+    happened.PictureTaken,
+    happened.PositionDefined,
+    happened.Saved,
+    happened.SearchAdvanced,
+)
+"""Events worth a caption."""
+
+
+class Told(NamedTuple):
+    """An event worth a caption."""
+
+    time: float
+    """s since the run began."""
+    event: AnyEvent
+
+
+def told(run: Recorded) -> tuple[Told, ...]:
+    """All of them, in order."""
+    return tuple(
+        Told(run.seconds(event.time), event) for event in run.trace.events if isinstance(event, SENSED)
+    )

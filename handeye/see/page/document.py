@@ -1,0 +1,101 @@
+"""The whole page: one file that fetches nothing, and runs no script but its own."""
+
+from base64 import b64encode
+from hashlib import sha256
+from pathlib import Path
+from typing import Final
+
+from handeye.files import Kind
+from handeye.markup import Markup
+from handeye.plain_text import printable
+from handeye.see.facts.felt import guarded_motions, lost_trips
+from handeye.see.facts.outcome import outcome
+from handeye.see.facts.planned import corrections, ends
+from handeye.see.facts.searches import searches
+from handeye.see.facts.seen import lost_pictures, seen_pictures
+from handeye.see.facts.told import told
+from handeye.see.page.elements import element, joined
+from handeye.see.page.felt import felt_section
+from handeye.see.page.moments import moments
+from handeye.see.page.planned import planned_section
+from handeye.see.page.record import record_section
+from handeye.see.page.referee import referee_section
+from handeye.see.page.seen import seen_section
+from handeye.see.page.timing import timing_section
+from handeye.see.page.verdict import title, verdict
+from handeye.see.page.view import view_section, widths
+from handeye.see.photographs import Album
+from handeye.see.recorded import Recorded
+
+_MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
+REPORT: Final = Kind("report of handeye", _MARK.encode(), ending=".html")
+
+
+def report_page(run: Recorded, photographs: Album) -> bytes:
+    """The report of a run; the same for the same trace and result on one machine.
+
+    Raises:
+        InvalidInput: its trace cannot be understood, or is of an older handeye.
+    """
+    came, heard = outcome(run), told(run)
+    forces = guarded_motions(run)
+    body = element(
+        "body",
+        verdict(run, came, heard, photographs.leading),
+        element(
+            "main",
+            view_section(run, photographs.stages),
+            timing_section(run),
+            seen_section(seen_pictures(run), lost=lost_pictures(run)),
+            felt_section(
+                forces, recorded=not forces or run.trace.forces().recorded, lost=lost_trips(run, forces)
+            ),
+            planned_section(
+                ends(run), corrections(run), searches(run), run.trace.stages, run.trace.head.time
+            ),
+            referee_section(run),
+            record_section(run),
+        ),
+        moments(run, came, heard),
+        _scripts(),
+    )
+    page = element(
+        "html",
+        _head(printable(f"{run.trace.head.program}: {title(run, came)}"), widths(run)),
+        body,
+        lang="en",
+    )
+    return (_MARK + page + "\n").encode()
+
+
+def _head(name: str, rules: str) -> Markup:
+    """The head, with a policy that lets in the page's own style and script and nothing else."""
+    style = _resource("page.css") + rules
+    policy = (
+        f"default-src 'none'; script-src {' '.join(map(_digest, _SCRIPTS))}; style-src {_digest(style)}; "
+        "img-src data: blob:"
+    )
+    return element(
+        "head",
+        element("meta", charset="utf-8"),
+        element("meta", http_equiv="Content-Security-Policy", content=policy),
+        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        element("title", name),
+        element("style", Markup(style)),
+    )
+
+
+def _digest(content: str) -> str:
+    """The source expression that lets in an element of this content."""
+    return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
+
+
+def _scripts() -> Markup:
+    return joined(element("script", Markup(script)) for script in _SCRIPTS)
+
+
+def _resource(name: str) -> str:
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+_SCRIPTS: Final = (_resource("page.js"),)

@@ -1,0 +1,26 @@
+"""A run in a few figures, for the head of its page."""
+
+from collections import Counter
+from collections.abc import Iterator
+
+from handeye import events as happened
+from handeye.markup import Markup
+from handeye.see.page.elements import element
+from handeye.see.recorded import Recorded
+
+
+def in_figures(run: Recorded) -> Markup:
+    """The figures as a list."""
+    rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in _figures(run))
+    return element("dl", *rows, class_="in-figures")
+
+
+def _figures(run: Recorded) -> Iterator[tuple[int, str]]:
+    kinds = Counter(type(event) for event in run.trace.events)
+    yield kinds[happened.PictureTaken], "pictures taken"
+    yield kinds[happened.GuardTripped], "motions ended by touch"
+    yield kinds[happened.Adjusted], "goals moved by what was sensed"
+    yield kinds[happened.SearchAdvanced], "places that searches went on to"
+    yield kinds[happened.ErrorTested], "errors tested by the program"
+    if run.result is not None and run.result.referee:
+        yield sum(check.ok for check in run.result.referee.values()), "findings of the referee right"

@@ -1,0 +1,39 @@
+"""What the script of the page needs to know of the run: steps, stages and captions by their times."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import msgspec
+
+from handeye.events import StepStarted
+from handeye.markup import Markup
+from handeye.plain_text import printable
+from handeye.see.facts.outcome import Outcome
+from handeye.see.facts.told import Told
+from handeye.see.page.elements import element
+from handeye.see.page.source import line_id
+from handeye.see.recorded import Recorded
+from handeye.trace.sentences import sentence
+
+
+def moments(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Markup:
+    """The data, as an element that is not shown."""
+    files = ("", *run.program.required)
+    steps = [event for event in run.trace.events if isinstance(event, StepStarted)]
+    data = {
+        "begin": run.begins,
+        "end": run.ends,
+        "show": run.begins if outcome.good else outcome.time,
+        "steps": [[run.seconds(step.time), line_id(step.line, step.file, files)] for step in steps],
+        "stages": [
+            [run.seconds(each.begin), run.seconds(each.end), printable(each.name)]
+            for each in run.trace.stages
+        ],
+        "told": [[each.time, printable(sentence(each.event))] for each in told],
+    }
+    return element("script", json_markup(data), id="moments", type="application/json")
+
+
+def json_markup(data: Any) -> Markup:
+    """Data as JSON that cannot end the element it stands in."""
+    return Markup(msgspec.json.encode(data).decode().replace("<", "\\u003c"))

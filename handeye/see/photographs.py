@@ -1,0 +1,143 @@
+"""Photographs of a recorded run for its report: one that leads it, and one of each stage."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import cv2
+
+from handeye.cell.photograph import Near, Photographer
+from handeye.cell.photograph import Photograph as Points
+from handeye.cell.posed import posed
+from handeye.errors import InvalidInput
+from handeye.events import GuardTripped, StepFinished
+from handeye.see.facts.outcome import Outcome, outcome
+from handeye.see.recorded import Recorded
+from handeye.tasks import known
+from handeye.trace.stages import Stage
+
+SMALL: Final = 480, 360
+LARGE: Final = 960, 720
+MOST: Final = 24
+"""Stages that are photographed, at most."""
+_FINER: Final = 2
+"""Points of the drawing for one of the photograph, along a side."""
+_QUALITY: Final = 80
+_ROOM: Final = "studio"
+"""The camera of the scene that shows all of it."""
+_NEAR: Final = 0.62
+"""m from which the hand is looked at."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Photograph:
+    """A photograph, or why there is none."""
+
+    time: float
+    """s since the run began."""
+    shows: str
+    width: int
+    height: int
+    webp: bytes | None
+    """The file; None: it could not be taken."""
+    missing: str = ""
+    """Why."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Wanted:
+    """A photograph that is to be taken."""
+
+    time: float
+    """s since the run began."""
+    view: str | Near
+    shows: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Album:
+    """The photographs of a run."""
+
+    leading: Photograph
+    stages: tuple[Photograph, ...]
+
+
+def album(run: Recorded) -> Album:
+    """The photographs of a run: of its end, or of where it failed, and of its stages."""
+    return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
+
+
+def _leading(run: Recorded, outcome: Outcome) -> Photograph:
+    """The photograph that leads: the finished work, or the moment at which the run failed."""
+    done = outcome.kind in ("right", "wrong", "ended")
+    task = known(run.trace.head.task)
+    closest = _ROOM if task is None or not task.photographs else task.photographs[-1]
+    view = closest if done else _at_hand(run, outcome.time)
+    shows = "The end of the run" if done else "The last moment"
+    return _taken(run, [_Wanted(time=outcome.time, view=view, shows=shows)], LARGE)[0]
+
+
+def _of_stages(run: Recorded) -> tuple[Photograph, ...]:
+    """A photograph of each stage; of many stages, of some."""
+    stages = [
+        (number, stage)
+        for number, stage in enumerate(run.trace.stages, 1)
+        if run.seconds(stage.end) > run.begins
+    ]
+    every = -(-len(stages) // MOST) or 1
+    return _taken(run, [_of_stage(run, number, stage) for number, stage in stages[::every]], SMALL)
+
+
+def _of_stage(run: Recorded, number: int, stage: Stage) -> _Wanted:
+    """The moment of a stage that shows most: the last at which a guard was met, or its end."""
+    trips = [
+        event.time
+        for event in run.trace.events
+        if isinstance(event, GuardTripped) and stage.begin <= event.time <= stage.end
+    ]
+    time = run.seconds(trips[-1] if trips else stage.end)
+    return _Wanted(time=time, view=_at_hand(run, time) if trips else _ROOM, shows=f"{number} {stage.name}")
+
+
+def _at_hand(run: Recorded, time: float) -> str | Near:
+    """A view of the hand where it was after the last step before a time."""
+    ended = [
+        event.hand
+        for event in run.trace.events
+        if isinstance(event, StepFinished)
+        and event.hand is not None
+        and run.seconds(event.time) <= time + 0.1
+    ]
+    return Near(camera=_ROOM, place=ended[-1], distance=_NEAR) if ended else _ROOM
+
+
+def _taken(run: Recorded, wanted: Sequence[_Wanted], size: tuple[int, int]) -> tuple[Photograph, ...]:
+    """The photographs, or why there are none."""
+    try:
+        return tuple(_take(run, wanted, size))
+    except InvalidInput as fault:
+        return tuple(_none(each, size, f"No photograph: {fault}.") for each in wanted)
+
+
+def _none(wanted: _Wanted, size: tuple[int, int], why: str) -> Photograph:
+    return Photograph(
+        time=wanted.time, shows=wanted.shows, width=size[0], height=size[1], webp=None, missing=why
+    )
+
+
+def _take(run: Recorded, wanted: Sequence[_Wanted], size: tuple[int, int]) -> Iterator[Photograph]:
+    width, height = size
+    photographer = Photographer(run.trace.scene, width=_FINER * width, height=_FINER * height)
+    begin, end = run.trace.covers
+    for each in wanted:
+        moment = run.trace.at(min(max(each.time + run.trace.head.time, begin), end))
+        fine = photographer.take(*posed(run.trace.scene, moment.poses), each.view)
+        yield Photograph(time=each.time, shows=each.shows, width=width, height=height, webp=_webp(fine, size))
+
+
+def _webp(fine: Points, size: tuple[int, int]) -> bytes:
+    """A photograph of half its size along a side, as a WebP file."""
+    small = cv2.resize(fine, size, interpolation=cv2.INTER_AREA)
+    done, data = cv2.imencode(".webp", small[:, :, ::-1], [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
+    assert done
+    return data.tobytes()

@@ -1,0 +1,111 @@
+"""Reports of made-up runs, and their pages as trees."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import msgspec
+from recordings import record
+
+from handeye.events import AnyEvent
+from handeye.see.page.document import report_page
+from handeye.see.page.elements import SHAPES, VOID
+from handeye.see.photographs import Album, Photograph
+from handeye.see.recorded import Recorded
+from handeye.trace.reading import read_trace
+
+
+def recorded(path: Path) -> Recorded:
+    """A made-up run, recorded at a path."""
+    record(path)
+    return Recorded(trace=read_trace(path))
+
+
+def changed(run: Recorded, change: Callable[[AnyEvent], AnyEvent | None]) -> Recorded:
+    """The run with its events changed, or left out."""
+    events = tuple(each for event in run.trace.events if (each := change(event)) is not None)
+    head = events[0]
+    return replace(run, trace=replace(run.trace, head=head, events=events))
+
+
+def renamed(run: Recorded, **words: str) -> Recorded:
+    """The run with other words in all its events: `stage`, `text`, `program`, `message`."""
+
+    def change(event: AnyEvent) -> AnyEvent:
+        own = {name: word for name, word in words.items() if hasattr(event, name)}
+        return msgspec.structs.replace(event, **own)
+
+    return changed(run, change)
+
+
+def no_photographs(run: Recorded, why: str = "No photograph: none was wanted.") -> Album:
+    """An album with none."""
+    none = Photograph(time=0.0, shows="nothing", width=4, height=3, webp=None, missing=why)
+    return Album(leading=none, stages=(none,) * len(run.trace.stages))
+
+
+def page_of(run: Recorded) -> str:
+    """Its report, without photographs."""
+    return report_page(run, no_photographs(run)).decode()
+
+
+@dataclass
+class Node:
+    """An element of a page."""
+
+    name: str
+    attributes: dict[str, str | None] = field(default_factory=dict)
+    children: "list[Node | str]" = field(default_factory=list)
+
+    def __iter__(self) -> "Iterator[Node]":
+        """The element, and all that are in it."""
+        yield self
+        for child in self.children:
+            if isinstance(child, Node):
+                yield from child
+
+    def all(self, name: str) -> "list[Node]":
+        """The elements of a name."""
+        return [node for node in self if node.name == name]
+
+    def one(self, identity: str) -> "Node":
+        """The element of an identity."""
+        (found,) = (node for node in self if node.attributes.get("id") == identity)
+        return found
+
+    @property
+    def text(self) -> str:
+        """All words in it."""
+        return "".join(child if isinstance(child, str) else child.text for child in self.children)
+
+
+class _Parser(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.open = [Node("page")]
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        node = Node(tag, dict(attrs))
+        self.open[-1].children.append(node)
+        if tag not in VOID:
+            self.open.append(node)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        assert tag in SHAPES
+        self.open[-1].children.append(Node(tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop().name == tag
+
+    def handle_data(self, data: str) -> None:
+        self.open[-1].children.append(data)
+
+
+def tree(page: str) -> Node:
+    """A page as a tree; every element that is opened is closed where it should be."""
+    parser = _Parser()
+    parser.feed(page)
+    parser.close()
+    assert len(parser.open) == 1
+    return parser.open[0]

@@ -1,0 +1,139 @@
+"""`handeye report`: a page of a run, or one sentence on why there is none."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import Command
+from recordings import BODIES, record
+from report_pages import tree
+
+from handeye.errors import InvalidInput
+from handeye.see import photographs
+from handeye.see.page.document import REPORT
+from handeye.trace import channels, mcap_writer
+
+pytestmark = pytest.mark.slow
+
+Planned = Callable[[str], str]
+
+
+@pytest.fixture(autouse=True)
+def no_opengl(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A machine without OpenGL, on which a report is made all the same."""
+
+    def fail(*_: object, **__: object) -> None:
+        raise InvalidInput("OpenGL does not work on this machine")
+
+    monkeypatch.setattr(photographs, "Photographer", fail)
+
+
+@pytest.fixture
+def kept(command: Command, planned: Planned) -> Path:
+    """The folder of a run of one step."""
+    assert command("run", planned("OPEN 1"), "--camera", "ray", "--out", "kept")[0] == 0
+    return Path("kept")
+
+
+def refused(command: Command, *words: str) -> str:
+    """The sentence with which a command is refused, which leaves nothing behind."""
+    before = {path for path in Path().rglob("*") if path.suffix != ".mcap"}
+    code, out, err = command("report", *words)
+    assert (code, out) == (2, "")
+    assert {path for path in Path().rglob("*") if path.suffix != ".mcap"} == before
+    return err.removeprefix("handeye: ").rstrip("\n")
+
+
+def test_the_folder_of_a_run_of_one_step_gets_its_page(command: Command, kept: Path) -> None:
+    code, out, _ = command("report", "kept")
+    assert (code, out) == (0, "kept/report.html\n")
+    page = tree((kept / "report.html").read_text(encoding="utf-8"))
+    assert page.all("h1")[0].text == "The program came to its end."
+    assert "No photograph: OpenGL does not work on this machine." in page.text
+
+
+def test_a_report_is_replaced_only_if_somebody_says_so(command: Command, kept: Path) -> None:
+    assert command("report", "kept")[0] == 0
+    assert refused(command, "kept") == "kept/report.html holds a report already; --overwrite replaces it"
+    assert command("report", "kept", "--overwrite")[0] == 0
+
+
+def test_a_run_that_goes_on_loses_the_report_of_what_it_was(command: Command, planned: Planned) -> None:
+    plan = planned('STAGE "one"\nOPEN 1\nSTAGE "two"\nOPEN 2')
+    assert command("run", plan, "--camera", "ray", "--out", "kept", "--to", "one")[0] == 0
+    assert command("report", "kept")[0] == 0
+    assert command("resume", "kept")[0] == 0
+    assert not Path("kept/report.html").exists()
+
+
+def test_no_such_run(command: Command) -> None:
+    assert refused(command, "nowhere", "-o", "page.html") == "nowhere: there is no such file"
+
+
+def test_an_event_list_does_not_say_where_things_were(command: Command) -> None:
+    Path("events.jsonl").write_text("", encoding="utf-8")
+    assert refused(command, "events.jsonl", "-o", "page.html") == (
+        "events.jsonl is an event list, which does not say where things were; take the trace.mcap"
+    )
+
+
+def test_what_is_no_trace(command: Command) -> None:
+    Path("poem.txt").write_text("roses", encoding="utf-8")
+    assert (
+        refused(command, "poem.txt", "-o", "page.html") == "poem.txt is not a trace: it is not an MCAP file"
+    )
+
+
+def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
+    Path("page.html").write_text("<p>mine</p>", encoding="utf-8")
+    assert refused(command, "kept", "-o", "page.html") == (
+        "page.html exists and is no report of handeye; nothing was written"
+    )
+
+
+def test_a_name_that_browsers_do_not_open(command: Command, kept: Path) -> None:
+    assert refused(command, "kept", "-o", "page.txt") == (
+        "page.txt: the name of the report of handeye must end in .html"
+    )
+
+
+def test_a_folder_that_is_not_there(command: Command, kept: Path) -> None:
+    assert refused(command, "kept", "-o", "nowhere/page.html") == (
+        "nowhere/page.html cannot be written: No such file or directory"
+    )
+
+
+def test_a_trace_of_a_newer_version(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    with monkeypatch.context() as patch:
+        patch.setattr(mcap_writer, "VERSION", channels.VERSION + 1)
+        record(Path("new.mcap"))
+    assert refused(command, "new.mcap", "-o", "page.html").startswith("new.mcap has trace format version 4")
+
+
+def test_a_trace_of_another_scene(command: Command) -> None:
+    record(Path("other.mcap"))
+    assert f"`{BODIES[1]}`" in refused(command, "other.mcap", "-o", "page.html")
+
+
+def test_a_damaged_trace(command: Command) -> None:
+    data = bytearray(record(Path("bad.mcap")))
+    data[len(data) // 2] ^= 1
+    Path("bad.mcap").write_bytes(data)
+    assert refused(command, "bad.mcap", "-o", "page.html") == "bad.mcap is damaged"
+
+
+def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command, kept: Path) -> None:
+    data = (kept / "trace.mcap").read_bytes()
+    Path("cut.mcap").write_bytes(data[: len(data) - 40])
+    assert command("report", "cut.mcap", "-o", "page.html")[0] == 0
+    assert "The trace was cut short" in Path("page.html").read_text(encoding="utf-8")
+
+
+def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
+    code, _, err = command("assemble", "--report")
+    assert (code, err) == (2, "handeye: --report needs --out, the folder that the page is left in\n")
+
+
+def test_a_report_is_known_by_how_it_begins(command: Command, kept: Path) -> None:
+    assert command("report", "kept", "-o", "page.html")[0] == 0
+    assert Path("page.html").read_bytes().startswith(REPORT.begins)
