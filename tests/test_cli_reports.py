@@ -9,7 +9,7 @@ from recordings import BODIES, record
 from report_pages import tree
 
 from handeye.errors import InvalidInput
-from handeye.see import photographs
+from handeye.see import animation, photographs
 from handeye.see.page.document import REPORT
 from handeye.trace import channels, mcap_writer
 
@@ -20,12 +20,13 @@ Planned = Callable[[str], str]
 
 @pytest.fixture(autouse=True)
 def no_opengl(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A machine without OpenGL, on which a report is made all the same."""
+    """A machine without OpenGL, on which a report is made all the same; the scene is put in by another test."""
 
     def fail(*_: object, **__: object) -> None:
         raise InvalidInput("OpenGL does not work on this machine")
 
     monkeypatch.setattr(photographs, "Photographer", fail)
+    monkeypatch.setattr(animation, "scene_bytes", lambda _: b"scene")
 
 
 @pytest.fixture

@@ -56,6 +56,7 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
         InvalidInput: there is no such run, or the report cannot be written there.
     """
     from handeye.files import check_place, write_over
+    from handeye.see.animation import animation
     from handeye.see.facts.scene import check_scene
     from handeye.see.page.document import REPORT, report_page
     from handeye.see.photographs import album
@@ -65,7 +66,7 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
         raise InvalidInput(f"{place} holds a report already; --overwrite replaces it")
     recorded = _recorded(run)
     check_scene(recorded)
-    write_over(place, report_page(recorded, album(recorded)), REPORT)
+    write_over(place, report_page(recorded, album(recorded), animation(recorded)), REPORT)
 
 
 def _recorded(run: Path) -> "Recorded":

@@ -16,12 +16,8 @@ from handeye.see.recorded import Recorded
 from handeye.tasks import known
 from handeye.trace.stages import Stage
 
-SMALL: Final = 480, 360
-LARGE: Final = 960, 720
 MOST: Final = 24
 """Stages that are photographed, at most."""
-_FINER: Final = 2
-"""Points of the drawing for one of the photograph, along a side."""
 _QUALITY: Final = 80
 _ROOM: Final = "studio"
 """The camera of the scene that shows all of it."""
@@ -42,6 +38,22 @@ class Photograph:
     """The file; None: it could not be taken."""
     missing: str = ""
     """Why."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Print:
+    """How photographs are made."""
+
+    width: int
+    height: int
+    finer: int
+    """Points of the drawing for one of the photograph, along a side."""
+    shadow: int
+    """Points along a side of the map of shadows."""
+
+
+LARGE: Final = _Print(width=960, height=720, finer=2, shadow=4096)
+SMALL: Final = _Print(width=480, height=360, finer=1, shadow=2048)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,7 +123,7 @@ def _at_hand(run: Recorded, time: float) -> str | Near:
     return Near(camera=_ROOM, place=ended[-1], distance=_NEAR) if ended else _ROOM
 
 
-def _taken(run: Recorded, wanted: Sequence[_Wanted], size: tuple[int, int]) -> tuple[Photograph, ...]:
+def _taken(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> tuple[Photograph, ...]:
     """The photographs, or why there are none."""
     try:
         return tuple(_take(run, wanted, size))
@@ -119,25 +131,27 @@ def _taken(run: Recorded, wanted: Sequence[_Wanted], size: tuple[int, int]) -> t
         return tuple(_none(each, size, f"No photograph: {fault}.") for each in wanted)
 
 
-def _none(wanted: _Wanted, size: tuple[int, int], why: str) -> Photograph:
+def _none(wanted: _Wanted, size: _Print, why: str) -> Photograph:
     return Photograph(
-        time=wanted.time, shows=wanted.shows, width=size[0], height=size[1], webp=None, missing=why
+        time=wanted.time, shows=wanted.shows, width=size.width, height=size.height, webp=None, missing=why
     )
 
 
-def _take(run: Recorded, wanted: Sequence[_Wanted], size: tuple[int, int]) -> Iterator[Photograph]:
-    width, height = size
-    photographer = Photographer(run.trace.scene, width=_FINER * width, height=_FINER * height)
+def _take(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> Iterator[Photograph]:
+    wide, high = size.finer * size.width, size.finer * size.height
+    photographer = Photographer(run.trace.scene, width=wide, height=high, shadow=size.shadow)
     begin, end = run.trace.covers
     for each in wanted:
         moment = run.trace.at(min(max(each.time + run.trace.head.time, begin), end))
         fine = photographer.take(*posed(run.trace.scene, moment.poses), each.view)
-        yield Photograph(time=each.time, shows=each.shows, width=width, height=height, webp=_webp(fine, size))
+        yield Photograph(
+            time=each.time, shows=each.shows, width=size.width, height=size.height, webp=_webp(fine, size)
+        )
 
 
-def _webp(fine: Points, size: tuple[int, int]) -> bytes:
-    """A photograph of half its size along a side, as a WebP file."""
-    small = cv2.resize(fine, size, interpolation=cv2.INTER_AREA)
+def _webp(fine: Points, size: _Print) -> bytes:
+    """A photograph at its size as a WebP file."""
+    small = cv2.resize(fine, (size.width, size.height), interpolation=cv2.INTER_AREA)
     done, data = cv2.imencode(".webp", small[:, :, ::-1], [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
     assert done
     return data.tobytes()

@@ -1,7 +1,7 @@
 """What the hand felt is shown as the program felt it: every trip where it was, within half a newton."""
 
 import pytest
-from report_pages import page_of, tree
+from report_pages import no_photographs, page_of, tree
 from short_runs import plan_of, through
 
 from handeye.events import GuardTripped
@@ -10,7 +10,10 @@ from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.see import player
+from handeye.see.animation import animation
 from handeye.see.facts.felt import GuardedMotion, guarded_motions
+from handeye.see.page.document import report_page
 from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
 from handeye.variation import WorldSpec
@@ -75,6 +78,22 @@ def test_the_page_says_of_each_what_came_of_it(run: Recorded) -> None:
     said = [figure.all("span")[-1].text for figure in tree(page_of(run)).one("felt").all("figure")]
     assert said[0].endswith("guard 11.1 N (40.0 oz)")
     assert said[1].startswith("not met: ")
+
+
+def test_what_the_player_needs_is_in_the_page_and_let_in(run: Recorded) -> None:
+    page = tree(report_page(run, no_photographs(run), animation(run)).decode())
+    packed = [
+        node.attributes["id"]
+        for node in page.all("script")
+        if "octet-stream" in (node.attributes.get("type") or "")
+    ]
+    scripts = [node for node in page.all("script") if "type" not in node.attributes]
+    (policy,) = (
+        meta.attributes["content"] or "" for meta in page.all("meta") if "http-equiv" in meta.attributes
+    )
+    assert packed == ["scene", "tracks"]
+    assert scripts[0].text == player.script()
+    assert policy.count("'sha256-") == len(scripts) + 1
 
 
 def test_a_plan_of_few_steps_without_pictures_gives_a_page(run: Recorded) -> None:

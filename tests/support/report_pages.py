@@ -46,8 +46,8 @@ def no_photographs(run: Recorded, why: str = "No photograph: none was wanted.") 
 
 
 def page_of(run: Recorded) -> str:
-    """Its report, without photographs."""
-    return report_page(run, no_photographs(run)).decode()
+    """Its report, without photographs and animation."""
+    return report_page(run, no_photographs(run), None).decode()
 
 
 @dataclass

@@ -1,6 +1,7 @@
 """The whole page: one file that fetches nothing, and runs no script but its own."""
 
 from base64 import b64encode
+from collections.abc import Iterator, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Final
@@ -8,13 +9,15 @@ from typing import Final
 from handeye.files import Kind
 from handeye.markup import Markup
 from handeye.plain_text import printable
+from handeye.see import player
+from handeye.see.animation import Animation
 from handeye.see.facts.felt import guarded_motions, lost_trips
 from handeye.see.facts.outcome import outcome
 from handeye.see.facts.planned import corrections, ends
 from handeye.see.facts.searches import searches
 from handeye.see.facts.seen import lost_pictures, seen_pictures
 from handeye.see.facts.told import told
-from handeye.see.page.elements import element, joined
+from handeye.see.page.elements import element
 from handeye.see.page.felt import felt_section
 from handeye.see.page.moments import moments
 from handeye.see.page.planned import planned_section
@@ -31,48 +34,46 @@ _MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
 REPORT: Final = Kind("report of handeye", _MARK.encode(), ending=".html")
 
 
-def report_page(run: Recorded, photographs: Album) -> bytes:
+def report_page(run: Recorded, photographs: Album, animated: Animation | None) -> bytes:
     """The report of a run; the same for the same trace and result on one machine.
+
+    Args:
+        animated: what is shown to walk round in; None: photographs only.
 
     Raises:
         InvalidInput: its trace cannot be understood, or is of an older handeye.
     """
     came, heard = outcome(run), told(run)
-    forces = guarded_motions(run)
+    scripts = [*([] if animated is None else [player.script()]), _resource("page.js")]
     body = element(
         "body",
         verdict(run, came, heard, photographs.leading),
-        element(
-            "main",
-            view_section(run, photographs.stages),
-            timing_section(run),
-            seen_section(seen_pictures(run), lost=lost_pictures(run)),
-            felt_section(
-                forces, recorded=not forces or run.trace.forces().recorded, lost=lost_trips(run, forces)
-            ),
-            planned_section(
-                ends(run), corrections(run), searches(run), run.trace.stages, run.trace.head.time
-            ),
-            referee_section(run),
-            record_section(run),
-        ),
+        element("main", *_sections(run, photographs)),
         moments(run, came, heard),
-        _scripts(),
+        *([] if animated is None else [_packed("scene", animated.scene), _packed("tracks", animated.tracks)]),
+        *(element("script", Markup(script)) for script in scripts),
     )
-    page = element(
-        "html",
-        _head(printable(f"{run.trace.head.program}: {title(run, came)}"), widths(run)),
-        body,
-        lang="en",
-    )
+    name = printable(f"{run.trace.head.program}: {title(run, came)}")
+    page = element("html", _head(name, _resource("page.css") + widths(run), scripts), body, lang="en")
     return (_MARK + page + "\n").encode()
 
 
-def _head(name: str, rules: str) -> Markup:
-    """The head, with a policy that lets in the page's own style and script and nothing else."""
-    style = _resource("page.css") + rules
+def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:
+    felt, stages = guarded_motions(run), run.trace.stages
+    recorded = not felt or run.trace.forces().recorded
+    yield view_section(run, photographs.stages)
+    yield timing_section(run)
+    yield seen_section(seen_pictures(run), lost=lost_pictures(run))
+    yield felt_section(felt, recorded=recorded, lost=lost_trips(run, felt))
+    yield planned_section(ends(run), corrections(run), searches(run), stages, run.trace.head.time)
+    yield referee_section(run)
+    yield record_section(run)
+
+
+def _head(name: str, style: str, scripts: Sequence[str]) -> Markup:
+    """The head, with a policy that lets in the page's own style and scripts and nothing else."""
     policy = (
-        f"default-src 'none'; script-src {' '.join(map(_digest, _SCRIPTS))}; style-src {_digest(style)}; "
+        f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src {_digest(style)}; "
         "img-src data: blob:"
     )
     return element(
@@ -85,17 +86,15 @@ def _head(name: str, rules: str) -> Markup:
     )
 
 
+def _packed(name: str, data: bytes) -> Markup:
+    """Data that a script of the page unpacks."""
+    return element("script", Markup(b64encode(data).decode()), id=name, type="application/octet-stream")
+
+
 def _digest(content: str) -> str:
     """The source expression that lets in an element of this content."""
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
 
 
-def _scripts() -> Markup:
-    return joined(element("script", Markup(script)) for script in _SCRIPTS)
-
-
 def _resource(name: str) -> str:
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
-
-
-_SCRIPTS: Final = (_resource("page.js"),)

@@ -121,6 +121,37 @@
     return button;
   }
 
+  async function unpacked(name) {
+    const bytes = Uint8Array.from(atob(byId(name).textContent), (letter) => letter.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  }
+
+  /** Put the view in the place of the photographs, where the browser can draw it. */
+  async function draw() {
+    if (!byId("scene")) return;
+    const canvas = byId("view");
+    canvas.hidden = false;
+    try {
+      const drawn = await createPlayer(canvas, await unpacked("scene"), await unpacked("tracks"), {});
+      drawn.onpick = picked;
+      byId("views").replaceChildren(...drawn.views.map(viewButton));
+      player = drawn;
+    } catch (error) {
+      canvas.hidden = true;
+      byId("instead").textContent = `${error.message} Photographs stand in the place of the view.`;
+      byId("instead").hidden = false;
+      return;
+    }
+    choose(run.failed && player.views.includes("hand") ? "hand" : player.views[0]);
+    show(now);
+    byId("run").classList.add("drawn");
+  }
+
+  function picked(name) {
+    byId("picked").textContent = name ?? "";
+    byId("picked").hidden = !name;
+  }
+
   // -- keys -----------------------------------------------------------------------------------------
 
   const KEYS = {
@@ -156,4 +187,5 @@
     byId("run").scrollIntoView({ behavior: calm ? "auto" : "smooth" });
   });
   show(addressed() ?? run.show);
+  draw();
 })();

@@ -24,7 +24,9 @@ _KEYS: Final = (
 
 def view_section(run: Recorded, strip: Sequence[Photograph]) -> Markup:
     """The section."""
-    viewer = element("div", _screen(strip), _bar(run), _controls(run), _keys(), class_="viewer")
+    viewer = element(
+        "div", _screen(strip), _caption(), _bar(run), _controls(run), _instead(), _keys(), class_="viewer"
+    )
     script = element(
         "div",
         listing(run.program),
@@ -53,10 +55,8 @@ def _screen(strip: Sequence[Photograph]) -> Markup:
         aria_label="the cell at this moment; arrows walk round it, plus and minus come nearer and go farther",
     )  # fmt: skip
     photographs = element("div", *_photographs(strip), id="strip", class_="strip")
-    caption = element("p", id="caption", class_="caption", hidden=True)
-    return element(
-        "div", canvas, photographs, caption, element("p", id="picked", hidden=True), class_="screen"
-    )
+    picked = element("p", id="picked", role="status", hidden=True)
+    return element("div", canvas, photographs, picked, class_="screen")
 
 
 def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
@@ -74,6 +74,11 @@ def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
             )
             caption = element("figcaption", each.shows)
             yield element("figure", image, caption, data_time=f"{each.time:.2f}")
+
+
+def _caption() -> Markup:
+    """Where it is told what was sensed last."""
+    return element("p", id="caption", class_="caption", hidden=True)
 
 
 def _bar(run: Recorded) -> Markup:
@@ -118,6 +123,11 @@ def _controls(run: Recorded) -> Markup:
     speed = element("select", *options, id="speed", aria_label="speed", aria_keyshortcuts="[ ]")
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     return element("div", play, time, now, speed, views, id="controls", class_="controls", hidden=True)
+
+
+def _instead() -> Markup:
+    """Where it is told why photographs stand in the place of the view."""
+    return element("p", id="instead", class_="keys", hidden=True)
 
 
 def _keys() -> Markup:
