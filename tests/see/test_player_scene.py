@@ -133,7 +133,7 @@ def test_a_grain_is_a_grey_picture_and_its_tint_is_in_the_colour() -> None:
     data = seen()
     grey = cv2.imdecode(data.array("picture"), cv2.IMREAD_UNCHANGED)
     assert grey.shape[:2] == (512, 512)
-    r, g, b, *_, grain, _, along, across = data.header["materials"][1]
+    r, g, b, *_, grain, _, along, across = data.header["materials"][0]
     assert r > g > b
     assert (grain, along, across) == (0, 0.5, 1.0)  # once over the table
 

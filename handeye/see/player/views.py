@@ -14,8 +14,10 @@ _CALLED: Final = {"studio": ROOM}
 _ORDER: Final = (ROOM, "hand", "pump", "belt", "tv")
 _TOOL: Final = "tool"
 """Site of a scene where its hand is."""
-_BESIDE: Final = np.array([0.26, 0.36, 0.17])
+_BESIDE: Final = np.array([0.30, 0.38, 0.36])
 """From the hand to who looks at it, m."""
+_FINGERS: Final = 0.8
+"""Where its fingers are, from the wrist to the tool centre point."""
 _LENS: Final = 37.0
 """Angle of view where no camera says it, degrees."""
 _LAMP: Final = np.array([1.05, -0.65, 1.3])
@@ -64,10 +66,9 @@ def _overview(model: Any) -> dict[str, Any]:
 
 
 def _hand(model: Any, site: int) -> dict[str, Any]:
-    """The view that goes with the hand."""
+    """The view that goes with the hand, which points down where it works."""
     body = model.site_bodyid[site]
-    away = float(np.linalg.norm(model.site_pos[site]))
-    at = np.array([0.0, 0.0, -0.2 * away])
+    at = np.array([0.0, 0.0, -_FINGERS * np.linalg.norm(model.site_pos[site])])
     return {**_view("hand", _BESIDE + at, at, _LENS), "body": model.body(body).name}
 
 
