@@ -74,7 +74,7 @@ def tracks_bytes(trace: Trace) -> bytes:
 def script() -> str:
     """The script, `const createPlayer = ...;`: its modules as one, so that a page can carry it and name its hash."""
     parts = [_plain((SOURCES / f"{name}.js").read_text("utf-8")) for name in MODULES]
-    return f"const createPlayer = (() => {{\n'use strict';\n{''.join(parts)}return createPlayer;\n}})();\n"
+    return f'const createPlayer = (() => {{\n"use strict";\n{"".join(parts)}return createPlayer;\n}})();\n'
 
 
 def _plain(module: str) -> str:

@@ -1,6 +1,6 @@
-import { add, dot, length, rotated, sides, subtract } from './geometry.js';
-import { rowsOf, summed } from './packed.js';
-import { DEPTH } from './shaders.js';
+import { add, dot, length, rotated, sides, subtract } from "./geometry.js";
+import { rowsOf, summed } from "./packed.js";
+import { DEPTH } from "./shaders.js";
 
 const SMALL = 20; // points from its middle to its rim: a body that is smaller is drawn coarsely
 const STILL = 40; // pictures in which a body has not moved, so that it is taken to stand still
@@ -16,7 +16,7 @@ export class Bodies {
     this.inOrder = [...this.list.filter(body => body !== this.world), this.world].filter(Boolean); // it is behind the others
     if (this.world) this.world.pose = [0, 0, 0, 1, 0, 0, 0];
     this.pictures = 0;
-    this.surfaces = graphics.surfaces(...corners(array), summed(array('triangles')));
+    this.surfaces = graphics.surfaces(...corners(array), summed(array("triangles")));
     this.depth = graphics.program(DEPTH);
   }
 
@@ -33,7 +33,7 @@ export class Bodies {
   count() {
     this.pictures++;
     const first = this.pictures <= STILL, still = body => (first ? !body.since : this.pictures - body.since > STILL);
-    return { still, moving: body => !still(body), key: this.list.map(body => (body.pose ? +still(body) : 2)).join('') };
+    return { still, moving: body => !still(body), key: this.list.map(body => (body.pose ? +still(body) : 2)).join("") };
   }
 
   drawDepth(view, which) {
@@ -58,7 +58,7 @@ export class Bodies {
 
   // What is drawn at one point of a picture: the name for people of a body, or of a part of the world; or null.
   pick(matrix) {
-    const { gl } = this.graphics, names = [], red = new Uint8Array(4), target = this.graphics.target('pick', 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24);
+    const { gl } = this.graphics, names = [], red = new Uint8Array(4), target = this.graphics.target("pick", 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24);
     this.graphics.into(target, 1, 1);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -98,7 +98,7 @@ function moved(old, now) {
 
 // Points and normals as a graphics card takes them, four numbers to a corner; the third of the latter is the material.
 function corners(array) {
-  const packed = rowsOf(array('points'), 3), steep = array('normals'), materials = array('materials'), count = materials.length;
+  const packed = rowsOf(array("points"), 3), steep = array("normals"), materials = array("materials"), count = materials.length;
   const points = new Uint16Array(count * 4), normals = new Int8Array(count * 4);
   for (let i = 0; i < count; i++) {
     points.set(packed.subarray(i * 3, i * 3 + 3), i * 4);

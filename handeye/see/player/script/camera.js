@@ -1,4 +1,4 @@
-import { add, axes, clamp, length, mixed, perspective, multiplied, seenFrom, subtract } from './geometry.js';
+import { add, axes, clamp, length, mixed, perspective, multiplied, seenFrom, subtract } from "./geometry.js";
 
 const NEAR = 0.03, FAR = 14; // m
 const NEAREST = 0.1, FARTHEST = 3.6; // m from the point that is looked at
@@ -38,7 +38,7 @@ export class Camera {
     if (!this.glide) return;
     const { since, from, aim } = this.glide, share = clamp((now - since) / GLIDE, 0, 1), k = share * share * (3 - 2 * share);
     if (share === 1) return this.look(aim);
-    for (const name of ['far', 'yaw', 'pitch', 'slope']) this[name] = from[name] + k * (aim[name] - from[name]);
+    for (const name of ["far", "yaw", "pitch", "slope"]) this[name] = from[name] + k * (aim[name] - from[name]);
     this.at = mixed(from.at, aim.at, k);
     this.body = aim.body;
   }

@@ -1,12 +1,12 @@
-import { VERSION } from './shaders.js';
+import { VERSION } from "./shaders.js";
 
 // A WebGL 2 context, and what is made in it.
 export class Graphics {
   constructor(canvas) {
     // With an alpha channel: pictures can then be copied to the canvas as they are.
-    this.gl = canvas.getContext('webgl2', { antialias: false, alpha: true, powerPreference: 'high-performance' });
-    if (!this.gl) throw new Error('This browser offers no WebGL 2.');
-    this.floats = !!(this.gl.getExtension('EXT_color_buffer_float') || this.gl.getExtension('EXT_color_buffer_half_float'));
+    this.gl = canvas.getContext("webgl2", { antialias: false, alpha: true, powerPreference: "high-performance" });
+    if (!this.gl) throw new Error("This browser offers no WebGL 2.");
+    this.floats = !!(this.gl.getExtension("EXT_color_buffer_float") || this.gl.getExtension("EXT_color_buffer_half_float"));
     this.targets = new Map();
     this.nothing = this.gl.createVertexArray();
   }
@@ -22,7 +22,7 @@ export class Graphics {
     }
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-      const told = gl.getAttachedShaders(program).map(shader => gl.getShaderInfoLog(shader)).join('');
+      const told = gl.getAttachedShaders(program).map(shader => gl.getShaderInfoLog(shader)).join("");
       throw new Error(`The view cannot be drawn here: ${told || gl.getProgramInfoLog(program)}`);
     }
     const uniforms = { program };

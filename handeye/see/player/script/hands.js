@@ -12,13 +12,13 @@ export function listen(canvas, camera, { moved, clicked, signal }) {
   let travelled = 0;
   const on = (name, act, options) => canvas.addEventListener(name, act, { signal, ...options });
 
-  on('pointerdown', event => {
+  on("pointerdown", event => {
     canvas.setPointerCapture(event.pointerId);
     fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
     if (fingers.size === 1) travelled = 0; else travelled = Infinity; // a pinch is no click
   });
 
-  on('pointermove', event => {
+  on("pointermove", event => {
     const old = fingers.get(event.pointerId), now = [event.offsetX, event.offsetY];
     if (!old) return;
     const right = now[0] - old[0], down = now[1] - old[1];
@@ -37,23 +37,23 @@ export function listen(canvas, camera, { moved, clicked, signal }) {
   });
 
   const released = event => {
-    const click = event.type === 'pointerup' && fingers.size === 1 && travelled < SHAKE && event.button === 0;
+    const click = event.type === "pointerup" && fingers.size === 1 && travelled < SHAKE && event.button === 0;
     fingers.delete(event.pointerId);
     if (click) clicked(event.offsetX, event.offsetY);
   };
-  on('pointerup', released);
-  on('pointercancel', released);
-  on('contextmenu', event => event.preventDefault());
+  on("pointerup", released);
+  on("pointercancel", released);
+  on("contextmenu", event => event.preventDefault());
 
-  on('wheel', event => {
+  on("wheel", event => {
     event.preventDefault();
     camera.zoom(Math.exp(0.0022 * Math.max(-60, Math.min(60, event.deltaY))));
     moved();
   }, { passive: false });
 
-  on('keydown', event => {
+  on("keydown", event => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
-    const way = KEYS[event.key], nearer = { '+': 0.9, '=': 0.9, '-': 1 / 0.9 }[event.key];
+    const way = KEYS[event.key], nearer = { "+": 0.9, "=": 0.9, "-": 1 / 0.9 }[event.key];
     if (way && event.shiftKey) camera.pan(-way[0] * STEP, -way[1] * STEP);
     else if (way) camera.orbit(way[0] * STEP, way[1] * STEP);
     else if (nearer) camera.zoom(nearer);

@@ -1,5 +1,5 @@
-import { disc, halton, inverse } from './geometry.js';
-import { DRAFT, FINE, KEPT, RECALLED, WEIGHED } from './shaders.js';
+import { disc, halton, inverse } from "./geometry.js";
+import { DRAFT, FINE, KEPT, RECALLED, WEIGHED } from "./shaders.js";
 
 const APERTURE = 0.002; // radius of the lens, m
 const DARK = [0.13, 0.13, 0.135, 1];
@@ -35,7 +35,7 @@ export class Picture {
 
   keep(light, seen, still, key, width, height) {
     const { gl } = this.graphics;
-    const kept = this.graphics.target('kept', width, height, [gl.RGB10_A2, gl.RGB10_A2], gl.DEPTH_COMPONENT24);
+    const kept = this.graphics.target("kept", width, height, [gl.RGB10_A2, gl.RGB10_A2], gl.DEPTH_COMPONENT24);
     if (key === this.keptFor && kept === this.kept) return;
     this.keptFor = key;
     this.kept = kept;
@@ -70,7 +70,7 @@ export class Picture {
     const high = (number + 0.5) / count, turn = 2 * Math.PI * halton(i, 2), low = Math.sqrt(1 - high * high);
     const dome = [Math.cos(turn) * low, Math.sin(turn) * low, Math.max(high, 0.06)];
     const domeView = shadows.drawDome(dome, shadows.lamp.at);
-    const one = graphics.target('one', width, height, [gl.RGBA8], gl.DEPTH_COMPONENT24);
+    const one = graphics.target("one", width, height, [gl.RGBA8], gl.DEPTH_COMPONENT24);
     graphics.into(one, width, height);
     this.clear();
     gl.useProgram(this.FINE.program);
@@ -84,7 +84,7 @@ export class Picture {
 
   gather(one, width, height, first) {
     const { gl } = this.graphics;
-    this.sum = this.graphics.target('sum', width, height, [gl.RGBA16F]);
+    this.sum = this.graphics.target("sum", width, height, [gl.RGBA16F]);
     this.graphics.into(this.sum, width, height);
     if (first) {
       gl.clearColor(0, 0, 0, 0);

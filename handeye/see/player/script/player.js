@@ -1,12 +1,12 @@
-import { Bodies } from './bodies.js';
-import { Camera } from './camera.js';
-import { multiplied } from './geometry.js';
-import { Graphics } from './graphics.js';
-import { listen } from './hands.js';
-import { unpacked } from './packed.js';
-import { Picture } from './picture.js';
-import { Shadows } from './shadows.js';
-import { Tracks } from './tracks.js';
+import { Bodies } from "./bodies.js";
+import { Camera } from "./camera.js";
+import { multiplied } from "./geometry.js";
+import { Graphics } from "./graphics.js";
+import { listen } from "./hands.js";
+import { unpacked } from "./packed.js";
+import { Picture } from "./picture.js";
+import { Shadows } from "./shadows.js";
+import { Tracks } from "./tracks.js";
 
 const DETAIL = [1, 0.75, 0.5]; // points of a draft to a point of the canvas, along a side
 const SLOW = 45, FAST = 14; // ms: longer than this a draft should not take; below that it can be finer
@@ -18,7 +18,7 @@ const MOST = 2; // points to a CSS pixel
 class Player {
   constructor(canvas, scene, tracks, image, { still, exposures = 32 }) {
     Object.assign(this, { canvas, scene, tracks, image, exposures, onpick: null, frames: 0 });
-    this.still = still ?? matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.still = still ?? matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.detail = 1;
     this.drafts = 0;
     this.waiting = [];
@@ -27,8 +27,8 @@ class Player {
     this.camera = new Camera(scene.header.views, body => this.now(body));
     const { signal } = this.over;
     listen(canvas, this.camera, { signal, moved: () => this.wake(), clicked: (x, y) => this.onpick?.(this.pick(x, y), x, y) });
-    canvas.addEventListener('webglcontextlost', event => { event.preventDefault(); this.lost = true; }, { signal });
-    canvas.addEventListener('webglcontextrestored', () => this.build(), { signal });
+    canvas.addEventListener("webglcontextlost", event => { event.preventDefault(); this.lost = true; }, { signal });
+    canvas.addEventListener("webglcontextrestored", () => this.build(), { signal });
     this.resized = new ResizeObserver(() => this.wake());
     this.resized.observe(canvas);
     this.at(tracks.begin);
@@ -86,7 +86,7 @@ class Player {
     clearTimeout(this.timer);
     cancelAnimationFrame(this.request);
     this.lost = true;
-    this.graphics.gl.getExtension('WEBGL_lose_context')?.loseContext();
+    this.graphics.gl.getExtension("WEBGL_lose_context")?.loseContext();
   }
 
   // ---- when what is drawn: a draft after each change; when nothing has changed for a while, a fine one, bit by bit
@@ -155,7 +155,7 @@ class Player {
 
 // A player on a canvas; see `handeye.see.player` for what it can do. Rejected with a sentence where it cannot draw.
 export async function createPlayer(canvas, sceneBuffer, tracksBuffer, options = {}) {
-  const scene = unpacked(sceneBuffer), picture = scene.array('picture');
-  const image = picture.length ? await createImageBitmap(new Blob([picture], { type: 'image/webp' })) : null;
+  const scene = unpacked(sceneBuffer), picture = scene.array("picture");
+  const image = picture.length ? await createImageBitmap(new Blob([picture], { type: "image/webp" })) : null;
   return new Player(canvas, scene, new Tracks(tracksBuffer), image, options);
 }

@@ -35,7 +35,7 @@ vec4 film(vec3 light) {
 
 export const DEPTH = [
   `${PLACED} void main() { gl_Position = view * vec4(rotated(local()) + place, 1); }`,
-  'uniform vec4 ink; out vec4 colour; void main() { colour = ink; }',
+  "uniform vec4 ink; out vec4 colour; void main() { colour = ink; }",
 ];
 
 // Colour, gloss and grain come from the table of materials, by the third number beside the normal.

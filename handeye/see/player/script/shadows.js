@@ -1,4 +1,4 @@
-import { add, axes, multiplied, parallel, perspective, seenFrom, subtract, unit } from './geometry.js';
+import { add, axes, multiplied, parallel, perspective, seenFrom, subtract, unit } from "./geometry.js";
 
 const POINTS = { draft: 1024, fine: 2048, dome: 1024 }; // along a side of a map
 const SLOPE = 0.58; // tangent of half the angle that the lamp lights

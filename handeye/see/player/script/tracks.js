@@ -1,4 +1,4 @@
-import { rowsOf, summed, unpacked } from './packed.js';
+import { rowsOf, summed, unpacked } from "./packed.js";
 
 const UNIT = 0x1fff; // what 1 is in a quaternion
 const SAME = 1e-3; // of a servo period: as near as times are told
@@ -48,10 +48,10 @@ export class Tracks {
   constructor(buffer) {
     const { header, array } = unpacked(buffer), { begin, end, still, moving } = header;
     Object.assign(this, { begin, end, tracks: new Map() });
-    this.clock = Float64Array.from(array('clock'));
+    this.clock = Float64Array.from(array("clock"));
     this.clock.forEach((step, i, clock) => { clock[i] = i ? clock[i - 1] + step / 1e6 : step / 1e6; });
     for (const [body, pose] of Object.entries(still)) this.tracks.set(body, { pose: () => pose });
-    const periods = summed(array('periods')), places = rowsOf(array('places'), 3), turns = rowsOf(array('turns'), 4, Int16Array);
+    const periods = summed(array("periods")), places = rowsOf(array("places"), 3), turns = rowsOf(array("turns"), 4, Int16Array);
     let row = 0;
     for (const told of moving) {
       const end = row + told.spans.reduce((sum, span) => sum + span[2], 0);
