@@ -136,15 +136,12 @@ def test_every_step_that_began_has_ended(whole: Whole) -> None:
     assert count(events, StepStarted) == count(events, StepFinished) > 200
 
 
-# -- the walk in docs/stepping.md ---------------------------------------------------------------------
+# -- the walk in docs/stepping.md, which docs/make_walk.py makes anew --------------------------------
 
 
-@pytest.fixture(scope="module")
-def stepper(whole: Whole) -> Stepper:
+def begun(whole: Whole) -> Stepper:
     """The run of the walk taken up where its commands begin."""
     runner = whole.finished.runner
-    if runner.cell.renderer.method != "opengl":
-        pytest.skip("the walk was made with pictures by OpenGL")
     steps = runner.listing.steps
     first = stage_number("insert", runner.setup.plan.program)
     (before,) = (
@@ -152,6 +149,13 @@ def stepper(whole: Whole) -> Stepper:
         if state.state.stage is None and state.state.at is not None and steps[state.state.at].stage == first
     )  # fmt: skip
     return Stepper(Runner(runner.checkpoint(before)))
+
+
+@pytest.fixture(scope="module")
+def stepper(whole: Whole) -> Stepper:
+    if whole.finished.runner.cell.renderer.method != "opengl":
+        pytest.skip("the walk was made with pictures by OpenGL")
+    return begun(whole)
 
 
 def transcript(stepper: Stepper, said: list[str]) -> Iterator[str]:
