@@ -137,8 +137,9 @@ def locate_specific(
     if box is None:
         return Failure(cause=OutsidePicture())
     levels = Levels.measure(scan, box)
-    middle = box.corners().mean(axis=0)
-    finders = [HoleFinder(scan, view, part, middle, levels, search) for search in SEARCHES]
+    middle = view.back_project(box.corners().mean(axis=0), part.at[2] + part.face)[0]
+    resolution = view.resolution(middle)
+    finders = [HoleFinder(scan, view, part, resolution, levels, search) for search in SEARCHES]
     most = 0
     for finder, found in _found(finders, (general.x, general.y), box):
         most = max(most, len(found))

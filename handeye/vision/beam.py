@@ -74,7 +74,7 @@ def _run(scan: Scan, starts: Array, directions: Array, reach: float | Array) -> 
 
 def _along(scan: Scan, starts: Array, directions: Array, k: NDArray[np.intp]) -> NDArray[np.intp]:
     """Numbers of the points at distances `k` along rays, shape (n, len(k))."""
-    u, v = (np.rint(starts[:, i, None] + directions[:, i, None] * k) for i in (0, 1))
+    u, v = np.rint(starts.T[:, :, None] + directions.T[:, :, None] * k)
     return np.asarray(v * scan.columns + u, dtype=np.intp)
 
 
@@ -86,11 +86,15 @@ def _across(scan: Scan, directions: Array) -> NDArray[np.intp]:
 
 def _sums(scan: Scan, where: NDArray[np.intp], across: NDArray[np.intp] | None) -> Array:
     """Sums over SPAN points in a row, and over three across if so, shape (n, points less SPAN - 1)."""
-    line = np.zeros(where.shape)
-    for beside in [where] if across is None else [where - across, where, where + across]:
-        line += scan.levels(beside)
+    line = scan.levels(where if across is None else where - across).astype(float)
+    if across is not None:
+        line += scan.levels(where)
+        line += scan.levels(where + across)
     places = where.shape[1] - SPAN + 1
-    return sum((line[:, k : k + places] for k in range(SPAN)), np.zeros((len(line), places)))
+    total = line[:, :places].copy()
+    for k in range(1, SPAN):
+        total += line[:, k : k + places]
+    return total
 
 
 def _steepest(
@@ -122,10 +126,12 @@ def _account(
 ) -> None:
     """Note what beams have read that looked at so many of their points at most."""
     looked = usable & (np.arange(where.shape[1]) < ends[:, None])
-    scan.account(where[looked])
+    read = where[looked]
+    scan.account(read)
     if across is not None:
-        scan.account((where - across)[looked])
-        scan.account((where + across)[looked])
+        beside = np.broadcast_to(across, where.shape)[looked]
+        scan.account(read - beside)
+        scan.account(read + beside)
 
 
 def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
@@ -135,4 +141,4 @@ def _vertex(y: Array, i: NDArray[np.intp]) -> Array:
     bend = left - 2 * top + right
     known = (i > 0) & (i < last) & (bend < 0) & (np.minimum(left, right) > _BLOCKED)
     place = np.divide(left - right, 2 * bend, out=np.zeros(len(y)), where=known)
-    return np.asarray(np.clip(place, -0.5, 0.5))
+    return np.asarray(np.minimum(np.maximum(place, -0.5), 0.5))

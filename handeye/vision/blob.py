@@ -64,7 +64,7 @@ def localise(
         tries: most boxes to grow.
     """
     scan.limit(window)
-    sides = [_inwards(scan, window, side) for side in range(4)]
+    sides = _inwards(scan, window)
     border = np.vstack([starts[::COARSE] for starts, _ in sides])
     if not len(border):
         return None
@@ -89,17 +89,18 @@ Rays = tuple[Array, Array]
 """Starts (u, v) and unit vectors (du, dv), shape (n, 2) each."""
 
 
-def _inwards(scan: Scan, window: Array, side: int) -> Rays:
-    """Rays across the window from one of its sides."""
-    a, b = window[side], window[(side + 1) % 4]
-    length = math.dist(a, b)
-    along = (b - a) / length
-    inwards = np.array([-along[1], along[0]])
-    if (window.mean(axis=0) - a) @ inwards < 0:
-        inwards = -inwards
-    starts = a + np.arange(SPACING / 2, length, SPACING)[:, None] * along + inwards * (SPAN + 1)
-    starts = starts[scan.inside(np.rint(starts))]
-    return starts, np.broadcast_to(inwards, starts.shape)
+def _inwards(scan: Scan, window: Array) -> list[Rays]:
+    """Rays across the window from each of its sides."""
+    sides = np.roll(window, -1, axis=0) - window
+    lengths = [math.hypot(*side) for side in sides.tolist()]
+    along = sides / np.array(lengths)[:, None]
+    inwards = along[:, ::-1] * (-1, 1)
+    inwards[((window.mean(axis=0) - window) * inwards).sum(axis=1) < 0] *= -1
+    rays = []
+    for corner, way, inward, length in zip(window, along, inwards, lengths, strict=True):
+        starts = corner + np.arange(SPACING / 2, length, SPACING)[:, None] * way + inward * (SPAN + 1)
+        rays.append((starts[scan.inside(np.rint(starts))], inward))
+    return [(starts, np.broadcast_to(inward, starts.shape)) for starts, inward in rays]
 
 
 def _coarse_first(sides: list[Rays]) -> Iterator[Rays]:
@@ -155,14 +156,12 @@ class _Side:
         if last <= line or high - low < SPAN - 1:
             return False
         self._read[line : last + 2, low : high + 1] = True
-        bright = self._means(line + 1, last, low, high) > threshold
-        crossing = np.flatnonzero(bright.any(axis=1))
-        if not len(crossing):
+        lines, places = (self._means(line + 1, last, low, high) > threshold).nonzero()
+        if not len(lines):
             return False
-        line += 1 + int(crossing[-1])
-        places = np.flatnonzero(bright[crossing[-1]])
+        places = places[lines.searchsorted(lines[-1]) :]
         middle = low + SPAN // 2 + int(places[len(places) // 2])
-        box[self.number] = self._line(self._end(line, middle, threshold))
+        box[self.number] = self._line(self._end(line + 1 + int(lines[-1]), middle, threshold))
         return True
 
     def _turned(self, points: NDArray[Any]) -> NDArray[Any]:
@@ -183,9 +182,9 @@ class _Side:
         return outwards.tolist(), along.tolist(), offset.tolist()
 
     def _in_window(self, first: int, last: int, low: int, high: int) -> tuple[int, int]:
-        """What of places `low` to `high` lies within the window on all these lines."""
+        """What of places `low` to `high` lies within the window on all lines from `first` to `last`."""
         for outwards, along, offset in self._window:
-            least = offset + min(outwards * first, outwards * last)
+            least = offset + outwards * (last if outwards < 0 else first)
             if along > 0:
                 low = max(low, math.ceil(-least / along))
             elif along < 0:
@@ -197,8 +196,12 @@ class _Side:
     def _means(self, first: int, last: int, low: int, high: int) -> NDArray[np.float32]:
         """Means over squares of SPAN points about lines `first` to `last`, shape (lines, places)."""
         slab = self._image[first - 1 : last + 2, low : high + 1]
-        wide = slab[:-2] + slab[1:-1] + slab[2:]
-        return np.asarray((wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]) / SPAN**2)
+        wide = slab[:-2] + slab[1:-1]
+        wide += slab[2:]
+        means: NDArray[np.float32] = wide[:, :-2] + wide[:, 1:-1]
+        means += wide[:, 2:]
+        means /= SPAN**2
+        return means
 
     def _end(self, line: int, middle: int, threshold: float) -> int:
         """The last line that is reached from a line through the blob, straight outwards."""
@@ -208,7 +211,7 @@ class _Side:
                 far = min(far, math.floor((offset + along * middle) / -outwards))
         if far <= line:
             return line
-        dark = np.flatnonzero(self._means(line + 1, far, middle - 1, middle + 1) <= threshold)
+        dark, _ = (self._means(line + 1, far, middle - 1, middle + 1) <= threshold).nonzero()
         end = line + int(dark[0]) if len(dark) else far
         self._read[line : end + 3, middle - 1 : middle + 2] = True
         return end

@@ -105,11 +105,11 @@ class View:
     """Pot reading, rad."""
     tilt: float
 
-    @property
-    def focal(self) -> tuple[float, float]:
-        """Focal length in columns and in rows."""
+    @cached_property
+    def focal(self) -> Array:
+        """Focal length in columns and in rows, shape (2,)."""
         f = self.lens.focal_length * self.lens.scale
-        return f * COLUMNS / RASTER[0], f * ROWS / RASTER[1]
+        return np.array([f * COLUMNS / RASTER[0], f * ROWS / RASTER[1]])
 
     @cached_property
     def X_WC(self) -> Pose:
@@ -139,7 +139,9 @@ class View:
     def rays(self, uv: Array) -> Array:
         """Directions in W, shape (n, 3), of points (u, v), shape (n, 2); length 1 along the line of sight."""
         slopes = (np.atleast_2d(uv) - CENTRE) / self.focal
-        return np.asarray(np.column_stack([slopes, np.ones(len(slopes))]) @ self.X_WC[:3, :3].T)
+        in_camera = np.ones((len(slopes), 3))
+        in_camera[:, :2] = slopes
+        return np.asarray(in_camera @ self.X_WC[:3, :3].T)
 
     def resolution(self, point_W: Array) -> tuple[float, float]:
         """Picture points per metre, along the lines and across them, of the horizontal plane there."""

@@ -5,6 +5,7 @@ points of the border, the fit up to 24.
 """
 
 import math
+from functools import cache
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -101,14 +102,46 @@ def rim(
 
     `inner`: how far from the centre beams begin, points; the border is farther.
     """
-    angles = np.arange(rays) * (2 * math.pi / rays)
-    spokes = np.column_stack([np.cos(angles), np.sin(angles)])
-    edges = beams(
-        scan, centre + inner * spokes, spokes, polarity, step, reach - inner, wide=wide, beyond=beyond
-    )
+    borders = rims(
+        scan, np.array([centre]), step, np.array([reach]),
+        rays=rays, inner=np.array([inner]), polarity=polarity, wide=wide, beyond=beyond,
+    )  # fmt: skip
+    return np.asarray(borders[0])
+
+
+def rims(
+    scan: Scan,
+    centres: Array,
+    step: float,
+    reach: Array,
+    *,
+    rays: int = RAYS,
+    inner: Array,
+    polarity: Polarity = BRIGHTER,
+    wide: bool = False,
+    beyond: float = 0.0,
+) -> Array:
+    """The borders around several centres at once, shape (n, `rays`, 2), sooner than one by one.
+
+    Centres: shape (n, 2); `reach` and `inner`: of each, shape (n,).
+    """
+    spokes = _spokes(rays)
+    starts = centres[:, None] + inner[:, None, None] * spokes
+    directions = np.broadcast_to(spokes, starts.shape).reshape(-1, 2)
+    lengths = np.repeat(reach - inner, rays)
+    edges = beams(scan, starts.reshape(-1, 2), directions, polarity, step, lengths, wide=wide, beyond=beyond)
     points = edges.uv
     points[~edges.met] = np.nan
-    return points
+    return np.asarray(points.reshape(-1, rays, 2))
+
+
+@cache
+def _spokes(rays: int) -> Array:
+    """Unit vectors all around, shape (`rays`, 2)."""
+    angles = np.arange(rays) * (2 * math.pi / rays)
+    spokes = np.column_stack([np.cos(angles), np.sin(angles)])
+    spokes.flags.writeable = False
+    return spokes
 
 
 def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[float, float] | None:
@@ -139,7 +172,7 @@ def fit_circle(view: View, points: Array, z: float, diameter: float) -> tuple[fl
 
 def _median(values: Array) -> float:
     """The middle value; of an even number of them the mean of two. np.median takes thirty times as long."""
-    ordered, half = np.sort(values), len(values) // 2
+    ordered, half = sorted(values.tolist()), len(values) // 2
     return float(ordered[half] + ordered[-1 - half]) / 2
 
 

@@ -11,7 +11,7 @@ from handeye.units import INCH
 from handeye.vision.beam import beams
 from handeye.vision.blob import BoundingBox
 from handeye.vision.camera_model import View
-from handeye.vision.characteriser import Blob, characterise, fit_circle, rim
+from handeye.vision.characteriser import Blob, characterise, fit_circle, rim, rims
 from handeye.vision.edge import DARKER
 from handeye.vision.holes import SIZE_ERROR, TURN, Candidate, Pair, hole_places
 from handeye.vision.scan import Scan
@@ -80,12 +80,18 @@ class HoleFinder:
     """Looks for the holes of a part in one way."""
 
     def __init__(
-        self, scan: Scan, view: View, part: Part, middle: Array, levels: Levels, search: HoleSearch
+        self,
+        scan: Scan,
+        view: View,
+        part: Part,
+        resolution: tuple[float, float],
+        levels: Levels,
+        search: HoleSearch,
     ) -> None:
-        """`middle`: a point (u, v) on the part, shape (2,), where its resolution is measured."""
+        """`resolution`: picture points per metre of the part's upper face, along the lines and across them."""
         self._scan, self._view, self._part, self._search = scan, view, part, search
         self._z = part.at[2] + part.face
-        self._across, self._down = view.resolution(view.back_project(middle, self._z)[0])
+        self._across, self._down = resolution
         self._step, self._bright = levels.step(search), search.face * levels.face
 
     def expected(self, place: tuple[float, float], *, shaded: bool = False) -> list[Candidate]:
@@ -129,12 +135,10 @@ class HoleFinder:
         planned = self._part.at[3] + math.atan2(small.y - large.y, small.x - large.x)
         spokes = np.column_stack([np.cos(planned + ANGLES), np.sin(planned + ANGLES)])
         away = math.hypot(small.x - large.x, small.y - large.y)
-        near, far = (
-            self._view.project(
-                np.column_stack([spokes * r + (first.x, first.y), np.full(len(spokes), self._z)])
-            )
-            for r in (away - small.diameter / 2 - BEFORE, away)
-        )
+        reach = np.array([away - small.diameter / 2 - BEFORE, away])
+        ends = np.full((2, len(spokes), 3), self._z)
+        ends[..., :2] = spokes * reach[:, None, None] + (first.x, first.y)
+        near, far = self._view.project(ends.reshape(-1, 3)).reshape(2, -1, 2)
         lengths = np.hypot(*(far - near).T)
         ahead = (far - near) / lengths[:, None]
         edges = beams(self._scan, near, ahead, DARKER, self._step, lengths.max(), wide=True)
@@ -180,18 +184,19 @@ class HoleFinder:
 
     def refined(self, pair: Pair) -> Array | None:
         """Centres of the two holes by fitted circles, shape (2, 2), m; None if a border is not seen well."""
+        blobs = [candidate.blob for candidate in pair]
+        middles = np.array([(blob.u, blob.v) for blob in blobs])
+        reach = np.array([0.75 * blob.width + 3 for blob in blobs])
+        inner = np.array([INNER * min(blob.width, blob.height) for blob in blobs])
+        borders = rims(
+            self._scan, middles, self._step, reach,
+            inner=inner, wide=self._search.wide, beyond=0.9 * self._bright,
+        )  # fmt: skip
         centres = [
-            self._fitted(candidate.blob, hole.diameter)
-            for candidate, hole in zip(pair, self._part.holes, strict=False)
+            fit_circle(self._view, points, self._z, hole.diameter)
+            for points, hole in zip(borders, self._part.holes, strict=False)
         ]
         return None if None in centres else np.array(centres)
-
-    def _fitted(self, blob: Blob, diameter: float) -> tuple[float, float] | None:
-        points = rim(
-            self._scan, (blob.u, blob.v), self._step, 0.75 * blob.width + 3,
-            inner=INNER * min(blob.width, blob.height), wide=self._search.wide, beyond=0.9 * self._bright,
-        )  # fmt: skip
-        return fit_circle(self._view, points, self._z, diameter)
 
 
 def _size(width: float, height: float, part: Part) -> float | None:

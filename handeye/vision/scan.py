@@ -59,12 +59,12 @@ class Scan:
     def runs(self, starts: Array, directions: Array) -> tuple[Array, Array]:
         """How far rays may go back and ahead from starts within the window, points, shape (n,) each."""
         heights, slopes = self._heights(starts), directions @ self.sides[:, :2].T
-        blank = np.full_like(heights, np.inf)
-        ahead = np.divide(heights, -slopes, out=blank.copy(), where=slopes < -1e-9).min(axis=1)
-        back = np.divide(heights, slopes, out=blank, where=slopes > 1e-9).min(axis=1)
-        outside = (heights <= 0).any(axis=1)
-        ahead[outside] = -np.inf
-        return back, ahead
+        back, ahead = np.full((2, *heights.shape), np.inf)
+        np.divide(heights, -slopes, out=ahead, where=slopes < -1e-9)
+        np.divide(heights, slopes, out=back, where=slopes > 1e-9)
+        nearest = ahead.min(axis=1)
+        nearest[(heights <= 0).any(axis=1)] = -np.inf
+        return back.min(axis=1), nearest
 
     def run(self, u: int, v: int, du: int, dv: int) -> tuple[int, int]:
         """How many points one ray may go back and ahead; ahead less than none from a start outside the window."""
@@ -95,7 +95,7 @@ class Scan:
         """Intensities on straight lines side by side that begin at these points, added across."""
         ends = [slice(start, start + length * stride, stride) for start in starts]
         lines: list[Any] = [self._levels[each].tolist() for each in ends]
-        return lines[0] if len(lines) == 1 else list(map(sum, zip(*lines, strict=True)))
+        return lines[0] if len(lines) == 1 else [sum(across) for across in zip(*lines, strict=True)]
 
     def account_lines(self, starts: Sequence[int], length: int, stride: int) -> None:
         """Note that so many points of such lines have been read."""
@@ -106,8 +106,8 @@ class Scan:
         """Squares of points about places (u, v), shape (n, side, side), cut off at the picture's edge."""
         off = np.arange(-radius, radius + 1, stride)
         middle = np.rint(places).astype(np.intp)
-        u = np.clip(middle[:, 0, None] + off, 0, self.columns - 1)
-        v = np.clip(middle[:, 1, None] + off, 0, self.rows - 1)
+        u = np.minimum(np.maximum(middle[:, 0, None] + off, 0), self.columns - 1)
+        v = np.minimum(np.maximum(middle[:, 1, None] + off, 0), self.rows - 1)
         where = v[:, :, None] * self.columns + u[:, None, :]
         self.account(where)
         return self.levels(where)

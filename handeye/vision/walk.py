@@ -35,8 +35,9 @@ def walk(
     if best is None:
         return None
     length = low + best + SPAN - 0.5 + _vertex(line, polarity, best)
-    before, after = (sum(line[i : i + SPAN]) / scale for i in (best, best + SPAN))
-    return Edge(u=u + length * du, v=v + length * dv, before=before, after=after, length=length)
+    before = sum(line[best : best + SPAN]) / scale
+    after = sum(line[best + SPAN : best + 2 * SPAN]) / scale
+    return Edge(u + length * du, v + length * dv, before, after, length)
 
 
 def _first(line: list[float], polarity: Polarity, step: float, beyond: float) -> tuple[int, int | None]:
@@ -45,13 +46,14 @@ def _first(line: list[float], polarity: Polarity, step: float, beyond: float) ->
     A rise that leads to less than `beyond` is passed over.
     """
     rise, places = _rise(line, 0), len(line) - 2 * SPAN + 1
-    for i in range(places):
+    entering = [*line[2 * SPAN :], 0.0]  # none enters behind the last place
+    for i, (left, passed, entered) in enumerate(zip(line, line[SPAN:], entering, strict=False)):
         if polarity * rise >= step:
-            best = max(range(i, min(i + SPAN + 1, places)), key=lambda k: polarity * _rise(line, k))
+            near = [polarity * _rise(line, k) for k in range(i, min(i + SPAN + 1, places))]
+            best = i + near.index(max(near))
             if sum(line[best + SPAN : best + 2 * SPAN]) >= beyond:
                 return i, best
-        if i + 1 < places:
-            rise += line[i] - 2 * line[i + SPAN] + line[i + 2 * SPAN]
+        rise += left - 2 * passed + entered
     return len(line), None
 
 
