@@ -13,6 +13,7 @@ GRAIN: Final = 512
 """Points along a side of a grain."""
 QUALITY: Final = 45
 """Of the WebP picture, 0 to 100."""
+_MOST: Final = 128
 _RGB: Final = 1
 """Where a material has its texture: MuJoCo's `mjTEXROLE_RGB`."""
 _SLENDER: Final = 3.0
@@ -36,6 +37,7 @@ class Palette:
         """Number of the row of a shape that is so long along the axes of its body (m)."""
         row = (*self._colour(shape), *self._gloss(shape), *self._grain(shape, sides))
         if row not in self._numbers:
+            assert len(self.rows) < _MOST, "a number of a material has seven bits"
             self._numbers[row] = len(self.rows)
             self.rows.append(row)
         return self._numbers[row]

@@ -63,27 +63,44 @@ def _alike(poses: NDArray[np.floating[Any]]) -> Array:
 def _needed(poses: Array) -> NDArray[np.int64]:
     """The rows between which all others lie near enough.
 
-    A way that leaves one too far off is cut where it is farthest off, from the whole way on.
+    A way that leaves one too far off is cut where it is farthest off, from the whole way on; all ways at once.
     """
     if np.ptp(poses, axis=0).max() < _STILL:
         return np.zeros(1, dtype=np.int64)
-    kept, ways = {0, len(poses) - 1}, [(0, len(poses) - 1)]
-    while ways:
-        first, last = ways.pop()
-        if last - first < 2:
-            continue
-        off = _off(poses[first : last + 1])
-        worst = first + int(off.argmax())
-        if off.max() > 1:
-            kept.add(worst)
-            ways += [(first, worst), (worst, last)]
-    return np.array(sorted(kept))
+    kept = np.zeros(len(poses), dtype=bool)
+    first, last = np.array([0]), np.array([len(poses) - 1])
+    kept[[0, -1]] = True
+    while (last - first > 1).any():
+        worst, off = _worst(poses, first, last)
+        cut = off > 1
+        kept[worst[cut]] = True
+        first, last = np.append(first[cut], worst[cut]), np.append(worst[cut], last[cut])
+        long = last - first > 1
+        first, last = first[long], last[long]
+    return np.flatnonzero(kept)
 
 
-def _off(poses: Array) -> Array:
-    """How far poses are off the straight way from the first to the last, over what is allowed; shape (n,)."""
-    way = poses[0] + np.linspace(0, 1, len(poses))[:, None] * (poses[-1] - poses[0])
-    way[:, 3:] /= np.sqrt(np.einsum("ij,ij->i", way[:, 3:], way[:, 3:]))[:, None]
-    square = (way - poses) ** 2
-    place, turn = square[:, :3].sum(axis=1), 4 * square[:, 3:].sum(axis=1)
+def _worst(
+    poses: Array, first: NDArray[np.int64], last: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], Array]:
+    """For each way from a first to a last row the row between that is farthest off, and how far: see `_off`."""
+    inside = last - first - 1
+    begin = np.cumsum(inside) - inside
+    way = np.repeat(np.arange(len(first)), inside)
+    row = np.arange(len(way)) - begin[way] + first[way] + 1
+    off = _off(poses, first[way], row, last[way])
+    top = np.maximum.reduceat(off, begin)
+    return np.minimum.reduceat(np.where(off == top[way], row, len(poses)), begin), top
+
+
+def _off(poses: Array, first: NDArray[np.int64], row: NDArray[np.int64], last: NDArray[np.int64]) -> Array:
+    """How far rows are off the straight ways from first to last ones, over what is allowed; shape (n,)."""
+    share = (row - first) / (last - first)
+    there = poses[first]
+    there += share[:, None] * (poses[last] - there)
+    size = np.sqrt(np.einsum("ij,ij->i", there[:, 3:], there[:, 3:]))
+    there[:, 3:] /= size[:, None]
+    there -= poses[row]
+    there *= there
+    place, turn = there[:, :3].sum(axis=1), 4 * there[:, 3:].sum(axis=1)
     return np.asarray(np.sqrt(np.maximum(place / PLACE**2, turn / TURN**2)))

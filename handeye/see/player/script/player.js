@@ -1,6 +1,6 @@
 import { Bodies } from "./bodies.js";
 import { Camera } from "./camera.js";
-import { multiplied } from "./geometry.js";
+import { clamp, multiplied } from "./geometry.js";
 import { Graphics } from "./graphics.js";
 import { listen } from "./hands.js";
 import { unpacked } from "./packed.js";
@@ -11,7 +11,7 @@ import { Tracks } from "./tracks.js";
 const DETAIL = [1, 0.75, 0.5]; // points of a draft to a point of the canvas, along a side
 const SLOW = 45, FAST = 14; // ms: longer than this a draft should not take; below that it can be finer
 const TIMED = 24; // every so many drafts one is timed
-const REST = 150; // ms without a change until the finer pictures begin
+const REST = [150, 800]; // ms without a change until the finer pictures begin: at least, and at most
 const SHOWN = 8; // exposures after which their mean is shown
 const MOST = 2; // points to a CSS pixel
 
@@ -21,6 +21,7 @@ class Player {
     this.still = still ?? matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.detail = 1;
     this.drafts = 0;
+    this.drawn = -Infinity;
     this.waiting = [];
     this.over = new AbortController();
     this.build();
@@ -109,6 +110,8 @@ class Player {
   draw(now) {
     this.request = 0;
     if (this.lost || !this.canvas.clientWidth) return;
+    this.rest = clamp(2 * (now - this.drawn), ...REST); // where drawing is slow, the next change comes late
+    this.drawn = now;
     this.camera.move(now);
     if (this.changed) this.drawDraft();
     else this.drawFine();
@@ -122,7 +125,7 @@ class Player {
     if (timed) this.tune(begun);
     this.changed = false;
     this.exposed = -1;
-    this.timer = setTimeout(() => this.next(), REST);
+    this.timer = setTimeout(() => this.next(), this.rest);
   }
 
   // As fine as this machine can.

@@ -111,7 +111,7 @@ void main() {
   float square = max(dot(n, l), 0.), strength = 0.;
   if (square > 0.) strength = 10. * smoothstep(.68, .9, dot(-l, aim)) / (away * away);
 #ifndef KEPT
-  if (strength > 0.) strength *= reaches(shadow, lampView, world + n * .004, 2.5);
+  if (strength > 0.) strength *= reaches(shadow, lampView, world + n * .004, 2.);
 #endif
   float above = n.z * .5 + .5;
 #ifdef FINE

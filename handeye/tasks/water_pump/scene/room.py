@@ -1,6 +1,7 @@
 """The room: table, belt, floor and walls, lights, cameras."""
 
 import math
+from itertools import product
 
 import mujoco
 import numpy as np
@@ -36,14 +37,16 @@ def _add_table(shaper: Shaper, world: PumpWorld) -> None:
     table = shaper.box(body, "solid", (0, 0, -thick), (width, depth, 0), "table", "table")
     table.group, table.friction[:] = 2, _friction(world)
     floor, edge, leg = -d("table.height"), 0.012, 0.045
-    for x in (0.05, width - 0.05 - 2 * leg):
-        for y in (0.05, depth - 0.05 - 2 * leg):
-            shaper.box(body, "look", (x, y, floor), (x + 2 * leg, y + 2 * leg, -thick), "wood")
-    shaper.box(body, "look", (-edge, -edge, -thick - 0.06), (width + edge, 0, -0.004), "wood")
-    shaper.box(body, "look", (-edge, depth, -thick - 0.06), (width + edge, depth + edge, -0.004), "wood")
-    shaper.box(body, "look", (-edge, 0, -thick - 0.06), (0, depth, -0.004), "wood")
-    shaper.box(body, "look", (width, 0, -thick - 0.06), (width + edge, depth, -0.004), "wood")
-    shaper.box(body, "look", (0.388, 0.134, 0.0), (0.628, 0.374, 0.1524), "iron")  # riser under the arm
+    corners = product((0.05, width - 0.05 - 2 * leg), (0.05, depth - 0.05 - 2 * leg))
+    for k, (x, y) in enumerate(corners):
+        shaper.box(body, "look", (x, y, floor), (x + 2 * leg, y + 2 * leg, -thick), "wood", f"table_leg{k}")
+    edges = (
+        (-edge, -edge, width + edge, 0), (-edge, depth, width + edge, depth + edge),
+        (-edge, 0, 0, depth), (width, 0, width + edge, depth),
+    )  # fmt: skip
+    for k, (x0, y0, x1, y1) in enumerate(edges):
+        shaper.box(body, "look", (x0, y0, -thick - 0.06), (x1, y1, -0.004), "wood", f"table_edge{k}")
+    shaper.box(body, "look", (0.388, 0.134, 0.0), (0.628, 0.374, 0.1524), "iron", "riser")  # under the arm
 
 
 def _add_belt(shaper: Shaper, world: PumpWorld) -> None:
@@ -54,23 +57,25 @@ def _add_belt(shaper: Shaper, world: PumpWorld) -> None:
     radius = top / 2
     belt = shaper.box(body, "solid", (x0, radius, 0), (x1, depth - radius, top), "belt", "belt")
     belt.group, belt.friction[:] = 2, _friction(world)
-    for y in (radius, depth - radius):
-        shaper.cylinder(body, "look", radius, (x0, y, radius), (x1, y, radius), "belt")
-    for x in (x0 - 0.008, x1):
-        shaper.box(body, "look", (x, 0.004, 0.0), (x + 0.008, depth - 0.004, top - 0.002), "rail")
-        for y in np.linspace(0.1, depth - 0.1, 6):
-            shaper.cylinder(body, "look", 0.004, (x - 0.0015, y, radius), (x + 0.0095, y, radius), "black")
+    for k, y in enumerate((radius, depth - radius)):
+        shaper.cylinder(body, "look", radius, (x0, y, radius), (x1, y, radius), "belt", f"belt_roller{k}")
+    for side, x in enumerate((x0 - 0.008, x1)):
+        low, high = (x, 0.004, 0.0), (x + 0.008, depth - 0.004, top - 0.002)
+        shaper.box(body, "look", low, high, "rail", f"belt_rail{side}")
+        for k, y in enumerate(np.linspace(0.1, depth - 0.1, 6)):
+            start, end = (x - 0.0015, y, radius), (x + 0.0095, y, radius)
+            shaper.cylinder(body, "look", 0.004, start, end, "black", f"belt_bolt{6 * side + k}")
 
 
 def _add_building(shaper: Shaper, screws: int) -> None:
     d = dimensions()
     body, floor = shaper.spec.worldbody, -d("table.height")
     left, back, right, front = -2.4, -2.0, 6.0, 6.0
-    shaper.box(body, "look", (left, back, floor - 0.02), (right, front, floor), "floor")
-    shaper.box(body, "scenery", (left, back - 0.05, floor), (right, back, 3.0), "plaster")
-    shaper.box(body, "scenery", (left - 0.05, back, floor), (left, front, 3.0), "plaster")
-    shaper.box(body, "scenery", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron")
-    shaper.box(body, "scenery", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron")
+    shaper.box(body, "look", (left, back, floor - 0.02), (right, front, floor), "floor", "floor")
+    shaper.box(body, "scenery", (left, back - 0.05, floor), (right, back, 3.0), "plaster", "wall0")
+    shaper.box(body, "scenery", (left - 0.05, back, floor), (left, front, 3.0), "plaster", "wall1")
+    shaper.box(body, "scenery", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron", "skirting0")
+    shaper.box(body, "scenery", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron", "skirting1")
     shaper.box(body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.3, 0.3, TRAY), name="tray")
     for k in range(screws):
         body.add_site(name=f"park{k}", pos=[0.05 * k, 0.0, TRAY], group=5)
@@ -82,28 +87,21 @@ def _add_computer(shaper: Shaper) -> None:
     back, front, top = -1.95, -1.35, floor + 1.75
     for k in range(3):
         left, right = -0.85 + 0.57 * k, -0.30 + 0.57 * k
-        shaper.box(body, "scenery", (left, back, floor + 0.06), (right, front, top), "cabinet")
         shaper.box(
-            body,
-            "scenery",
-            (left + 0.03, front, top - 0.10),
-            (right - 0.03, front + 0.004, top - 0.03),
-            "red",
+            body, "scenery", (left, back, floor + 0.06), (right, front, top), "cabinet", f"computer{k}"
         )
-        for z in (0.35, 0.62, 0.89):
+        plate = (left + 0.03, front, top - 0.10), (right - 0.03, front + 0.004, top - 0.03)
+        shaper.box(body, "scenery", *plate, "red", f"computer_name_plate{k}")
+        for n, z in enumerate((0.35, 0.62, 0.89)):
             panel = (left + 0.03, front, floor + z), (right - 0.03, front + 0.006, floor + z + 0.22)
-            shaper.box(body, "scenery", *panel, "black")
+            shaper.box(body, "scenery", *panel, "black", f"computer_panel{3 * k + n}")
         for row in range(3):
             for column in range(18):
                 x, z = left + 0.06 + 0.025 * column, top - 0.20 - 0.05 * row
                 lit = (7 * column + 5 * row + 3 * k) % 5 < 2
-                shaper.box(
-                    body,
-                    "scenery",
-                    (x, front, z),
-                    (x + 0.009, front + 0.006, z + 0.009),
-                    "lit" if lit else "black",
-                )
+                lamp = (x, front, z), (x + 0.009, front + 0.006, z + 0.009)
+                number = column + 18 * (row + 3 * k)
+                shaper.box(body, "scenery", *lamp, "lit" if lit else "black", f"indicator_lamp{number}")
 
 
 def _add_tripod(shaper: Shaper) -> None:
@@ -118,10 +116,10 @@ def _add_tripod(shaper: Shaper) -> None:
     shaper.cylinder(head, "scenery", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
     for side in (-1, 1):
         shaper.cylinder(head, "scenery", 0.016, (side * 0.022, 0, 0.04), (side * 0.022, 0, 0.055), "steel")
-    shaper.cylinder(body, "scenery", 0.02, (x, y + 0.16, 0.35), (x, y + 0.16, z + 0.20), "steel")
-    for angle in (0.5, 2.6, 4.7):
+    shaper.cylinder(body, "scenery", 0.02, (x, y + 0.16, 0.35), (x, y + 0.16, z + 0.20), "steel", "tripod")
+    for k, angle in enumerate((0.5, 2.6, 4.7)):
         foot = (x + 0.42 * math.cos(angle), y + 0.30 + 0.30 * math.sin(angle), floor)
-        shaper.cylinder(body, "scenery", 0.014, foot, (x, y + 0.16, 0.55), "black")
+        shaper.cylinder(body, "scenery", 0.014, foot, (x, y + 0.16, 0.55), "black", f"tripod_leg{k}")
 
 
 def _towards(view: Array) -> list[float]:
