@@ -3,6 +3,7 @@
 
 python3 run.py assemble         make .venv, install the locked packages and handeye, assemble the pump
 python3 run.py test             the same, with the test tools, then the test suite
+python3 run.py test browser     the same, then the checks of the pages in a browser, which needs Chromium
 python3 run.py WORD ...         the same as `handeye WORD ...`
 
 Afterwards `.venv/bin/handeye WORD ...` does without this file. Standard output has nothing but what handeye prints.
@@ -28,6 +29,10 @@ UNFINISHED = VENV / "set-up.unfinished"
 """Is there while .venv is being made or changed: where a start finds it, .venv is made anew."""
 TURNSTILE = VENV / "set-up.turnstile"
 """Locked by the start that sets up; others wait for it."""
+BROWSER = "HANDEYE_CHROMIUM"
+"""Names the browser for the checks of the pages."""
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+"""What it is called where nobody names it."""
 
 
 class SetUpFailed(Exception):
@@ -52,8 +57,24 @@ def main(words: list[str]) -> int:
         return 130
     if not testing:
         return run(["-m", "handeye", *words])
-    os.chdir(ROOT)  # a process for each core; what the tests of a file share is made once
+    os.chdir(ROOT)
+    if words[1:2] == ["browser"]:
+        return check_in_browser(words[2:])
+    # a process for each core; what the tests of a file share is made once
     return run(["-m", "pytest", "-n", "auto", "--dist", "loadfile", *words[1:]])
+
+
+def check_in_browser(words: list[str]) -> int:
+    """The checks that need a browser, which the test suite leaves out."""
+    wanted = os.environ.get(BROWSER)
+    found = next(filter(None, map(shutil.which, [wanted] if wanted else BROWSERS)), None)
+    if found is None:
+        named = f"{BROWSER} names {wanted}, which is no program" if wanted else "There is no Chromium here"
+        say(f"{named}: on Debian, `apt install chromium` brings what the checks in a browser need.")
+        return 2
+    os.environ[BROWSER] = found
+    checks = sorted(str(check) for check in (ROOT / "tests" / "browser").glob("check_*.py"))
+    return run(["-m", "pytest", *checks, *words])
 
 
 def say(sentence: str) -> None:

@@ -117,6 +117,26 @@ def test_an_interruption_says_what_comes_next(
     assert capfd.readouterr().err.endswith("Setting up was interrupted; the next start completes it.\n")
 
 
+def test_the_checks_in_a_browser_say_what_they_need(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv(start.BROWSER, "nowhere/chromium")
+    assert start.main(["test", "browser"]) == 2
+    assert "HANDEYE_CHROMIUM names nowhere/chromium, which is no program" in capfd.readouterr().err
+
+
+def test_the_checks_in_a_browser_are_found_and_told_where_it_is(
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    carried_out: list[list[str]] = []
+    monkeypatch.setattr(start, "run", lambda command: carried_out.append(command) or 0)
+    monkeypatch.setenv(start.BROWSER, sys.executable)
+    (start.ROOT / "tests" / "browser").mkdir(parents=True)
+    (start.ROOT / "tests" / "browser" / "check_pages.py").touch()
+    assert start.main(["test", "browser", "-x"]) == 0
+    assert carried_out == [["-m", "pytest", str(start.ROOT / "tests" / "browser" / "check_pages.py"), "-x"]]
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(find_spec("pip") is None, reason="this environment was made without pip")
 def test_pip_speaks_on_standard_error_only(capfd: pytest.CaptureFixture[str]) -> None:

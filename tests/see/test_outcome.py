@@ -83,7 +83,7 @@ def test_work_that_is_not_right_leads_with_what_is_wrong(run: Recorded) -> None:
     came = result(completed=True, assembled=False, checks={"gap": WRONG})
     head = tree(page_of(ending(run, DONE, came))).all("header")[0]
     assert head.all("h1")[0].text == "The program reported success, but the pump is not right."
-    assert "Gap under a head (at most 0.2 mm): 5 mm." in head.text
+    assert "Gap under a head: 5 mm; right is at most 0.2 mm." in head.text
 
 
 def test_the_panic_button_is_told_where_it_was_hit(run: Recorded) -> None:

@@ -2,14 +2,17 @@
 
 from dataclasses import replace
 
+import msgspec
 import numpy as np
 import pytest
 from report_pages import recorded
+from short_runs import plan_of
 
 from handeye import events as happened
 from handeye.events import AnyEvent
+from handeye.planfile.store import encode
 from handeye.program.causes import PlacesTried
-from handeye.see.facts.planned import Why, corrections, ends
+from handeye.see.facts.planned import By, Why, corrections, ends
 from handeye.see.facts.searches import searches
 from handeye.see.recorded import Recorded
 
@@ -49,7 +52,35 @@ def test_a_moved_goal_names_the_save_that_moved_it(run: Recorded) -> None:
     events = [*step(SAVED, line=5, text="SAVE E1"), *step(RESTORED, ADJUSTED, line=9)]
     (moved,) = corrections(of(run, *events))
     (cause,) = moved.causes
-    assert (moved.goal, moved.step.line, cause.name, cause.place, cause.seen) == ("P1", 9, "E1", "5", False)
+    assert (moved.goal, moved.step.line, cause.name, cause.place, cause.by) == ("P1", 9, "E1", "5", By.SAVE)
+
+
+SEARCHING = """
+        STAGE   "seek"
+        SEARCH  .07
+AGAIN:  MOVE    P1
+        AOJ     AGAIN
+        SEARCH  .07
+        MOVE    P2
+"""
+
+
+def numbered(events: list[AnyEvent], step: int) -> list[AnyEvent]:
+    """The events of a step of another number."""
+    return [
+        msgspec.structs.replace(event, step=step) if hasattr(event, "step") else event for event in events
+    ]
+
+
+def test_a_moved_goal_names_the_place_of_the_search_that_moved_it(run: Recorded) -> None:
+    seeking = replace(run, trace=replace(run.trace, plan=encode(plan_of(SEARCHING)).encode()))
+    shift = happened.Adjusted(time=12.0, goal="P1", shift=(0.001, 0.0, 0.0))
+    sent = numbered(step(advanced(1), line=5, text="AOJ AGAIN"), 2)
+    events = [*numbered(step(), 0), *sent, *numbered(step(shift, line=4), 1)]
+    anew = [*numbered(step(), 3), *numbered(step(shift, line=7), 4)]
+    first, second = corrections(of(seeking, *events, *anew))
+    assert [(cause.name, cause.by, cause.place) for cause in first.causes] == [("place 2", By.SEARCH, "5")]
+    assert second.causes == ()
 
 
 def advanced(count: int) -> AnyEvent:

@@ -1,6 +1,6 @@
 """Planned and found: where motions were to end and where they did, and what moved their goals."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -13,9 +13,11 @@ from handeye.events import (
     PartSeen,
     Restored,
     Saved,
+    SearchAdvanced,
     StepStarted,
 )
 from handeye.pose import Array
+from handeye.program.operation import Operation, Use
 from handeye.record import Vector3
 from handeye.see.recorded import Recorded
 from handeye.trace.account import ASTRAY
@@ -43,15 +45,23 @@ class Ended:
     why: Why
 
 
+class By(StrEnum):
+    """By what a goal is moved."""
+
+    SAVE = "saved in"
+    LOOK = "seen in"
+    SEARCH = "of the search in"
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """What moved a goal: a difference that was saved, or a part that was seen."""
+    """What moved a goal: a difference that was saved, a part that was seen, or the place that a search was at."""
 
     name: str
-    """Of the difference, or of the part."""
-    seen: bool
+    """Of the difference, the part, or the place."""
+    by: By
     place: str
-    """The line of its SAVE, or of the look."""
+    """The line of its SAVE, of the look, or that sent the search on."""
     time: float
     """When that was, s since the run began."""
 
@@ -107,34 +117,65 @@ def _why(events: list[AnyEvent], off: Array, before: Array) -> Why:
 
 
 def _corrections(run: Recorded) -> Iterator[Correction]:
-    known: dict[tuple[str, bool], Cause] = {}
+    known: dict[tuple[By, str], Cause] = {}
+    search = _Search()
     for step in done_steps(run.trace.events):
+        search = _Search() if _concerns_search(_operation(run, step).writes) else search
         for event in step.events:
             match event:
                 case Saved():
-                    known[event.name, False] = _cause(run, step, event.name, event.time, seen=False)
+                    known[By.SAVE, event.name] = _cause(run, step, event.name, event.time, By.SAVE)
                 case PartSeen():
-                    known[event.part, True] = _cause(run, step, event.part, event.time, seen=True)
+                    known[By.LOOK, event.part] = _cause(run, step, event.part, event.time, By.LOOK)
+                case SearchAdvanced():
+                    cause = _cause(run, step, f"place {event.count + 1}", event.time, By.SEARCH)
+                    search = _Search(offset=event.offset, cause=cause)
                 case Adjusted():
-                    causes = tuple(known[key] for key in _moved_by(run, step, event) if key in known)
                     yield Correction(
                         time=run.seconds(event.time),
                         step=step.started,
                         goal=event.goal,
                         shift=event.shift,
-                        causes=causes,
+                        causes=tuple(_causes(run, step, event, known, search)),
                     )
 
 
-def _cause(run: Recorded, step: DoneStep, name: str, time: float, *, seen: bool) -> Cause:
-    return Cause(name=name, seen=seen, place=step.started.place, time=run.seconds(time))
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Search:
+    """The place that a search is at."""
+
+    offset: tuple[float, float] = (0.0, 0.0)
+    """From its first, m."""
+    cause: Cause | None = None
+    """None: it is at its first."""
 
 
-def _moved_by(run: Recorded, step: DoneStep, adjusted: Adjusted) -> Iterator[tuple[str, bool]]:
-    """Names of what moved a goal, each with whether it is a part that was seen."""
+def _cause(run: Recorded, step: DoneStep, name: str, time: float, by: By) -> Cause:
+    return Cause(name=name, by=by, place=step.started.place, time=run.seconds(time))
+
+
+def _causes(
+    run: Recorded, step: DoneStep, adjusted: Adjusted, known: Mapping[tuple[By, str], Cause], search: _Search
+) -> Iterator[Cause]:
+    """What moved a goal: the look at its part, for what nothing else explains; differences, and the search."""
     restored = [event for event in step.events if isinstance(event, Restored)]
     rest = np.subtract(adjusted.shift, np.sum([[0, 0, 0], *(event.difference for event in restored)], axis=0))
+    searched = _concerns_search(_operation(run, step).reads) and search.cause is not None
+    if searched:
+        rest = rest - np.array([*search.offset, 0.0])
     position = run.program.positions.get(adjusted.goal)
     if position is not None and position.of is not None and np.linalg.norm(rest) > ASTRAY:
-        yield position.of, True
-    yield from ((event.name, False) for event in restored)
+        yield from filter(None, [known.get((By.LOOK, position.of))])
+    yield from filter(None, (known.get((By.SAVE, event.name)) for event in restored))
+    if searched and search.cause is not None:
+        yield search.cause
+
+
+def _concerns_search(uses: Iterable[Use]) -> bool:
+    """The search that is set up is among what an operation reads or writes."""
+    return any(use.kind == "search" for use in uses)
+
+
+def _operation(run: Recorded, step: DoneStep) -> Operation:
+    """What a step does."""
+    return run.program.steps[step.started.step].operation

@@ -32,9 +32,9 @@ def felt(kind: GuardKind, value: float) -> str:
     """What a guard looks at, with its unit, as SI and as the language has it."""
     match kind:
         case GuardKind.FORCE | GuardKind.AGAINST:
-            return f"{value:z.1f} N ({value / OUNCE_FORCE:z.1f} oz)"
+            return f"{value:z.1f} N ({value / OUNCE_FORCE:.4g} oz)"
         case GuardKind.MOMENT | GuardKind.TORQUE:
-            return f"{value:z.3f} N m ({value / OUNCE_INCH:z.1f} oz in)"
+            return f"{value:z.3f} N m ({value / OUNCE_INCH:.4g} oz in)"
         case GuardKind.TOUCH:
             return _FINGERS[round(value) % 4]
 

@@ -18,7 +18,7 @@ def in_figures(run: Recorded) -> Markup:
 def _figures(run: Recorded) -> Iterator[tuple[int, str]]:
     kinds = Counter(type(event) for event in run.trace.events)
     yield kinds[happened.PictureTaken], "pictures taken"
-    yield kinds[happened.GuardTripped], "motions ended by touch"
+    yield kinds[happened.GuardTripped], "motions ended by a guard"
     yield kinds[happened.Adjusted], "goals moved by what was sensed"
     yield kinds[happened.SearchAdvanced], "places that searches went on to"
     yield kinds[happened.ErrorTested], "errors tested by the program"

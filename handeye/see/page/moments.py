@@ -23,7 +23,7 @@ def moments(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Markup:
     data = {
         "begin": run.begins,
         "end": run.ends,
-        "failed": not outcome.good,
+        "view": {"right": "room", "ended": "room", "wrong": "pump"}.get(outcome.kind, "hand"),
         "show": run.begins if outcome.good else outcome.time,
         "steps": [[run.seconds(step.time), line_id(step.line, step.file, files)] for step in steps],
         "stages": [

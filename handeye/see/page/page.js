@@ -142,7 +142,7 @@
       byId("instead").hidden = false;
       return;
     }
-    choose(run.failed && player.views.includes("hand") ? "hand" : player.views[0]);
+    choose(player.views.includes(run.view) ? run.view : player.views[0]);
     show(now);
     byId("run").classList.add("drawn");
   }

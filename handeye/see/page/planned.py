@@ -37,7 +37,7 @@ _MEANING: Final = {
 }
 _DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """mm"""
-_SPIRAL: Final = 150.0
+_SPIRAL: Final = 220.0
 
 
 def planned_section(
@@ -146,14 +146,13 @@ def _correction(correction: Correction) -> list[Markup]:
         cell(element("code", one_line(correction.step.text))),
         figure_cell(to_moment(correction.time, clock(correction.time))),
         *shifts,
-        cell(causes if correction.causes else "what the program was told otherwise"),
+        cell(causes if correction.causes else "what the program did"),
     ]
 
 
 def _cause(cause: Cause) -> Markup:
-    what = "seen" if cause.seen else "saved"
     link = to_moment(cause.time, f"line {cause.place}")
-    return joined([element("b", cause.name), f" {what} in ", link])
+    return joined([element("b", cause.name), f" {cause.by} ", link])
 
 
 # -- searches ------------------------------------------------------------------------------------------------
@@ -170,7 +169,7 @@ def _searches(searches: Sequence[Search]) -> Iterator[Markup]:
 
 def _search(search: Search) -> Markup:
     tried = counted(len(search.places), "place")
-    came = "there were no more" if search.exhausted else "the last was right"
+    came = "there were no more" if search.exhausted else "the program went on from the last"
     told = f"{tried} tried, from {exact_clock(search.times[0]) if search.times else 'the first'}: {came}"
     caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
     figure = element("figure", _spiral(search, told), caption)

@@ -3,10 +3,11 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.events import CameraBusy, ErrorTested, OperatorCalled, StepStarted
+from handeye.events import CameraBusy, ErrorTested, OperatorCalled, PanicStopped, StepStarted
 from handeye.markup import Markup
 from handeye.plain_text import counted
 from handeye.program.cause_text import call_sentence
+from handeye.report.result import Check
 from handeye.see.facts.faults import told_faults
 from handeye.see.facts.outcome import Outcome
 from handeye.see.facts.senses import Senses, senses_at
@@ -75,6 +76,7 @@ def _said(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Mar
     yield from _why(outcome)
     if outcome.kind == "wrong":
         yield element("p", *_course(run))
+        yield in_figures(run)
         return
     if outcome.step is not None:
         yield excerpt(run.program, outcome.step)
@@ -115,13 +117,19 @@ def _why(outcome: Outcome) -> Iterator[Markup]:
         number = "" if call.error is None else f" (error {call.error})"
         yield element("p", f"{reason[:1].upper()}{reason[1:]}{number}.", class_="reason")
     for check in outcome.wrong:
-        yield element("p", f"{check.told[:1].upper()}{check.told[1:]} {check.unit}.", class_="reason")
+        yield element("p", _finding(check), class_="reason")
     if outcome.kind == "broken off":
         yield element(
             "p", "The file ends in the middle; this page shows what there is of it.", class_="reason"
         )
     if outcome.kind == "panic":
         yield element("p", "The drives are off and the brakes are set.", class_="reason")
+
+
+def _finding(check: Check) -> str:
+    """What the referee found wrong, as a sentence."""
+    subject = f"{check.subject[:1].upper()}{check.subject[1:]}"
+    return f"{subject}: {check.value:.3g} {check.unit}; right is {check.relation} {check.limit:.3g} {check.unit}."
 
 
 def _senses(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
@@ -141,8 +149,8 @@ def _senses(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[M
 def _tells(each: Told, run: Recorded, outcome: Outcome) -> bool:
     """An event tells what led to the outcome: it is of the same stage, and not the reason itself once more."""
     begun = max((run.seconds(stage.begin) for stage in run.trace.stages), default=0.0)
-    return begun <= each.time <= outcome.time and not isinstance(
-        each.event, OperatorCalled | ErrorTested | CameraBusy
+    return begun < each.time <= outcome.time and not isinstance(
+        each.event, OperatorCalled | PanicStopped | ErrorTested | CameraBusy
     )
 
 

@@ -98,7 +98,11 @@ def _stage(run: Recorded, number: int, stage: Stage) -> Markup:
     begin, end = run.seconds(stage.begin), run.seconds(stage.end)
     told = f"{number} {stage.name}, {clock(begin)} to {clock(end)}, {stage.status}"
     return to_moment(
-        begin, str(number), class_=f"s{number} {stage.status.replace(' ', '-')}", title=told, aria_label=told
+        begin,
+        element("span", str(number)),
+        class_=f"s{number} {stage.status.replace(' ', '-')}",
+        title=told,
+        aria_label=told,
     )
 
 
