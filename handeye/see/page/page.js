@@ -135,7 +135,7 @@
       const drawn = await createPlayer(canvas, await unpacked("scene"), await unpacked("tracks"), {});
       drawn.onpick = picked;
       byId("views").replaceChildren(...drawn.views.map(viewButton));
-      player = drawn;
+      player = canvas.player = drawn;  // there for whoever asks the page
     } catch (error) {
       canvas.hidden = true;
       byId("instead").textContent = `${error.message} Photographs stand in the place of the view.`;
