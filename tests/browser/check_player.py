@@ -45,7 +45,7 @@ const opened = text => new Response(new Blob([Uint8Array.from(atob(text), c => c
 PLAY = """
 const play = () => {
   if (window.playing) requestAnimationFrame(play);
-  player.at(4 + performance.now() / 1e3 % 4);
+  player.at(BUSY + performance.now() / 1e3 % 4);
 };
 play();
 """
@@ -209,6 +209,17 @@ def test_keys_go_round_shift_and_come_nearer(page: Page) -> None:
     assert after["at"][2] < before["at"][2]
 
 
+def test_the_wheel_is_the_pages_until_a_hand_has_taken_hold(page: Page) -> None:
+    settle(page, "pump")
+    page.evaluate("document.activeElement.blur()")
+    before = sight(page)["far"]
+    page.wheel(300, 300, -100)
+    assert sight(page)["far"] == before
+    page.evaluate("document.querySelector('canvas').focus()")
+    page.wheel(300, 300, -100)
+    assert sight(page)["far"] < before
+
+
 def test_the_view_of_the_hand_goes_with_it(page: Page, trace: Trace) -> None:
     settle(page, "hand")
     first = page.evaluate("player.camera.eye")
@@ -229,8 +240,15 @@ def test_a_lost_graphics_card_is_made_good(page: Page) -> None:
     assert np.abs(picture(page) - before).mean() < 1.0
 
 
-def test_it_plays_smoothly_where_software_draws(page: Page) -> None:
-    page.evaluate(f"player.view('room'); window.playing = true; {PLAY}")
+def busy(trace: Trace) -> float:
+    """When four seconds begin in which the hand goes nearly all the time."""
+    moves = np.abs(np.diff(trace.poses["stanford/link6"], axis=0)).max(axis=1) > 1e-4
+    found = np.convolve(moves, np.ones(240), mode="valid").argmax()
+    return float(trace.times[found] - trace.head.time)
+
+
+def test_it_plays_smoothly_where_software_draws(page: Page, trace: Trace) -> None:
+    page.evaluate(f"player.view('room'); window.playing = true; {PLAY.replace('BUSY', str(busy(trace)))}")
     page.evaluate("new Promise(done => setTimeout(done, 3000))")  # it learns how fast it can draw
     before, begun = page.evaluate("player.frames"), time.perf_counter()
     page.evaluate("new Promise(done => setTimeout(done, 4000))")

@@ -132,6 +132,11 @@ class Page:
         held = {"left": 1, "right": 2}[button]
         self.ask("Input.dispatchMouseEvent", type=what, x=x, y=y, button=button, buttons=held, clickCount=1)
 
+    def wheel(self, x: float, y: float, down: float) -> None:
+        """Turn the wheel of the mouse at a point."""
+        self.ask("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=down)
+        self.evaluate("new Promise(requestAnimationFrame)")  # the page hears of it with the next frame
+
     def touch(self, what: str, *fingers: tuple[float, float]) -> None:
         """Fingers on the screen: `touchStart`, `touchMove` or `touchEnd`."""
         points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(fingers)]

@@ -24,9 +24,10 @@ prefers), `exposures` (pictures that are averaged when nothing moves).
 | `frames` | pictures drawn so far |
 | `destroy()` | let go of canvas and graphics memory |
 
-Hands: one finger or the left button goes round, two fingers or the right button shift, pinch and wheel come nearer;
-with the keyboard on the canvas arrows go round, shift and arrows shift, plus and minus come nearer. How large the
-canvas is says the page; `touch-action: none` has to be among its styles.
+Hands: one finger or the left button goes round, two fingers or the right button shift, a pinch comes nearer. While the
+canvas has the focus, so do the wheel and plus and minus; arrows go round, shift and arrows shift. How large the canvas
+is says the page, and by its style `touch-action` how much of a touch is meant for it: `none` is all, `pan-y` leaves the
+page to be scrolled.
 """
 
 from pathlib import Path

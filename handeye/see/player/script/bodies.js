@@ -13,7 +13,7 @@ export class Bodies {
     this.list = header.bodies.map(body => ({ ...body, mesh: header.meshes[body.mesh], pose: null, since: 0 }));
     this.named = new Map(this.list.map(body => [body.name, body]));
     this.world = this.list.find(body => body.mesh.parts);
-    this.inOrder = [...this.list.filter(body => body !== this.world), this.world].filter(Boolean); // it is behind the others
+    this.inOrder = [...this.list].sort((a, b) => !!a.mesh.parts - !!b.mesh.parts); // the world is behind the others
     if (this.world) this.world.pose = [0, 0, 0, 1, 0, 0, 0];
     this.pictures = 0;
     this.surfaces = graphics.surfaces(...corners(array), summed(array("triangles")));
@@ -32,14 +32,18 @@ export class Bodies {
   // Count a picture, and tell what stands still in it: a test of a body, and a text that changes with the answers.
   count() {
     this.pictures++;
-    const first = this.pictures <= STILL, still = body => (first ? !body.since : this.pictures - body.since > STILL);
-    return { still, moving: body => !still(body), key: this.list.map(body => (body.pose ? +still(body) : 2)).join("") };
+    const first = this.pictures <= STILL;
+    const still = body => (first ? !body.since : this.pictures - body.since > STILL);
+    const key = this.list.map(body => (body.pose ? +still(body) : 2)).join("");
+    return { still, moving: body => !still(body), key };
   }
 
   drawDepth(view, which) {
     const { gl } = this.graphics;
     this.begin(this.depth, view);
-    for (const body of this.inOrder) if (body.pose && which(body)) this.drawBody(this.depth, body, body.mesh.coarse ?? body.mesh.fine);
+    for (const body of this.inOrder) {
+      if (body.pose && which(body)) this.drawBody(this.depth, body, body.mesh.coarse ?? body.mesh.fine);
+    }
     gl.bindVertexArray(null);
   }
 
@@ -58,8 +62,8 @@ export class Bodies {
 
   // What is drawn at one point of a picture: the name for people of a body, or of a part of the world; or null.
   pick(matrix) {
-    const { gl } = this.graphics, names = [], red = new Uint8Array(4), target = this.graphics.target("pick", 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24);
-    this.graphics.into(target, 1, 1);
+    const { graphics } = this, { gl } = graphics, names = [], ink = new Uint8Array(4);
+    graphics.into(graphics.target("pick", 1, 1, [gl.RGBA8], gl.DEPTH_COMPONENT24), 1, 1);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     this.begin(this.depth, matrix);
@@ -71,8 +75,8 @@ export class Bodies {
         this.drawBody(this.depth, body, range);
       }
     }
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, red);
-    return names[red[0] + 256 * red[1] - 1] ?? null;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, ink);
+    return names[ink[0] + 256 * ink[1] - 1] ?? null;
   }
 
   begin(uniforms, view) {
@@ -98,7 +102,8 @@ function moved(old, now) {
 
 // Points and normals as a graphics card takes them, four numbers to a corner; the third of the latter is the material.
 function corners(array) {
-  const packed = rowsOf(array("points"), 3), steep = array("normals"), materials = array("materials"), count = materials.length;
+  const [steep, materials] = [array("normals"), array("materials")], packed = rowsOf(array("points"), 3);
+  const count = materials.length;
   const points = new Uint16Array(count * 4), normals = new Int8Array(count * 4);
   for (let i = 0; i < count; i++) {
     points.set(packed.subarray(i * 3, i * 3 + 3), i * 4);

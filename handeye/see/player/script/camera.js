@@ -1,4 +1,4 @@
-import { add, axes, clamp, length, mixed, perspective, multiplied, seenFrom, subtract } from "./geometry.js";
+import { add, axes, clamp, mixed, multiplied, perspective, seenFrom, subtract } from "./geometry.js";
 
 const NEAR = 0.03, FAR = 14; // m
 const NEAREST = 0.1, FARTHEST = 3.6; // m from the point that is looked at
@@ -15,8 +15,8 @@ export class Camera {
   }
 
   aimed({ eye, at, angle, body }) {
-    const from = subtract(eye, at), far = length(from);
-    return { at, far, yaw: Math.atan2(from[1], from[0]), pitch: Math.asin(from[2] / far), slope: Math.tan(angle * Math.PI / 360), body };
+    const [x, y, z] = subtract(eye, at), far = Math.hypot(x, y, z), slope = Math.tan(angle * Math.PI / 360);
+    return { at, far, yaw: Math.atan2(y, x), pitch: Math.asin(z / far), slope, body };
   }
 
   look(aim) {
@@ -36,8 +36,9 @@ export class Camera {
   // Go on to where a glide is now.
   move(now) {
     if (!this.glide) return;
-    const { since, from, aim } = this.glide, share = clamp((now - since) / GLIDE, 0, 1), k = share * share * (3 - 2 * share);
+    const { since, from, aim } = this.glide, share = clamp((now - since) / GLIDE, 0, 1);
     if (share === 1) return this.look(aim);
+    const k = share * share * (3 - 2 * share);
     for (const name of ["far", "yaw", "pitch", "slope"]) this[name] = from[name] + k * (aim[name] - from[name]);
     this.at = mixed(from.at, aim.at, k);
     this.body = aim.body;
@@ -61,7 +62,8 @@ export class Camera {
     const { middle, eye, far } = this, around = axes(subtract(middle, eye)), aspect = width / height;
     const slope = this.slope * Math.max(1, BROAD / aspect);
     const from = add(add(eye, around.right, lens[0]), around.up, lens[1]);
-    const shift = [2 * jitter[0] / width - lens[0] / (slope * aspect * far), 2 * jitter[1] / height - lens[1] / (slope * far)];
+    const half = [slope * aspect * far, slope * far]; // of what is seen where it is sharp, m
+    const shift = [2 * jitter[0] / width - lens[0] / half[0], 2 * jitter[1] / height - lens[1] / half[1]];
     const matrix = multiplied(perspective(slope, aspect, NEAR, FAR, shift), seenFrom(from, around));
     return { eye: from, matrix, points: height / slope / 2 }; // points of a metre a metre away
   }

@@ -22,7 +22,8 @@ export function multiplied(a, b) {
 
 // To the right, upwards and forward of one who looks along a direction, the world's z upright.
 export function axes(direction) {
-  const forward = unit(direction), right = unit(cross(forward, Math.abs(forward[2]) > 0.999 ? [0, 1, 0] : [0, 0, 1]));
+  const forward = unit(direction), upright = Math.abs(forward[2]) > 0.999 ? [0, 1, 0] : [0, 0, 1];
+  const right = unit(cross(forward, upright));
   return { right, up: cross(right, forward), forward };
 }
 
@@ -33,8 +34,8 @@ export function seenFrom(eye, { right: r, up: u, forward: f }) {
 
 // `slope`: tangent of half the upright angle of view; `shift`: of the middle of the picture, in half pictures.
 export function perspective(slope, aspect, near, far, shift = [0, 0]) {
-  const deep = near - far;
-  return [1 / slope / aspect, 0, 0, 0, 0, 1 / slope, 0, 0, shift[0], shift[1], (far + near) / deep, -1, 0, 0, 2 * far * near / deep, 0];
+  const deep = near - far, middle = (far + near) / deep, end = 2 * far * near / deep;
+  return [1 / slope / aspect, 0, 0, 0, 0, 1 / slope, 0, 0, shift[0], shift[1], middle, -1, 0, 0, end, 0];
 }
 
 export function parallel(radius, near, far) {
@@ -44,7 +45,7 @@ export function parallel(radius, near, far) {
 
 // By Gauss and Jordan.
 export function inverse(matrix) {
-  const rows = [0, 1, 2, 3].map(r => [0, 1, 2, 3].map(c => matrix[c * 4 + r]).concat([0, 1, 2, 3].map(c => +(c === r))));
+  const four = [0, 1, 2, 3], rows = four.map(r => [...four.map(c => matrix[c * 4 + r]), ...four.map(c => +(c === r))]);
   for (let i = 0; i < 4; i++) {
     let best = i;
     for (let r = i + 1; r < 4; r++) if (Math.abs(rows[r][i]) > Math.abs(rows[best][i])) best = r;
@@ -52,7 +53,7 @@ export function inverse(matrix) {
     rows[i] = rows[i].map(x => x / rows[i][i]);
     for (let r = 0; r < 4; r++) if (r !== i) rows[r] = rows[r].map((x, c) => x - rows[r][i] * rows[i][c]);
   }
-  return new Float32Array([0, 1, 2, 3].flatMap(c => rows.map(row => row[c + 4])));
+  return new Float32Array(four.flatMap(c => rows.map(row => row[c + 4])));
 }
 
 // The left, right, lower and upper planes of what a matrix shows: normal inwards, and distance.

@@ -6,7 +6,7 @@ export class Graphics {
     // With an alpha channel: pictures can then be copied to the canvas as they are.
     this.gl = canvas.getContext("webgl2", { antialias: false, alpha: true, powerPreference: "high-performance" });
     if (!this.gl) throw new Error("This browser offers no WebGL 2.");
-    this.floats = !!(this.gl.getExtension("EXT_color_buffer_float") || this.gl.getExtension("EXT_color_buffer_half_float"));
+    this.floats = ["EXT_color_buffer_float", "EXT_color_buffer_half_float"].some(name => this.gl.getExtension(name));
     this.targets = new Map();
     this.nothing = this.gl.createVertexArray();
   }
@@ -67,12 +67,14 @@ export class Graphics {
     return texture;
   }
 
-  // Grey pictures that stand one below the other in one, each to be repeated.
-  grains(image, count) {
-    const { gl } = this, texture = gl.createTexture(), side = image ? image.width : 1, kind = gl.TEXTURE_2D_ARRAY;
+  // Grey square pictures, `count` of them, each to be repeated; white where there are none.
+  grains(levels, count) {
+    const { gl } = this, texture = gl.createTexture(), kind = gl.TEXTURE_2D_ARRAY;
+    const side = count ? Math.sqrt(levels.length / count) : 1;
     gl.bindTexture(kind, texture);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-    gl.texImage3D(kind, 0, gl.R8, side, side, Math.max(count, 1), 0, gl.RED, gl.UNSIGNED_BYTE, image ?? new Uint8Array([255]));
+    const bytes = new Uint8Array(count ? levels : [255]);
+    gl.texImage3D(kind, 0, gl.R8, side, side, Math.max(count, 1), 0, gl.RED, gl.UNSIGNED_BYTE, bytes);
     gl.generateMipmap(kind);
     gl.texParameteri(kind, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST); // half the work of blending two
     return texture;
@@ -80,7 +82,8 @@ export class Graphics {
 
   // A map of what is nearest to a lamp.
   shadowMap(size) {
-    const { gl } = this, texture = this.texture(gl.DEPTH_COMPONENT16, size, size, gl.LINEAR), frame = gl.createFramebuffer();
+    const { gl } = this, frame = gl.createFramebuffer();
+    const texture = this.texture(gl.DEPTH_COMPONENT16, size, size, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, texture, 0);
@@ -92,7 +95,8 @@ export class Graphics {
     const known = this.targets.get(name);
     if (known?.width === width && known.height === height) return known;
     if (known) this.release(known);
-    const { gl } = this, frame = gl.createFramebuffer(), textures = formats.map(format => this.texture(format, width, height));
+    const { gl } = this, frame = gl.createFramebuffer();
+    const textures = formats.map(format => this.texture(format, width, height));
     if (depth) textures.push(this.texture(depth, width, height));
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     textures.forEach((texture, i) => {

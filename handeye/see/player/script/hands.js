@@ -45,7 +45,8 @@ export function listen(canvas, camera, { moved, clicked, signal }) {
   on("pointercancel", released);
   on("contextmenu", event => event.preventDefault());
 
-  on("wheel", event => {
+  on("wheel", event => { // the page's own, to be scrolled, but for a hand that has taken hold of the canvas
+    if (document.activeElement !== canvas && !event.ctrlKey) return;
     event.preventDefault();
     camera.zoom(Math.exp(0.0022 * Math.max(-60, Math.min(60, event.deltaY))));
     moved();

@@ -15,7 +15,9 @@ export function unpacked(buffer) {
 // Columns of differences that wrap, one after the other, as rows of `width` whole numbers of 16 bits.
 export function rowsOf(steps, width, Kind = Uint16Array) {
   const count = steps.length / width, rows = new Kind(steps.length);
-  for (let c = 0; c < width; c++) for (let i = 0, sum = 0; i < count; i++) rows[i * width + c] = sum += steps[c * count + i];
+  for (let c = 0; c < width; c++) {
+    for (let i = 0, sum = 0; i < count; i++) rows[i * width + c] = sum += steps[c * count + i];
+  }
   return rows;
 }
 

@@ -8,7 +8,8 @@ const DARK = [0.13, 0.13, 0.135, 1];
 export class Picture {
   constructor(graphics, bodies, shadows, materials, grain) {
     Object.assign(this, { graphics, bodies, shadows, materials, grain });
-    for (const [name, shader] of Object.entries({ DRAFT, KEPT, RECALLED, WEIGHED })) this[name] = graphics.program(shader);
+    const shaders = { DRAFT, KEPT, RECALLED, WEIGHED };
+    for (const [name, shader] of Object.entries(shaders)) this[name] = graphics.program(shader);
     this.last = this.keptFor = null;
     graphics.gl.enable(graphics.gl.DEPTH_TEST);
     graphics.gl.depthFunc(graphics.gl.LEQUAL);

@@ -16,18 +16,20 @@ const SHOWN = 8; // exposures after which their mean is shown
 const MOST = 2; // points to a CSS pixel
 
 class Player {
-  constructor(canvas, scene, tracks, image, { still, exposures = 32 }) {
-    Object.assign(this, { canvas, scene, tracks, image, exposures, onpick: null, frames: 0 });
+  constructor(canvas, scene, tracks, levels, { still, exposures = 32 }) {
+    Object.assign(this, { canvas, scene, tracks, levels, exposures, onpick: null, frames: 0 });
     this.still = still ?? matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.detail = 1;
     this.drafts = 0;
     this.drawn = -Infinity;
     this.waiting = [];
     this.over = new AbortController();
+    this.names = scene.header.bodies.map(body => body.name).filter(name => tracks.tracks.has(name));
     this.build();
     this.camera = new Camera(scene.header.views, body => this.now(body));
     const { signal } = this.over;
-    listen(canvas, this.camera, { signal, moved: () => this.wake(), clicked: (x, y) => this.onpick?.(this.pick(x, y), x, y) });
+    const clicked = (x, y) => this.onpick?.(this.pick(x, y), x, y);
+    listen(canvas, this.camera, { signal, clicked, moved: () => this.wake() });
     canvas.addEventListener("webglcontextlost", event => { event.preventDefault(); this.lost = true; }, { signal });
     canvas.addEventListener("webglcontextrestored", () => this.build(), { signal });
     this.resized = new ResizeObserver(() => this.wake());
@@ -41,8 +43,9 @@ class Player {
     this.lost = false;
     this.bodies = new Bodies(graphics, this.scene);
     const rows = header.materials.map(row => [...row, 0, 0]);
-    const materials = graphics.table(rows, 3), grain = graphics.grains(this.image, header.grains);
-    this.picture = new Picture(graphics, this.bodies, new Shadows(graphics, header.lamp, this.bodies), materials, grain);
+    const materials = graphics.table(rows, 3), grain = graphics.grains(this.levels, header.grains);
+    const shadows = new Shadows(graphics, header.lamp, this.bodies);
+    this.picture = new Picture(graphics, this.bodies, shadows, materials, grain);
     if (this.time !== undefined) this.at(this.time);
     if (this.camera) this.wake();
   }
@@ -53,7 +56,6 @@ class Player {
   get end() { return this.tracks.end; }
   get duration() { return this.end - this.begin; }
   get views() { return this.scene.header.views.map(view => view.name); }
-  get names() { return [...this.tracks.tracks.keys()].filter(name => this.bodies.named.has(name)); }
 
   at(seconds) {
     this.time = seconds;
@@ -74,7 +76,8 @@ class Player {
   // By drawing one point of the picture, as large as a picture, in numbered colours.
   pick(x, y) {
     const { clientWidth: w, clientHeight: h } = this.canvas, { matrix } = this.camera.seen(w, h);
-    return this.bodies.pick(multiplied([w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w - 2 * x - 1, 2 * y + 1 - h, 0, 1], matrix));
+    const onPoint = [w, 0, 0, 0, 0, h, 0, 0, 0, 0, 1, 0, w - 2 * x - 1, 2 * y + 1 - h, 0, 1];
+    return this.bodies.pick(multiplied(onPoint, matrix));
   }
 
   settled() {
@@ -150,15 +153,23 @@ class Player {
 
   size(detail) {
     const { canvas } = this, points = detail * Math.min(devicePixelRatio, MOST);
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map(side => Math.max(2, Math.round(side * points)));
+    const sides = [canvas.clientWidth, canvas.clientHeight];
+    const [width, height] = sides.map(side => Math.max(2, Math.round(side * points)));
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     return [width, height];
   }
 }
 
+// The levels of a grey picture, row by row.
+async function levelsOf(file) {
+  const image = await createImageBitmap(new Blob([file])), { width, height } = image;
+  const pen = new OffscreenCanvas(width, height).getContext("2d");
+  pen.drawImage(image, 0, 0);
+  return pen.getImageData(0, 0, width, height).data.filter((_, i) => i % 4 === 0);
+}
+
 // A player on a canvas; see `handeye.see.player` for what it can do. Rejected with a sentence where it cannot draw.
 export async function createPlayer(canvas, sceneBuffer, tracksBuffer, options = {}) {
-  const scene = unpacked(sceneBuffer), picture = scene.array("picture");
-  const image = picture.length ? await createImageBitmap(new Blob([picture], { type: "image/webp" })) : null;
-  return new Player(canvas, scene, new Tracks(tracksBuffer), image, options);
+  const scene = unpacked(sceneBuffer), levels = scene.header.grains ? await levelsOf(scene.array("picture")) : null;
+  return new Player(canvas, scene, new Tracks(tracksBuffer), levels, options);
 }

@@ -66,7 +66,8 @@ void main() {
 `;
 
 // A warm lamp with shadows; cool light from above and from a window; what is metallic mirrors a room that is made up.
-// KEPT: the lamp's part by itself, without shadows. FINE: light from above has shadows too, from one direction each time.
+// KEPT: the lamp's part by itself, without shadows. FINE: light from above has shadows too, from another direction each
+// time.
 const LIT = `${FILM}
 in vec3 world, facing;
 in vec2 grained;
@@ -96,7 +97,8 @@ const vec3 WINDOW = vec3(.25, .86, .44);
 float reaches(sampler2DShadow map, mat4 view, vec3 p, float spread) {
   vec4 q = view * vec4(p, 1);
   vec3 r = q.xyz / q.w * .5 + .5;
-  return any(greaterThan(abs(r - .5), vec3(.5))) ? 1. : texture(map, r + vec3(spread * scatter() / vec2(textureSize(map, 0)), 0));
+  if (any(greaterThan(abs(r - .5), vec3(.5)))) return 1.;
+  return texture(map, r + vec3(spread * scatter() / vec2(textureSize(map, 0)), 0));
 }
 vec3 room(vec3 way) {
   vec3 light = mix(vec3(.06, .05, .042), vec3(.44, .46, .5), smoothstep(-.3, .6, way.z));
@@ -119,14 +121,16 @@ void main() {
   if (above > 0.) above *= reaches(domeShadow, domeView, world + n * .006, 0.);
 #endif
   vec3 mirrored = reflect(-v, n), h = normalize(l + v);
-  float rim = 1. - max(dot(n, v), 0.), a2 = rough * rough * rough * rough, nh = max(dot(n, h), 0.), lh = max(dot(l, h), .32);
-  float lobe = nh * nh * (a2 - 1.) + 1.;
+  float rim = 1. - max(dot(n, v), 0.), a = rough * rough, nh = max(dot(n, h), 0.), lh = max(dot(l, h), .32);
+  float lobe = lh * (nh * nh * (a * a - 1.) + 1.), glint = min(a * a / (4. * lobe * lobe * (rough + .5)), 8.);
   rim *= rim * rim * rim;
   vec3 sheen = mix(vec3(.04), own, metallic), dull = own * (1. - .7 * metallic);
-  vec3 soft = vec3(.23, .245, .275) * above + vec3(.115, .1, .085) * (.5 - .5 * n.z) + vec3(.07, .085, .11) * max(dot(n, WINDOW), 0.);
-  vec3 mirror = (sheen + (1. - sheen) * rim * (1. - rough)) * room(mirrored) * (.35 + .65 * above) * mix(.45, 1.3, metallic * (1.2 - rough));
+  vec3 soft = vec3(.23, .245, .275) * above + vec3(.115, .1, .085) * (.5 - .5 * n.z);
+  soft += vec3(.07, .085, .11) * max(dot(n, WINDOW), 0.);
+  vec3 mirror = (sheen + (1. - sheen) * rim * (1. - rough)) * room(mirrored);
+  mirror *= (.35 + .65 * above) * mix(.45, 1.3, metallic * (1.2 - rough));
   vec3 around = dull * soft + mirror + own * base.a * 3.;
-  vec3 key = strength * square * vec3(1., .92, .8) * (dull + sheen * min(a2 / (4. * lobe * lobe * lh * lh * (rough + .5)), 8.));
+  vec3 key = strength * square * vec3(1., .92, .8) * (dull + sheen * glint);
 #ifdef KEPT
   colour = vec4(sqrt(around * .25), 1);
   lamplight = vec4(sqrt(key * .25), 1);

@@ -4,6 +4,7 @@ const POINTS = { draft: 1024, fine: 2048, dome: 1024 }; // along a side of a map
 const SLOPE = 0.58; // tangent of half the angle that the lamp lights
 const SIZE = 0.09; // radius of the lamp, m
 const REACH = [1.5, 0.1, 6]; // radius, nearest and farthest of what throws shadows in light from above, m
+const AWAY = 3; // m from which it comes
 
 // The maps of what the lamp reaches. That of what stands still is kept, and what moves drawn into a copy of it.
 export class Shadows {
@@ -43,7 +44,8 @@ export class Shadows {
   // Light from above out of a direction, and its shadows.
   drawDome(direction, middle) {
     this.dome ??= this.graphics.shadowMap(POINTS.dome);
-    const eye = add(middle, unit(direction), 3), view = multiplied(parallel(...REACH), seenFrom(eye, axes(subtract(middle, eye))));
+    const eye = add(middle, unit(direction), AWAY), towards = axes(subtract(middle, eye));
+    const view = multiplied(parallel(...REACH), seenFrom(eye, towards));
     this.fill(this.dome, view, () => true);
     return view;
   }

@@ -36,7 +36,10 @@ class Track {
       const a = places[one * 3 + k], b = places[other * 3 + k];
       pose.push(scale[k] + scale[3] * (a + share * (b - a)));
     }
-    for (let k = 0; k < 4; k++) pose.push((turns[one * 4 + k] + share * (turns[other * 4 + k] - turns[one * 4 + k])) / UNIT);
+    for (let k = 0; k < 4; k++) {
+      const a = turns[one * 4 + k], b = turns[other * 4 + k];
+      pose.push((a + share * (b - a)) / UNIT);
+    }
     const size = Math.hypot(pose[3], pose[4], pose[5], pose[6]);
     for (let k = 3; k < 7; k++) pose[k] /= size;
     return pose;
@@ -51,11 +54,13 @@ export class Tracks {
     this.clock = Float64Array.from(array("clock"));
     this.clock.forEach((step, i, clock) => { clock[i] = i ? clock[i - 1] + step / 1e6 : step / 1e6; });
     for (const [body, pose] of Object.entries(still)) this.tracks.set(body, { pose: () => pose });
-    const periods = summed(array("periods")), places = rowsOf(array("places"), 3), turns = rowsOf(array("turns"), 4, Int16Array);
+    const periods = summed(array("periods")), places = rowsOf(array("places"), 3);
+    const turns = rowsOf(array("turns"), 4, Int16Array);
     let row = 0;
     for (const told of moving) {
       const end = row + told.spans.reduce((sum, span) => sum + span[2], 0);
-      this.tracks.set(told.body, new Track(told, periods.subarray(row, end), places.subarray(row * 3, end * 3), turns.subarray(row * 4, end * 4)));
+      const part = (rows, width) => rows.subarray(row * width, end * width);
+      this.tracks.set(told.body, new Track(told, part(periods, 1), part(places, 3), part(turns, 4)));
       row = end;
     }
   }
