@@ -65,6 +65,9 @@ AGAIN:  MOVE    P1
 """
 
 
+SEARCHING_PART = SEARCHING.replace("P1", "A")
+
+
 def numbered(events: list[AnyEvent], step: int) -> list[AnyEvent]:
     """The events of a step of another number."""
     return [
@@ -81,6 +84,21 @@ def test_a_moved_goal_names_the_place_of_the_search_that_moved_it(run: Recorded)
     first, second = corrections(of(seeking, *events, *anew))
     assert [(cause.name, cause.by, cause.place) for cause in first.causes] == [("place 2", By.SEARCH, "5")]
     assert second.causes == ()
+
+
+def test_a_look_is_named_only_for_what_the_search_does_not_explain(run: Recorded) -> None:
+    seeking = replace(run, trace=replace(run.trace, plan=encode(plan_of(SEARCHING_PART)).encode()))
+    seen = happened.PartSeen(time=11.5, part="BASE", x=0.0, y=0.0, yaw=0.0)
+    sent = numbered(step(seen, advanced(1), line=5), 2)
+    shifts = ((0.001, 0.0, 0.0), (0.021, 0.0, 0.0))
+    moves = [
+        event
+        for shift in shifts
+        for event in numbered(step(happened.Adjusted(time=12.0, goal="A", shift=shift)), 1)
+    ]
+    by_search, by_both = corrections(of(seeking, *numbered(step(), 0), *sent, *moves))
+    assert [cause.by for cause in by_search.causes] == [By.SEARCH]
+    assert [cause.by for cause in by_both.causes] == [By.LOOK, By.SEARCH]
 
 
 def advanced(count: int) -> AnyEvent:

@@ -6,7 +6,7 @@ from hashlib import sha256
 from pathlib import Path
 
 import pytest
-from recordings import Recording
+from recordings import BOUNDARIES, Recording
 from report_pages import Node, page_of, recorded, renamed, tree
 
 from handeye.see.recorded import Recorded
@@ -79,7 +79,8 @@ def test_whatever_a_name_is_it_is_shown_as_its_characters(run: Recorded, word: s
 
 
 def test_what_cannot_be_seen_is_not_hidden(run: Recorded) -> None:
-    assert "open\N{REPLACEMENT CHARACTER}" in tree(page_of(renamed(run, stage="open\u202e"))).text
+    page = tree(page_of(renamed(run, stage="open\u202e")))
+    assert page.one("felt").all("h3")[0].text == "open\N{REPLACEMENT CHARACTER}"
 
 
 def test_every_control_has_a_name_and_a_key(page: Node) -> None:
@@ -137,6 +138,16 @@ def test_a_trace_that_was_cut_short_says_so(tmp_path: Path) -> None:
     page = beginning(tmp_path / "trace.mcap", 12, whole=False)
     assert page.all("h1")[0].text == "The trace breaks off at line 2."
     assert "cut short" in page.one("run").text
+
+
+def test_a_run_taken_up_from_a_checkpoint_says_what_it_has_not_seen(tmp_path: Path) -> None:
+    taken_up = BOUNDARIES[2]
+    Recording(tmp_path / "trace.mcap").resume(taken_up).play(taken_up).close()
+    page = tree(page_of(Recorded(trace=read_trace(tmp_path / "trace.mcap"))))
+    assert "taken up from a checkpoint" in page.one("run").text
+    assert "1 picture taken before this trace begins" in page.one("seen").text
+    assert "6 guards met before this trace begins" in page.one("felt").text
+    assert len(page.one("felt").all("figure")) == 3
 
 
 def test_without_photographs_it_says_why(page: Node) -> None:

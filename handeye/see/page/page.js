@@ -33,7 +33,10 @@
     slider.setAttribute("aria-valuetext", told(now));
     clock.textContent = told(now);
     const stage = rowAt(run.stages, now), step = rowAt(run.steps, now);
-    bars.forEach((bar, number) => bar.classList.toggle("on", number === stage));
+    bars.forEach((bar, number) => {
+      bar.classList.toggle("on", number === stage);
+      bar.setAttribute("aria-current", number === stage);
+    });
     light(step < 0 ? null : byId(run.steps[step][1]));
     caption(stage);
     if (player) player.at(now); else photograph();

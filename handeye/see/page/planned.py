@@ -146,7 +146,7 @@ def _correction(correction: Correction) -> list[Markup]:
         cell(element("code", one_line(correction.step.text))),
         figure_cell(to_moment(correction.time, clock(correction.time))),
         *shifts,
-        cell(causes if correction.causes else "what the program did"),
+        element("td", causes if correction.causes else "what the program did", class_="wide"),
     ]
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.events import CameraBusy, ErrorTested, OperatorCalled, PanicStopped, StepStarted
+from handeye.events import CameraBusy, ErrorRaised, ErrorTested, OperatorCalled, PanicStopped, StepStarted
 from handeye.markup import Markup
 from handeye.plain_text import counted
 from handeye.program.cause_text import call_sentence
@@ -24,6 +24,8 @@ from handeye.tasks.interface import Words
 from handeye.trace.sentences import sentence
 
 _NEUTRAL: Final = Words(done="The referee found everything right.", product="the work")
+_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy)
+"""Events that are no word of the senses, or the reason itself."""
 _SAID: Final = 4
 """Last sentences of the senses that are told of a run that failed."""
 
@@ -149,9 +151,9 @@ def _senses(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[M
 def _tells(each: Told, run: Recorded, outcome: Outcome) -> bool:
     """An event tells what led to the outcome: it is of the same stage, and not the reason itself once more."""
     begun = max((run.seconds(stage.begin) for stage in run.trace.stages), default=0.0)
-    return begun < each.time <= outcome.time and not isinstance(
-        each.event, OperatorCalled | PanicStopped | ErrorTested | CameraBusy
-    )
+    call = outcome.call
+    reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error
+    return begun < each.time <= outcome.time and not (reason or isinstance(each.event, _UNTOLD))
 
 
 def _now(senses: Senses) -> str:

@@ -11,8 +11,8 @@ from handeye.see.photographs import Photograph
 from handeye.see.recorded import Recorded
 from handeye.trace.stages import Stage
 
-SPEEDS: Final = (1, 4, 16, 64)
-USUAL: Final = 4
+SPEEDS: Final = (1, 2, 4, 8, 16, 64)
+USUAL: Final = 8
 _KEYS: Final = (
     ("space", "play, pause"),
     ("← →", "a step"),
