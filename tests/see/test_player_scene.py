@@ -24,7 +24,7 @@ SCENE = """
     <mesh name="wedge" vertex="0 0 0  1 0 0  0 1 0  0 0 1"/>
   </asset>
   <worldbody>
-    <geom name="table_top" type="box" size="1 .5 .02" pos="0 0 -.02" material="bench" group="2"/>
+    <geom name="bench_top" type="box" size="1 .5 .02" pos="0 0 -.02" material="bench" group="2"/>
     <geom type="box" size=".5 .5 .5" pos="0 0 -.5" material="plain" group="1"/>
     <geom type="box" size="9 9 9" group="3"/>
     <camera name="studio" pos="2 0 1.2" xyaxes="0 1 0 -.4472 0 .8944" fovy="40"/>
@@ -74,7 +74,26 @@ def test_bodies_that_are_seen_or_will_be_are_there() -> None:
 
 def test_people_read_names_in_words() -> None:
     assert [body["label"] for body in seen().header["bodies"]] == ["world", "pin 0", "pin 1", "hidden"]
-    assert [part[0] for part in seen().header["meshes"][0]["parts"]] == ["plain", "table top"]
+
+
+def test_parts_of_the_world_have_names_and_what_is_behind_all_else_comes_last() -> None:
+    assert [part[0] for part in seen().header["meshes"][0]["parts"]] == ["plain", "bench top"]
+
+
+def test_people_read_what_the_scene_says_they_call_a_body() -> None:
+    text = '<custom><text name="called/pin" data="dowel"/><text name="called/hidden" data="wedge"/></custom>'
+    model = mujoco.MjModel.from_xml_string(SCENE.replace("<asset>", f"{text}<asset>"))
+    labels = [body["label"] for body in Unpacked.of(scene_bytes(model)).header["bodies"]]
+    assert labels == ["world", "dowel 0", "dowel 1", "wedge"]
+
+
+def test_a_material_is_as_glossy_as_the_scene_says() -> None:
+    text = '<custom><numeric name="gloss/plain" data=".7 .3"/></custom>'
+    told = Unpacked.of(
+        scene_bytes(mujoco.MjModel.from_xml_string(SCENE.replace("<asset>", f"{text}<asset>")))
+    )
+    assert [row[4:6] for row in told.header["materials"]].count([0.7, 0.3]) == 1
+    assert [row[4:6] for row in seen().header["materials"]].count([0.7, 0.3]) == 0
 
 
 def test_equal_bodies_share_a_surface() -> None:

@@ -59,6 +59,14 @@ def test_every_pose_of_every_period_comes_back(seed: int) -> None:
     assert worst[1] < TURN
 
 
+def test_a_body_that_turns_where_it_is_is_seen_to_turn() -> None:
+    half = np.pi / 2 * np.sin(np.linspace(0, 3, 400)) ** 2
+    rows = np.zeros((400, 7), dtype=np.float32)
+    rows[:, 3], rows[:, 6] = np.cos(half), np.sin(half)
+    seen = SeenTracks.of(made({"rotor": rows}))
+    assert max(off(seen.pose("rotor", k), rows[k])[1] for k in range(400)) < TURN
+
+
 def test_most_poses_are_left_out() -> None:
     seen = SeenTracks.of(made({"hand": wandering(6000, 1)}))
     ((_, _, kept),) = seen.unpacked.header["moving"][0]["spans"]

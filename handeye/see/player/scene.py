@@ -8,7 +8,7 @@ import numpy as np
 from handeye.cell.looks import LATENT, SCENERY, SEEN
 from handeye.see.player.materials import Palette
 from handeye.see.player.meshes import Meshes, Piece
-from handeye.see.player.names import body_name, part_name
+from handeye.see.player.names import Names
 from handeye.see.player.packing import packed
 from handeye.see.player.surfaces import surface
 from handeye.see.player.views import lamp, views
@@ -17,12 +17,12 @@ from handeye.trace.channels import WORLD
 
 def scene_bytes(model: Any) -> bytes:
     """The scene, compressed."""
-    palette, meshes, bodies = Palette(model), Meshes(), []
+    palette, names, meshes, bodies = Palette(model), Names(model), Meshes(), []
     for body in range(model.nbody):
-        pieces = _pieces(model, palette, body)
+        pieces = _pieces(model, palette, names, body)
         if pieces and body:
-            name = model.body(body).name
-            bodies.append({"name": name, "label": body_name(name), "mesh": meshes.number(pieces)})
+            told = {"name": model.body(body).name, "label": names.body(body), "mesh": meshes.number(pieces)}
+            bodies.append(told)
         elif pieces:
             parts = _small_first(pieces)
             bodies.append({"name": WORLD, "label": WORLD, "mesh": meshes.number_of_parts(parts)})
@@ -46,14 +46,14 @@ def lowest(model: Any) -> float:
     return min((float(part.points[:, 2].min()) for part in found if part is not None), default=-np.inf)
 
 
-def _pieces(model: Any, palette: Palette, body: int) -> list[Piece]:
+def _pieces(model: Any, palette: Palette, names: Names, body: int) -> list[Piece]:
     """The pieces of a body."""
     pieces = []
     for shape in seen(model, body):
         part = surface(model, shape)
         if part is not None:
             material = palette.number(shape, np.ptp(part.points, axis=0))
-            pieces.append(Piece(name=part_name(model, shape), surface=part, material=material))
+            pieces.append(Piece(name=names.part(shape), surface=part, material=material))
     return pieces
 
 

@@ -13,6 +13,7 @@ const SLOW = 45, FAST = 14; // ms: longer than this a draft should not take; bel
 const TIMED = 24; // every so many drafts one is timed
 const REST = [150, 800]; // ms without a change until the finer pictures begin: at least, and at most
 const SHOWN = 8; // exposures after which their mean is shown
+const PATIENCE = 4000; // ms after which no more are made than these
 const MOST = 2; // points to a CSS pixel
 
 class Player {
@@ -116,18 +117,19 @@ class Player {
     this.rest = clamp(2 * (now - this.drawn), ...REST); // where drawing is slow, the next change comes late
     this.drawn = now;
     this.camera.move(now);
-    if (this.changed) this.drawDraft();
-    else this.drawFine();
+    if (this.changed) this.drawDraft(now);
+    else this.drawFine(now);
     this.frames++;
     if (this.camera.glide) this.wake();
   }
 
-  drawDraft() {
+  drawDraft(now) {
     const timed = this.drafts++ % TIMED === 3, begun = performance.now();
     this.picture.draft(this.camera, ...this.size(DETAIL[this.detail]));
     if (timed) this.tune(begun);
     this.changed = false;
     this.exposed = -1;
+    this.changedAt = now;
     this.timer = setTimeout(() => this.next(), this.rest);
   }
 
@@ -140,12 +142,13 @@ class Player {
   }
 
   // First a draft in full size, then exposure after exposure.
-  drawFine() {
+  drawFine(now) {
     const [width, height] = this.size(1);
     if (this.exposed < 0) this.picture.draft(this.camera, width, height);
     else this.picture.expose(this.camera, width, height, this.exposed, this.exposures);
-    const count = ++this.exposed, done = count === this.exposures || !this.graphics.floats;
-    if (count && (done || count % SHOWN === 0)) this.picture.develop(width, height, count);
+    const count = ++this.exposed, shown = count > 0 && count % SHOWN === 0;
+    const done = count === this.exposures || !this.graphics.floats || (shown && now - this.changedAt > PATIENCE);
+    if (count && (done || shown)) this.picture.develop(width, height, count);
     if (!done) return this.next();
     this.rests = true;
     this.waiting.splice(0).forEach(tell => tell());
