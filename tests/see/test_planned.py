@@ -12,7 +12,8 @@ from handeye import events as happened
 from handeye.events import AnyEvent
 from handeye.planfile.store import encode
 from handeye.program.causes import PlacesTried
-from handeye.see.facts.planned import By, Why, corrections, ends
+from handeye.see.facts.corrections import By, corrections
+from handeye.see.facts.planned import Why, ends
 from handeye.see.facts.searches import searches
 from handeye.see.recorded import Recorded
 

@@ -42,6 +42,16 @@ class Outcome:
         """Nothing went wrong, as far as anybody looked."""
         return self.kind in ("right", "ended")
 
+    @property
+    def failed(self) -> bool:
+        """Something went wrong, or somebody thought so."""
+        return self.kind in ("wrong", "stopped", "panic")
+
+    @property
+    def ended(self) -> bool:
+        """The program came to its end."""
+        return self.kind in ("right", "wrong", "ended")
+
 
 def outcome(run: Recorded) -> Outcome:
     """The outcome of a run."""

@@ -12,6 +12,7 @@ SENSED: Final = (
     happened.ErrorRaised,
     happened.ErrorTested,
     happened.ExperimentMade,
+    happened.GuardFaint,
     happened.GuardTripped,
     happened.HandTold,
     happened.OperatorAnswered,

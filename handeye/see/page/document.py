@@ -11,9 +11,10 @@ from handeye.markup import Markup
 from handeye.plain_text import printable
 from handeye.see import player
 from handeye.see.animation import Animation
+from handeye.see.facts.corrections import corrections
 from handeye.see.facts.felt import guarded_motions, lost_trips
 from handeye.see.facts.outcome import outcome
-from handeye.see.facts.planned import corrections, ends
+from handeye.see.facts.planned import ends
 from handeye.see.facts.searches import searches
 from handeye.see.facts.seen import lost_pictures, seen_pictures
 from handeye.see.facts.told import told
@@ -25,7 +26,8 @@ from handeye.see.page.record import record_section
 from handeye.see.page.referee import referee_section
 from handeye.see.page.seen import seen_section
 from handeye.see.page.timing import timing_section
-from handeye.see.page.verdict import title, verdict
+from handeye.see.page.title import title
+from handeye.see.page.verdict import verdict
 from handeye.see.page.view import view_section, widths
 from handeye.see.photographs import Album
 from handeye.see.recorded import Recorded

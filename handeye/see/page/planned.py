@@ -1,11 +1,13 @@
 """Planned and found: how far motions ended from where they were planned to, and what had moved their goals."""
 
 from collections.abc import Iterator, Sequence
+from math import log10
 from typing import Final
 
 from handeye.markup import Markup
 from handeye.plain_text import counted, one_line
-from handeye.see.facts.planned import Cause, Correction, Ended, Why
+from handeye.see.facts.corrections import Cause, Correction
+from handeye.see.facts.planned import Ended, Why
 from handeye.see.facts.searches import Search
 from handeye.see.page.elements import (
     cell,
@@ -19,10 +21,11 @@ from handeye.see.page.elements import (
     table,
     to_moment,
 )
-from handeye.see.page.figures import clock, exact_clock, millimetres
+from handeye.see.page.figures import clock, millimetres
 from handeye.see.page.plots import Scale, dot, drawing, rule, words
+from handeye.see.page.searched import searched
 from handeye.trace.stages import Stage
-from handeye.units import INCH, MILLIMETRE
+from handeye.units import MILLIMETRE
 
 _WIDE: Final = 1160.0
 _HIGH: Final = 250.0
@@ -37,7 +40,6 @@ _MEANING: Final = {
 }
 _DECADES: Final = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
 """mm"""
-_SPIRAL: Final = 220.0
 
 
 def planned_section(
@@ -53,7 +55,7 @@ def planned_section(
         "Planned and found",
         *_ends(ends, stages, origin),
         *_corrections(corrections),
-        *_searches(searches),
+        *searched(searches),
     )
 
 
@@ -94,12 +96,10 @@ class _Decades:
     """The logarithmic scale of distances, mm."""
 
     def __init__(self, least: float, most: float) -> None:
-        from math import log10
-
-        self._log, self._scale = log10, Scale(log10(least), log10(most), _HIGH - _FOOT, 12.0)
+        self._scale = Scale(log10(least), log10(most), _HIGH - _FOOT, 12.0)
 
     def __call__(self, size: float) -> float:
-        return self._scale(self._log(size))
+        return self._scale(log10(size))
 
 
 def _grid(decades: Sequence[float], y: _Decades) -> Iterator[Markup]:
@@ -153,43 +153,3 @@ def _correction(correction: Correction) -> list[Markup]:
 def _cause(cause: Cause) -> Markup:
     link = to_moment(cause.time, f"line {cause.place}")
     return joined([element("b", cause.name), f" {cause.by} ", link])
-
-
-# -- searches ------------------------------------------------------------------------------------------------
-
-
-def _searches(searches: Sequence[Search]) -> Iterator[Markup]:
-    yield element("h3", "Searches")
-    if not searches:
-        yield note("No search went on from its first place.")
-        return
-    yield note("The places that were tried, seen from above: the ring is the first, the dot the last.")
-    yield element("div", *map(_search, searches), class_="figures")
-
-
-def _search(search: Search) -> Markup:
-    tried = counted(len(search.places), "place")
-    came = "there were no more" if search.exhausted else "the program went on from the last"
-    told = f"{tried} tried, from {exact_clock(search.times[0]) if search.times else 'the first'}: {came}"
-    caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
-    figure = element("figure", _spiral(search, told), caption)
-    return to_moment(search.times[-1], figure, class_="moment") if search.times else figure
-
-
-def _spiral(search: Search, told: str) -> Markup:
-    reach = max(max(abs(x), abs(y)) for x, y in search.places) or INCH
-    scale = Scale(-reach, reach, 14.0, _SPIRAL - 14.0)
-    points = [(scale(x), _SPIRAL - scale(y)) for x, y in search.places]
-    way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in points)
-    (first, *_, last) = points if len(points) > 1 else (points[0], points[0])
-    tried = [dot(x, y, 1.6, class_="axis") for x, y in points[1:-1]]
-    return drawing(
-        element("path", d=way, class_="curve"),
-        *tried,
-        dot(*first, 4.2, class_="ring"),
-        dot(*last, 3.6, class_="trip" if search.exhausted else "found"),
-        words(6, _SPIRAL - 6, f"± {millimetres(reach)} mm"),
-        wide=_SPIRAL,
-        high=_SPIRAL,
-        label=told,
-    )

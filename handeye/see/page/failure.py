@@ -1,0 +1,92 @@
+"""Why a run failed, at which line, and what the senses said."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from handeye.events import CameraBusy, ErrorRaised, ErrorTested, OperatorCalled, PanicStopped
+from handeye.markup import Markup
+from handeye.plain_text import counted
+from handeye.program.cause_text import call_sentence
+from handeye.report.result import Check
+from handeye.see.facts.outcome import Outcome
+from handeye.see.facts.senses import Senses, senses_at
+from handeye.see.facts.told import Told
+from handeye.see.page.elements import element, joined, to_moment
+from handeye.see.page.figures import exact_clock, millimetres
+from handeye.see.page.source import excerpt
+from handeye.see.recorded import Recorded
+from handeye.trace.sentences import sentence
+
+_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy)
+"""Events that are no word of the senses, or the reason itself."""
+_SAID: Final = 4
+"""Last sentences of the senses that are told."""
+
+
+def why(outcome: Outcome) -> Iterator[Markup]:
+    """Why the run failed."""
+    if outcome.call is not None:
+        call = outcome.call
+        reason = call_sentence(call.message, call.error, call.cause)
+        number = "" if call.error is None else f" (error {call.error})"
+        yield element("p", f"{reason[:1].upper()}{reason[1:]}{number}.", class_="reason")
+    for check in outcome.wrong:
+        yield element("p", _finding(check), class_="reason")
+    if outcome.kind == "broken off":
+        yield element(
+            "p", "The file ends in the middle; this page shows what there is of it.", class_="reason"
+        )
+    if outcome.kind == "panic":
+        yield element("p", "The drives are off and the brakes are set.", class_="reason")
+
+
+def _finding(check: Check) -> str:
+    """What the referee found wrong, as a sentence."""
+    subject = f"{check.subject[:1].upper()}{check.subject[1:]}"
+    return f"{subject}: {check.value:.3g} {check.unit}; right is {check.relation} {check.limit:.3g} {check.unit}."
+
+
+def where(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
+    """The line at which the run stands, what the senses said last, and how far it came."""
+    if outcome.step is not None:
+        yield excerpt(run.program, outcome.step)
+    yield from _senses(run, outcome, told)
+    yield from _reached(run, outcome)
+
+
+def _senses(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
+    """What the senses said last."""
+    rows = [(exact_clock(each.time), sentence(each.event)) for each in told if _tells(each, run, outcome)][
+        -_SAID:
+    ]
+    now = senses_at(run, outcome.time)
+    if now is not None:
+        rows.append((exact_clock(outcome.time), _now(now)))
+    if rows:
+        yield element("h2", "What the senses said")
+        items = (element("li", element("span", time, class_="time"), " ", said) for time, said in rows)
+        yield element("ol", *items, class_="senses")
+
+
+def _tells(each: Told, run: Recorded, outcome: Outcome) -> bool:
+    """An event tells what led to the outcome: it is of the same stage, and not the reason itself once more."""
+    begun = max((run.seconds(stage.begin) for stage in run.trace.stages), default=0.0)
+    call = outcome.call
+    reason = isinstance(each.event, ErrorRaised) and call is not None and each.event.number == call.error
+    return begun < each.time <= outcome.time and not (reason or isinstance(each.event, _UNTOLD))
+
+
+def _now(senses: Senses) -> str:
+    fingers = {(False, False): "neither finger touches", (True, True): "both fingers touch"}.get(
+        senses.fingers, f"only finger {1 if senses.fingers[0] else 2} touches"
+    )
+    force = "" if senses.force is None else f", the hand presses with {senses.force:.1f} N"
+    return f"the fingers are {millimetres(senses.gap)} mm open, {fingers}{force}"
+
+
+def _reached(run: Recorded, outcome: Outcome) -> Iterator[Markup]:
+    """How far the run came."""
+    done = {stage.name for stage in run.trace.stages if stage.status == "done"}
+    at = to_moment(outcome.time, exact_clock(outcome.time))
+    stages = counted(len(run.program.stages), "stage")
+    yield element("p", joined([f"{len(done)} of {stages} done, at ", at, "."]))

@@ -1,0 +1,37 @@
+"""What a run came to, in one sentence."""
+
+from typing import Final
+
+from handeye.see.facts.outcome import Outcome
+from handeye.see.recorded import Recorded
+from handeye.tasks import known
+from handeye.tasks.interface import Words
+
+_NEUTRAL: Final = Words(done="The referee found everything right.", product="the work")
+
+
+def title(run: Recorded, outcome: Outcome) -> str:
+    """What a run came to, in one sentence."""
+    words = _words(run)
+    line = "" if outcome.step is None else f"line {outcome.step.place}"
+    at = f" at {line}" if line else ""
+    match outcome.kind:
+        case "right":
+            return words.done
+        case "wrong":
+            return f"The program reported success, but {words.product} is not right."
+        case "ended":
+            return "The program came to its end."
+        case "stopped":
+            return f"Stopped{at}, in “{outcome.stage}”."
+        case "panic":
+            return f"The panic button was hit{at}, in “{outcome.stage}”."
+        case "paused":
+            return f"The run pauses before its end{f', after {line}' if line else ''}."
+        case "broken off":
+            return f"The trace breaks off{at}."
+
+
+def _words(run: Recorded) -> Words:
+    task = known(run.trace.head.task)
+    return _NEUTRAL if task is None else task.words
