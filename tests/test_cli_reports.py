@@ -7,10 +7,13 @@ import pytest
 from conftest import Command
 from recordings import BODIES, record
 from report_pages import tree
+from short_runs import begin
 
+from handeye.cli import job
 from handeye.errors import InvalidInput
 from handeye.see import animation, photographs
 from handeye.see.page.document import REPORT
+from handeye.tasks.water_pump.task import WaterPump
 from handeye.trace import channels, mcap_writer
 
 pytestmark = pytest.mark.slow
@@ -133,6 +136,22 @@ def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command,
 def test_a_report_of_an_assembly_needs_a_folder(command: Command) -> None:
     code, _, err = command("assemble", "--report")
     assert (code, err) == (2, "handeye: --report needs --out, the folder that the page is left in\n")
+
+
+@pytest.mark.parametrize("place_taken", [False, True])
+def test_a_run_leaves_its_report_and_is_what_it_is_without(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, place_taken: bool
+) -> None:
+    monkeypatch.setattr(WaterPump, "photographs", ())
+    out = tmp_path / "kept"
+    if place_taken:
+        monkeypatch.setattr(job, "REPORT", "pictures")
+    assert job.work(job.Job(start=begin("OPEN 1"), out=out, report=True)) == 0
+    told = f"its report: {out}/report.html"
+    if place_taken:
+        told = f"there is no report: {out}/pictures: the name of the report of handeye must end in .html"
+    assert told in capsys.readouterr().err.replace("\n", " ")
+    assert (out / "report.html").exists() is not place_taken
 
 
 def test_a_report_is_known_by_how_it_begins(command: Command, kept: Path) -> None:

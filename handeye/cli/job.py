@@ -258,10 +258,15 @@ class _Work:
         return result.exit_code
 
     def _report(self) -> None:
-        """Leave a page of the run in its folder, if that is wanted."""
-        if self.job.report and self.folder is not None:
-            place = self.folder.path / REPORT
+        """Leave a page of the run in its folder, if that is wanted; the run is what it is, whatever comes of that."""
+        if not self.job.report or self.folder is None:
+            return
+        place = self.folder.path / REPORT
+        try:
             write_report(self.folder.path, place, overwrite=True)
+        except InvalidInput as fault:
+            note(f"there is no report: {fault}")
+        else:
             note(f"its report: {place}")
 
     def _print(self, result: Result) -> None:
