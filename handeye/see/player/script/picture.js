@@ -2,6 +2,7 @@ import { disc, halton, inverse } from "./geometry.js";
 import { DRAFT, FINE, KEPT, RECALLED, WEIGHED } from "./shaders.js";
 
 const APERTURE = 0.002; // radius of the lens, m
+const HORIZON = 0.15; // sine of the height from which on there is sky: lower light would throw shadows on the walls
 const DARK = [0.13, 0.13, 0.135, 1];
 
 // Draws the bodies: a draft at once, or one exposure of many that are averaged.
@@ -61,15 +62,16 @@ export class Picture {
     for (let unit = 0; unit < 4; unit++) graphics.bind(unit, null, null); // what is drawn into is not read
   }
 
-  // One exposure of `count`: another point of the lamp, of the lens and of the sky above each time.
-  expose(camera, width, height, number, count) {
+  // One exposure of many: another point of the lamp, of the lens and of the sky above each time.
+  expose(camera, width, height, number) {
     const { graphics, shadows } = this, { gl } = graphics, i = number + 1;
     this.FINE ??= graphics.program(FINE);
     const light = shadows.light(disc(i, 2, 3)), lens = disc(i, 3, 5).map(x => x * APERTURE);
     const seen = camera.seen(width, height, [halton(i, 2) - 0.5, halton(i, 3) - 0.5], lens);
     shadows.drawFine(light);
-    const high = (number + 0.5) / count, turn = 2 * Math.PI * halton(i, 2), low = Math.sqrt(1 - high * high);
-    const dome = [Math.cos(turn) * low, Math.sin(turn) * low, Math.max(high, 0.06)];
+    const high = HORIZON + (1 - HORIZON) * halton(i, 3), low = Math.sqrt(1 - high * high);
+    const turn = 2 * Math.PI * halton(i, 2);
+    const dome = [Math.cos(turn) * low, Math.sin(turn) * low, high];
     const domeView = shadows.drawDome(dome, shadows.lamp.at);
     const one = graphics.target("one", width, height, [gl.RGBA8], gl.DEPTH_COMPONENT24);
     graphics.into(one, width, height);

@@ -145,7 +145,7 @@ class Player {
   drawFine(now) {
     const [width, height] = this.size(1);
     if (this.exposed < 0) this.picture.draft(this.camera, width, height);
-    else this.picture.expose(this.camera, width, height, this.exposed, this.exposures);
+    else this.picture.expose(this.camera, width, height, this.exposed);
     const count = ++this.exposed, shown = count > 0 && count % SHOWN === 0;
     const done = count === this.exposures || !this.graphics.floats || (shown && now - this.changedAt > PATIENCE);
     if (count && (done || shown)) this.picture.develop(width, height, count);
