@@ -220,4 +220,5 @@ class Browser:
         page.ask("Network.emulateNetworkConditions", **offline)
         page.resize(width, height)
         page.ask("Page.navigate", url=path.as_uri())
+        page.wait("location.protocol === 'file:' && document.readyState === 'complete'")
         return page
