@@ -85,7 +85,7 @@ def _leading(run: Recorded, outcome: Outcome) -> Photograph:
     task = known(run.trace.head.task)
     closest = _ROOM if task is None or not task.photographs else task.photographs[-1]
     view = closest if done else _at_hand(run, outcome.time)
-    shows = "The end of the run" if done else "The last moment"
+    shows = "The end of the run" if done else "The hand at the last moment"
     return _taken(run, [_Wanted(time=outcome.time, view=view, shows=shows)], LARGE)[0]
 
 

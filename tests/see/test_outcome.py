@@ -2,14 +2,16 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from recordings import EVENTS
-from report_pages import page_of, recorded, tree
+from report_pages import Node, page_of, recorded, tree
 from results import result
 
 from handeye import events as happened
 from handeye.events import AnyEvent
+from handeye.program.causes import NothingBetween
 from handeye.report.result import Check, Result
 from handeye.see.facts.outcome import Kind, outcome
 from handeye.see.recorded import Recorded
@@ -36,6 +38,11 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
 def ending(run: Recorded, events: Sequence[AnyEvent], came: Result | None = None) -> Recorded:
     """The run, which ends with these events after it has begun its first stage."""
     return replace(run, trace=replace(run.trace, events=(*run.trace.events[:2], *events)), result=came)
+
+
+def reasons(head: Node) -> list[str]:
+    """What is said large in the head of a page."""
+    return [node.text for node in head.all("p") if node.attributes.get("class") == "reason"]
 
 
 DONE = [EVENTS[-1]]
@@ -73,19 +80,40 @@ def test_a_call_that_was_answered_stops_nothing(run: Recorded) -> None:
 
 def test_a_run_that_failed_leads_with_the_reason_the_line_and_its_stage(run: Recorded) -> None:
     head = tree(page_of(ending(run, STOPPED))).all("header")[0]
-    assert head.all("h1")[0].text == "Stopped at line 4, in “open”."
-    assert "THE GASKET LIES OFF ITS PLACE." in head.text
+    assert head.all("h1")[0].text == "Stopped in “open”."
+    assert reasons(head) == ["The program calls the operator: “THE GASKET LIES OFF ITS PLACE”."]
+    assert head.all("h2")[0].text == "Line 4, 0:02.0 after it began, 0 of 3 stages done"
     (lit,) = (node for node in head.all("li") if node.attributes.get("class") == "on")
     assert (lit.text.strip(), lit.attributes["value"]) == ("CLOSE .1", "4")
+
+
+@pytest.mark.parametrize(
+    ("call", "reason"),
+    [
+        ({"error": 6}, "Error 6: the search has tried all its places."),
+        (
+            {"cause": NothingBetween(gap=0.0254)},
+            "The fingers do not both touch anything; the gap is 1.00 in.",
+        ),
+        ({}, "The program calls the operator."),
+    ],
+)
+def test_a_call_without_a_message_is_told_by_its_error_or_its_cause(
+    run: Recorded, call: dict[str, Any], reason: str
+) -> None:
+    called = happened.OperatorCalled(time=12.0, message="", **call)
+    head = tree(page_of(ending(run, [STARTED, called]))).all("header")[0]
+    assert reasons(head) == [reason]
 
 
 def test_work_that_is_not_right_leads_with_what_is_wrong(run: Recorded) -> None:
     came = result(completed=True, assembled=False, checks={"gap": WRONG})
     head = tree(page_of(ending(run, DONE, came))).all("header")[0]
     assert head.all("h1")[0].text == "The program reported success, but the pump is not right."
-    assert "Gap under a head: 5 mm; right is at most 0.2 mm." in head.text
+    assert reasons(head) == ["Gap under a head: 5 mm; right is at most 0.2 mm."]
 
 
 def test_the_panic_button_is_told_where_it_was_hit(run: Recorded) -> None:
-    head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=12.0)]))).all("h1")[0]
-    assert head.text == "The panic button was hit at line 4, in “open”."
+    head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=12.0)]))).all("header")[0]
+    assert head.all("h1")[0].text == "The panic button was hit in “open”."
+    assert reasons(head)[0].startswith("A person stopped the run, not the program.")

@@ -137,14 +137,16 @@ def test_a_trace_without_motion_gives_a_page(tmp_path: Path) -> None:
 def test_a_trace_that_was_cut_short_says_so(tmp_path: Path) -> None:
     page = beginning(tmp_path / "trace.mcap", 12, whole=False)
     assert page.all("h1")[0].text == "The trace breaks off at line 2."
-    assert "cut short" in page.one("run").text
+    assert "cut short" in page.all("header")[0].text
 
 
 def test_a_run_taken_up_from_a_checkpoint_says_what_it_has_not_seen(tmp_path: Path) -> None:
     taken_up = BOUNDARIES[2]
     Recording(tmp_path / "trace.mcap").resume(taken_up).play(taken_up).close()
     page = tree(page_of(Recorded(trace=read_trace(tmp_path / "trace.mcap"))))
-    assert "taken up from a checkpoint" in page.one("run").text
+    assert "taken up from a checkpoint" in page.all("header")[0].text
+    told = [bar.attributes["aria-label"] or "" for bar in page.one("stages").all("a")]
+    assert [bar.endswith("not recorded") for bar in told] == [True, True, False]
     assert "1 picture taken before this trace begins" in page.one("seen").text
     assert "6 guards met before this trace begins" in page.one("felt").text
     assert len(page.one("felt").all("figure")) == 3

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.events import CameraBusy, ErrorRaised, ErrorTested, OperatorCalled, PanicStopped
+from handeye.events import CameraBusy, ErrorRaised, ErrorTested, OperatorCalled, PanicStopped, PictureTaken
 from handeye.markup import Markup
 from handeye.plain_text import counted
 from handeye.program.cause_text import call_sentence
@@ -16,8 +16,9 @@ from handeye.see.page.figures import exact_clock, millimetres
 from handeye.see.page.source import excerpt
 from handeye.see.recorded import Recorded
 from handeye.trace.sentences import sentence
+from handeye.units import INCH
 
-_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy)
+_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, PictureTaken)
 """Events that are no word of the senses, or the reason itself."""
 _SAID: Final = 4
 """Last sentences of the senses that are told."""
@@ -25,33 +26,43 @@ _SAID: Final = 4
 
 def why(outcome: Outcome) -> Iterator[Markup]:
     """Why the run failed."""
+    yield from (element("p", reason, class_="reason") for reason in _reasons(outcome))
+
+
+def _reasons(outcome: Outcome) -> Iterator[str]:
     if outcome.call is not None:
-        call = outcome.call
-        reason = call_sentence(call.message, call.error, call.cause)
-        number = "" if call.error is None else f" (error {call.error})"
-        yield element("p", f"{reason[:1].upper()}{reason[1:]}{number}.", class_="reason")
-    for check in outcome.wrong:
-        yield element("p", _finding(check), class_="reason")
+        yield _called(outcome.call)
+    yield from map(_finding, outcome.wrong)
     if outcome.kind == "broken off":
-        yield element(
-            "p", "The file ends in the middle; this page shows what there is of it.", class_="reason"
-        )
+        yield "The file ends in the middle; this page shows what there is of it."
     if outcome.kind == "panic":
-        yield element("p", "The drives are off and the brakes are set.", class_="reason")
+        yield "A person stopped the run, not the program. The drives are off and the brakes are set."
+
+
+def _called(call: OperatorCalled) -> str:
+    """Why the program called the operator, as a sentence."""
+    reason = call_sentence(call.message, call.error, call.cause)
+    if call.message or not reason:
+        return f"The program calls the operator{f': “{reason}”' if reason else ''}."
+    return f"{_capital(reason)}." if call.error is None else f"Error {call.error}: {reason}."
 
 
 def _finding(check: Check) -> str:
     """What the referee found wrong, as a sentence."""
-    subject = f"{check.subject[:1].upper()}{check.subject[1:]}"
-    return f"{subject}: {check.value:.3g} {check.unit}; right is {check.relation} {check.limit:.3g} {check.unit}."
+    right = f"right is {check.relation} {check.limit:.3g} {check.unit}"
+    return f"{_capital(check.subject)}: {check.value:.3g} {check.unit}; {right}."
+
+
+def _capital(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}"
 
 
 def where(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
-    """The line at which the run stands, what the senses said last, and how far it came."""
+    """How far the run came, the line at which it stands, and what the senses said last."""
+    yield _reached(run, outcome)
     if outcome.step is not None:
         yield excerpt(run.program, outcome.step)
     yield from _senses(run, outcome, told)
-    yield from _reached(run, outcome)
 
 
 def _senses(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
@@ -63,7 +74,7 @@ def _senses(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[M
     if now is not None:
         rows.append((exact_clock(outcome.time), _now(now)))
     if rows:
-        yield element("h2", "What the senses said")
+        yield element("h2", "What the senses said last")
         items = (element("li", element("span", time, class_="time"), " ", said) for time, said in rows)
         yield element("ol", *items, class_="senses")
 
@@ -81,12 +92,14 @@ def _now(senses: Senses) -> str:
         senses.fingers, f"only finger {1 if senses.fingers[0] else 2} touches"
     )
     force = "" if senses.force is None else f", the hand presses with {senses.force:.1f} N"
-    return f"the fingers are {millimetres(senses.gap)} mm open, {fingers}{force}"
+    gap = f"{millimetres(senses.gap)} mm ({senses.gap / INCH:.2f} in)"
+    return f"the fingers are {gap} open, {fingers}{force}"
 
 
-def _reached(run: Recorded, outcome: Outcome) -> Iterator[Markup]:
+def _reached(run: Recorded, outcome: Outcome) -> Markup:
     """How far the run came."""
+    line = "" if outcome.step is None else f"Line {outcome.step.place}, "
     done = {stage.name for stage in run.trace.stages if stage.status == "done"}
     at = to_moment(outcome.time, exact_clock(outcome.time))
     stages = counted(len(run.program.stages), "stage")
-    yield element("p", joined([f"{len(done)} of {stages} done, at ", at, "."]))
+    return element("h2", joined([line, at, f" after it began, {len(done)} of {stages} done"]))

@@ -18,9 +18,9 @@ def in_figures(run: Recorded) -> Markup:
 def _figures(run: Recorded) -> Iterator[tuple[int, str]]:
     kinds = Counter(type(event) for event in run.trace.events)
     yield kinds[happened.PictureTaken], "pictures taken"
-    yield kinds[happened.GuardTripped], "motions ended by a guard"
+    yield kinds[happened.GuardTripped], "motions ended by what the hand felt"
     yield kinds[happened.Adjusted], "goals moved by what was sensed"
-    yield kinds[happened.SearchAdvanced], "places that searches went on to"
-    yield kinds[happened.ErrorTested], "errors tested by the program"
+    yield kinds[happened.SearchAdvanced], "further places tried in searches"
+    yield kinds[happened.ErrorTested], "times the program tested for an error"
     if run.result is not None and run.result.referee:
         yield sum(check.ok for check in run.result.referee.values()), "findings of the referee right"

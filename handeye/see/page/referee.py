@@ -13,7 +13,7 @@ from handeye.units import UNITS
 _WIDE: Final = 160.0
 _FULL: Final = 120.0
 """Where a bar reaches its limit."""
-_HIGH: Final = 8.0
+_HIGH: Final = 5.0
 
 
 def referee_section(run: Recorded) -> Markup:

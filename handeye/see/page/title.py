@@ -14,7 +14,6 @@ def title(run: Recorded, outcome: Outcome) -> str:
     """What a run came to, in one sentence."""
     words = _words(run)
     line = "" if outcome.step is None else f"line {outcome.step.place}"
-    at = f" at {line}" if line else ""
     match outcome.kind:
         case "right":
             return words.done
@@ -23,13 +22,13 @@ def title(run: Recorded, outcome: Outcome) -> str:
         case "ended":
             return "The program came to its end."
         case "stopped":
-            return f"Stopped{at}, in “{outcome.stage}”."
+            return f"Stopped in “{outcome.stage}”."
         case "panic":
-            return f"The panic button was hit{at}, in “{outcome.stage}”."
+            return f"The panic button was hit in “{outcome.stage}”."
         case "paused":
             return f"The run pauses before its end{f', after {line}' if line else ''}."
         case "broken off":
-            return f"The trace breaks off{at}."
+            return f"The trace breaks off{f' at {line}' if line else ''}."
 
 
 def _words(run: Recorded) -> Words:

@@ -8,10 +8,11 @@ from handeye.plain_text import counted
 from handeye.see.facts.faults import told_faults
 from handeye.see.facts.outcome import Outcome
 from handeye.see.facts.told import Told
-from handeye.see.page.elements import data_address, element
+from handeye.see.page.elements import element, note
 from handeye.see.page.failure import where, why
 from handeye.see.page.figures import clock, duration
 from handeye.see.page.in_figures import in_figures
+from handeye.see.page.photograph import shown
 from handeye.see.page.referee import used
 from handeye.see.page.title import title
 from handeye.see.photographs import Photograph
@@ -21,24 +22,39 @@ from handeye.tasks import known
 
 def verdict(run: Recorded, outcome: Outcome, told: Sequence[Told], photograph: Photograph) -> Markup:
     """The head of the page."""
+    words = element("div", _name(run), element("h1", title(run, outcome)), *_said(run, outcome, told))
+    return element("header", words, shown(photograph), class_="failed" if outcome.failed else None)
+
+
+def _name(run: Recorded) -> Markup:
+    """What the page is a report of."""
     head = run.trace.head
-    name = element("p", f"{head.program}, {head.world}", class_="name")
-    words = element(
-        "div", name, element("h1", title(run, outcome)), *_said(run, outcome, told), class_="said"
-    )
-    return element("header", words, _picture(photograph), class_="failed" if outcome.failed else None)
+    arm = f"the simulated {head.arm} arm carries out " if head.arm else ""
+    return element("p", f"Report of a run: {arm}{head.program} in the world of {head.world}", class_="name")
 
 
 def _said(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Markup]:
     """What there is to say below the title."""
     yield from why(outcome)
+    yield from _broken(run)
     if outcome.ended:
         yield element("p", *_course(run), class_="reason" if outcome.good else None)
         yield from _judged(run, outcome)
         yield in_figures(run)
     else:
         yield from where(run, outcome, told)
-    yield from _broken(run)
+    yield from _unseen(run)
+
+
+def _unseen(run: Recorded) -> Iterator[Markup]:
+    """What of the run the page cannot show."""
+    if run.begins > 0:
+        yield note(
+            f"This run was taken up from a checkpoint: its trace begins at {clock(run.begins)}. What happened before "
+            "is told by the checkpoint; how the arm moved, and what was seen and felt, was not recorded."
+        )
+    if not run.whole:
+        yield note(f"The trace was cut short: it ends at {clock(run.ends)}.")
 
 
 def _course(run: Recorded) -> Iterator[str]:
@@ -70,17 +86,6 @@ def _broken(run: Recorded) -> Iterator[Markup]:
     """What of its world was broken on purpose."""
     for name, meaning in told_faults(run):
         told = element("code", name)
-        yield element("p", "Broken on purpose in this world: ", told, f". {meaning}", class_="broken")
-
-
-def _picture(photograph: Photograph) -> Markup:
-    if photograph.webp is None:
-        return element("p", photograph.missing, class_="missing")
-    image = element(
-        "img",
-        src=data_address("image/webp", photograph.webp),
-        alt=photograph.shows,
-        width=photograph.width,
-        height=photograph.height,
-    )
-    return element("figure", image, element("figcaption", photograph.shows))
+        yield element(
+            "p", "Broken on purpose, unknown to the program: ", told, f". {meaning}", class_="broken"
+        )

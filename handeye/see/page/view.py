@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from handeye.markup import Markup
-from handeye.see.page.elements import data_address, element, joined, note, section, to_moment
+from handeye.see.page.elements import element, joined, section, to_moment
 from handeye.see.page.figures import clock
+from handeye.see.page.photograph import shown
 from handeye.see.page.source import listing
 from handeye.see.photographs import Photograph
 from handeye.see.recorded import Recorded
@@ -36,17 +37,7 @@ def view_section(run: Recorded, strip: Sequence[Photograph]) -> Markup:
         role="region",
         aria_label="script",
     )
-    return section("run", "The run", *_remarks(run), element("div", viewer, script, class_="beside"))
-
-
-def _remarks(run: Recorded) -> Iterator[Markup]:
-    if run.begins > 0:
-        yield note(
-            f"This run was taken up from a checkpoint: its trace begins at {clock(run.begins)}. What the "
-            "arm did before was not recorded, and is not shown; of events before, only what is known is told."
-        )
-    if not run.whole:
-        yield note(f"The trace was cut short: it ends at {clock(run.ends)}.")
+    return section("run", "The run", element("div", viewer, script, class_="beside"))
 
 
 def _screen(strip: Sequence[Photograph]) -> Markup:
@@ -65,15 +56,7 @@ def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
         yield element("p", missing, class_="missing")
     for each in strip:
         if each.webp is not None:
-            image = element(
-                "img",
-                src=data_address("image/webp", each.webp),
-                alt=each.shows,
-                width=each.width,
-                height=each.height,
-            )
-            caption = element("figcaption", each.shows)
-            yield element("figure", image, caption, data_time=f"{each.time:.2f}")
+            yield shown(each, data_time=f"{each.time:.2f}")
 
 
 def _caption() -> Markup:
@@ -96,11 +79,12 @@ def _bar(run: Recorded) -> Markup:
 
 def _stage(run: Recorded, number: int, stage: Stage) -> Markup:
     begin, end = run.seconds(stage.begin), run.seconds(stage.end)
-    told = f"{number} {stage.name}, {clock(begin)} to {clock(end)}, {stage.status}"
+    unseen = end <= run.begins
+    told = f"{number} {stage.name}, {clock(begin)} to {clock(end)}, {stage.status}{', not recorded' if unseen else ''}"
     return to_moment(
         begin,
         element("span", str(number)),
-        class_=f"s{number} {stage.status.replace(' ', '-')}",
+        class_=f"s{number} {'unseen' if unseen else stage.status.replace(' ', '-')}",
         title=told,
         aria_label=told,
     )
