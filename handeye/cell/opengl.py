@@ -67,7 +67,6 @@ class OpenGlRenderer(SceneRenderer):
         with _replaced(self._model.vis.quality, _QUALITY):
             made = mujoco.MjrContext(self._model, mujoco.mjtFontScale.mjFONTSCALE_100)
         mujoco.mjr_resizeOffscreen(_WIDTH, _HEIGHT, made)
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, made)
         return made
 
     def render(self, data: mujoco.MjData, view: View) -> Luminance:
@@ -77,6 +76,8 @@ class OpenGlRenderer(SceneRenderer):
         self._dull()
         context = self._context
         self._gl.make_current()
+        # each time: where somebody else has drawn in between, OpenGL still draws into their picture
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, context)
         viewport = mujoco.MjrRect(0, 0, _WIDTH, _HEIGHT)
         mujoco.mjr_render(viewport, self._scene, context)
         rgb = np.empty((_HEIGHT, _WIDTH, 3), dtype=np.uint8)

@@ -38,18 +38,22 @@ class Near:
 class Photographer:
     """Takes photographs of one scene, which OpenGL is given once; bodies may stand elsewhere in each."""
 
-    def __init__(self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW) -> None:
+    def __init__(
+        self, scene: mujoco.MjModel, *, width: int, height: int, shadow: int = FINE_SHADOW,
+        samples: int = FINE_SAMPLES,
+    ) -> None:  # fmt: skip
         """Make ready for pictures of a size.
 
         Args:
             shadow: points along a side of the map of shadows, which takes half the time.
+            samples: of each point.
 
         Raises:
             InvalidInput: no OpenGL on this machine.
         """
         _, self._gl = context()
         self._gl.make_current()
-        self._drawing = _drawing(scene, shadow)
+        self._drawing = _drawing(scene, shadow, samples)
         self._viewport = mujoco.MjrRect(0, 0, width, height)
         self._scene = mujoco.MjvScene(scene, maxgeom=MOST_GEOMS)
         self._option = mujoco.MjvOption()
@@ -66,14 +70,37 @@ class Photographer:
         Raises:
             InvalidInput: no such camera.
         """
-        self._gl.make_current()
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._drawing)
+        self.aimed(model, data, view)
+        return self.exposed()
+
+    def aimed(self, model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco.MjvScene:
+        """What is exposed: shapes, camera and lights of a view, which may be changed before.
+
+        Raises:
+            InvalidInput: no such camera.
+        """
         every = int(mujoco.mjtCatBit.mjCAT_ALL)
         mujoco.mjv_updateScene(model, data, self._option, None, _eye(model, data, view), every, self._scene)
-        mujoco.mjr_render(self._viewport, self._scene, self._drawing)
+        return self._scene
+
+    def exposed(self) -> Photograph:
+        """The picture of what was aimed at."""
+        self._draw()
         rgb = np.zeros((self._viewport.height, self._viewport.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(rgb, None, self._viewport, self._drawing)
         return rgb[::-1]
+
+    def depth(self) -> NDArray[np.float32]:
+        """The depth of what was aimed at, 0 at the near clipping plane and 1 at the far one, shape (height, width)."""
+        self._draw()
+        depth = np.zeros((self._viewport.height, self._viewport.width), dtype=np.float32)
+        mujoco.mjr_readPixels(None, depth, self._viewport, self._drawing)
+        return depth[::-1]
+
+    def _draw(self) -> None:
+        self._gl.make_current()
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._drawing)
+        mujoco.mjr_render(self._viewport, self._scene, self._drawing)
 
 
 def photograph(
@@ -130,13 +157,22 @@ def smooth_photograph(
     Raises:
         InvalidInput: as `photograph`, or the size cannot be.
     """
+    check_size(width, height)
+    fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
+    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+
+
+def check_size(width: int, height: int) -> None:
+    """See that a photograph can have a size.
+
+    Raises:
+        InvalidInput: it cannot.
+    """
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
         raise InvalidInput(
             f"a picture of {width} x {height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
         )
-    fine = photograph(model, data, camera=camera, width=2 * width, height=2 * height)
-    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
 
 def png(picture: Photograph) -> bytes:
@@ -146,11 +182,11 @@ def png(picture: Photograph) -> bytes:
     return data.tobytes()
 
 
-def _drawing(model: mujoco.MjModel, shadow: int) -> mujoco.MjrContext:
+def _drawing(model: mujoco.MjModel, shadow: int, samples: int) -> mujoco.MjrContext:
     """A drawing context with finer shadows than the television camera needs; it keeps its own settings."""
     quality = model.vis.quality
     before = quality.shadowsize, quality.offsamples
-    quality.shadowsize, quality.offsamples = shadow, FINE_SAMPLES
+    quality.shadowsize, quality.offsamples = shadow, samples
     try:
         return mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100)
     finally:

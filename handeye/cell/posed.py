@@ -8,10 +8,11 @@ import numpy as np
 
 from handeye.cell.looks import LATENT, SEEN
 
+Posed = tuple[mujoco.MjModel, mujoco.MjData]
+"""A scene as it stands."""
 
-def posed(
-    scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]]
-) -> tuple[mujoco.MjModel, mujoco.MjData]:
+
+def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> Posed:
     """A copy of a scene with its bodies where they were.
 
     It can only be looked at: shapes are put where they were, and joints are not.

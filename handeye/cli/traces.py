@@ -19,6 +19,7 @@ from handeye.cli.common import (
     say,
     screen,
 )
+from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.trace_files import trace_file
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
@@ -75,9 +76,11 @@ def photograph(
     camera: SceneCamera = "studio",
     width: Width = 1280,
     height: Height = 960,
+    how: FineOptions = PLAIN,
 ) -> int:
     """Photograph the cell as it was at a moment of a recorded run; nothing is simulated."""
     from handeye.cell.photograph import PNG, png
+    from handeye.cell.posed import posed
     from handeye.trace.trace import SHOWN
 
     check_place(output, PNG)
@@ -91,8 +94,8 @@ def photograph(
     if not begin - SHOWN <= at <= end + SHOWN:
         raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
     moment = trace.head.time + at
-    write_over(output, png(trace.frame(moment, camera, width=width, height=height)), PNG)
     state = trace.at(moment)
+    write_over(output, png(how.take(posed(trace.scene, state.poses), camera, width, height)), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {trace.elapsed(state.time):.2f} s{doing}")
     return 0

@@ -5,6 +5,7 @@ from typing import Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Height, Json, PictureFile, SceneCamera, WholeNumber, Width, put, say, screen
+from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.files import check_place, write_over
 from handeye.tasks import task
@@ -52,14 +53,16 @@ def render(
     camera: SceneCamera = "studio",
     width: Width = 1280,
     height: Height = 960,
+    how: FineOptions = PLAIN,
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
 ) -> int:
     """Render a picture of the work cell."""
-    from handeye.cell.photograph import PNG, photograph_png
+    from handeye.cell.photograph import PNG, check_size, png
 
     check_place(output, PNG)
-    cell = task().cell(broken(world.spec, fault), "ray")
-    write_over(output, photograph_png(cell.truth.model, cell.truth.data, camera, width, height), PNG)
+    check_size(width, height)
+    truth = task().cell(broken(world.spec, fault), "ray").truth
+    write_over(output, png(how.take((truth.model, truth.data), camera, width, height)), PNG)
     say(f"{output}: {width} x {height}, camera {camera}")
     return 0

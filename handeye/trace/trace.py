@@ -172,24 +172,29 @@ class Trace:
         return self._replay.seek(time)
 
     def frame(
-        self, time: float, camera: str = "studio", *, width: int = 1280, height: int = 960
-    ) -> NDArray[np.uint8]:
+        self, time: float, camera: str = "studio", *, width: int = 1280, height: int = 960,
+        fine: bool = False, film: str | None = None, exposures: int | None = None,
+    ) -> NDArray[np.uint8]:  # fmt: skip
         """Photograph of the cell as it was at a time (s), shape (height, width, 3), red, green, blue.
 
         Nothing is simulated. It takes OpenGL.
 
         Args:
             camera: one of the scene's cameras.
+            fine: average many exposures in a light of their own: soft shadows, depth of field, smooth edges.
+            film: of a fine photograph: `"colour"` or `"1973"`, black and white.
+            exposures: of a fine photograph: how many, 24 by default. With this or `film` it is a fine one.
 
         Raises:
-            InvalidInput: as `at`; the size cannot be; there is no such camera; there is no OpenGL here; or an older
-                handeye recorded the run, whose cell this one cannot build again.
+            InvalidInput: as `at`; the size or so many exposures cannot be; there is no such camera or film; there is
+                no OpenGL here; or an older handeye recorded the run, whose cell this one cannot build again.
         """
-        from handeye.cell.photograph import smooth_photograph
+        from handeye.cell.exposures import exposing, photographed
         from handeye.cell.posed import posed
 
+        how = exposing(fine=fine, film=film, exposures=exposures)
         model, data = posed(self.scene, self.at(time).poses)
-        return smooth_photograph(model, data, camera=camera, width=width, height=height)
+        return photographed(model, data, camera=camera, width=width, height=height, how=how)
 
     @cached_property
     def scene(self) -> Any:

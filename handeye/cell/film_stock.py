@@ -1,0 +1,91 @@
+"""Films: the light that goes with each, and what its photographs make of the light that fell on it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.lighting import Lighting
+from handeye.pose import Array
+
+GAMMA: Final = 2.2
+"""Light is the value of a point of the screen to this power."""
+_SEED: Final = 1973
+_LINES: Final = 960
+"""Height (points) of a picture whose grain is a point wide."""
+_VIGNETTE: Final = 0.11
+"""How much less light falls into the corners."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmStock:
+    """A film, and the light that goes with it."""
+
+    lighting: Lighting
+    developed: Callable[[Array], Array]
+    """Values on the screen, 0 to 1, from light, both of shape (height, width, 3)."""
+
+    def develop(self, light: Array) -> NDArray[np.uint8]:
+        """The photograph that light (1: white), shape (height, width, 3), makes."""
+        values = self.developed(light * _falloff(*light.shape[:2])[..., None])
+        return np.asarray(np.rint(255 * np.clip(values, 0, 1)), dtype=np.uint8)
+
+
+def _falloff(height: int, width: int) -> Array:
+    """Share of the light that passes a lens to each point, shape (height, width)."""
+    y, x = np.linspace(-1, 1, height), np.linspace(-1, 1, width)
+    return np.asarray(1 - _VIGNETTE * np.add.outer(y**2, x**2))
+
+
+def _shoulder(light: Array, gain: float) -> Array:
+    """Light that is not cut off where it is much, but pressed together."""
+    bright = gain * light
+    return np.asarray(1.28 * bright * (1 + bright / 9) / (1 + bright))
+
+
+def _colour(light: Array) -> Array:
+    return np.asarray(np.clip(_shoulder(light, 3.0), 0, 1) ** (1 / GAMMA))
+
+
+def _black_and_white(light: Array) -> Array:
+    """Hard paper: deep shadows, and a tone of its own where it is white."""
+    grey = np.clip(_shoulder(light @ _PANCHROMATIC, 4.5), 0, 1) ** (1 / GAMMA)
+    steep = grey * grey * (3 - 2 * grey)
+    tone = 0.06 + 0.90 * (0.6 * steep + 0.4 * grey) + _grain(*grey.shape)
+    return np.asarray(tone[..., None] * _PAPER)
+
+
+_PANCHROMATIC: Final = np.array([0.30, 0.55, 0.15])
+"""How much a black and white film makes of red, green and blue."""
+_PAPER: Final = np.array([1.0, 0.985, 0.945])
+_GRAIN: Final = 0.016
+"""How much a point differs by the grain, standard deviation."""
+
+
+def _grain(height: int, width: int) -> Array:
+    """Always the same in a picture of the same size."""
+    noise = np.random.default_rng(_SEED).standard_normal((height, width))
+    soft = cv2.GaussianBlur(noise, (0, 0), max(0.3, 0.8 * height / _LINES))
+    return np.asarray(_GRAIN * soft / soft.std())
+
+
+FILMS: Final[Mapping[str, FilmStock]] = {
+    "colour": FilmStock(
+        lighting=Lighting(
+            lamp=(0.76, 0.69, 0.59), gloss=0.8, sky=(0.36, 0.39, 0.44), everywhere=(0.21, 0.215, 0.23),
+            stand=(0.9, -0.95, 0.9), radius=0.12,
+        ),
+        developed=_colour,
+    ),
+    "1973": FilmStock(
+        lighting=Lighting(
+            lamp=(0.90, 0.88, 0.85), gloss=0.9, sky=(0.30, 0.30, 0.30), everywhere=(0.15, 0.15, 0.15),
+            stand=(-0.7, 0.55, 0.75), radius=0.06,
+        ),
+        developed=_black_and_white,
+    ),
+}  # fmt: skip
+"""By their names."""
