@@ -67,6 +67,7 @@ GROUPS: Final = {
         "Motion": "trace.motion.Motion",
         "Forces": "trace.forces.Forces",
         "Moment": "trace.replay.Moment",
+        "Video": "video.making.Video",
     },
     "Tasks": {
         "handeye.Task": "tasks.interface.Task",

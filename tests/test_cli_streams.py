@@ -42,6 +42,7 @@ CHEAP = {
     "schema": "schema",
     "show": "show run",
     "report": "report ✓",
+    "video": "video ✓",
     "trace show": "trace show run",
     "trace stats": "trace stats run",
     "trace photograph": "trace photograph run --at 9e9 -o ✓.png",

@@ -48,6 +48,7 @@ LAYERS = [
         "teaching",
         "report",
         "see",
+        "video",
         "trace",
         "trials",
         "editor",
@@ -239,7 +240,7 @@ def test_nobody_but_a_task_names_its_robot(module: str) -> None:
     assert {other for other in own(module) if other.startswith("arm.robots.")} <= {"arm.robots.__init__"}
 
 
-@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] == "see"])
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in {"see", "video"}])
 def test_what_shows_runs_drives_none(module: str) -> None:
     drivers = {"execution", "runs", "debugger", "teaching", "cli", "door"}
     assert {o for o in own(module) if o.split(".")[0] in drivers} == set()

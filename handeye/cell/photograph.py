@@ -33,6 +33,8 @@ class Near:
     """W, m"""
     distance: float
     """m"""
+    turned: float = 0.0
+    """How far the eye has gone round the place from there, counterclockwise seen from above, degrees."""
 
 
 class Photographer:
@@ -135,7 +137,7 @@ def _eye(model: mujoco.MjModel, data: mujoco.MjData, view: str | Near) -> mujoco
         return eye
     way = np.subtract(view.place, data.cam_xpos[_number(model, view.camera)])
     eye.type, eye.lookat[:], eye.distance = mujoco.mjtCamera.mjCAMERA_FREE, view.place, view.distance
-    eye.azimuth = np.degrees(np.arctan2(way[1], way[0]))
+    eye.azimuth = np.degrees(np.arctan2(way[1], way[0])) + view.turned
     eye.elevation = np.degrees(np.arctan2(way[2], np.hypot(way[0], way[1])))
     return eye
 

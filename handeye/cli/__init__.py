@@ -21,6 +21,7 @@ from handeye.cli import (
     teaching,
     traces,
     trials,
+    videos,
     worlds,
 )
 from handeye.cli.common import complain, note, notes, screen
@@ -48,6 +49,7 @@ for commands in (
     runs,
     records,
     reports,
+    videos,
     teaching,
     scripts,
     editing,

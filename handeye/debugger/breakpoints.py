@@ -8,6 +8,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.debugger.source_places import Place, named_place
 from handeye.diagnostics import nearest, quoted
 from handeye.errors import ERRORS, InvalidInput
+from handeye.program.stage_names import stage_called, stage_index
 from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
 from handeye.runs.system import Listing
 from handeye.source import line_name
@@ -51,15 +52,7 @@ def stage_number(text: str, listing: Listing) -> int:
     Raises:
         InvalidInput: there is no such stage, or more than one.
     """
-    stages = listing.stages
-    if _NUMBER.fullmatch(text.strip()):
-        if not 1 <= int(text) <= len(stages):
-            raise InvalidInput(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
-        return int(text) - 1
-    found = _stage(text, listing)
-    if found is None:
-        raise InvalidInput(f"there is no stage {quoted(text.strip())}{_meant_stage(text, listing)}")
-    return found
+    return stage_index(text, listing.stages)
 
 
 def step_number(text: str, listing: Listing) -> int:
@@ -132,38 +125,5 @@ def _at_word(text: str, listing: Listing) -> AnyStop | None:
 
 
 def _at_stage(text: str, listing: Listing) -> AnyStop | None:
-    stage = _stage(text, listing)
+    stage = stage_called(text, listing.stages)
     return None if stage is None else AtStage(stage=stage, name=listing.stages[stage])
-
-
-def _stage(text: str, listing: Listing) -> int | None:
-    """The index of the stage that has this name, or else begins so, or else has it somewhere; None if none does.
-
-    Raises:
-        InvalidInput: several begin so, or have it somewhere.
-    """
-    wanted = text.strip().casefold()
-    names = [name.casefold() for name in listing.stages]
-    if not wanted:
-        return None
-    for fits, how in ((str.__eq__, "are"), (str.startswith, "begin with"), (str.__contains__, "contain")):
-        found = [number for number, name in enumerate(names) if fits(name, wanted)]
-        if len(found) > 1:
-            several = ", ".join(f"{number + 1} {quoted(listing.stages[number])}" for number in found)
-            raise InvalidInput(f"{len(found)} stages {how} {quoted(text.strip())}: {several}")
-        if found:
-            return found[0]
-    return None
-
-
-def _meant_stage(text: str, listing: Listing) -> str:
-    """`; did you mean ...` with the stages that have a name or a word like this one, or else all there are."""
-    typed = text.strip().casefold()
-    words = {word for name in listing.stages for word in (name, *name.split())}
-    near = nearest(typed, words, len(typed) // 3)
-    if near is None:
-        known = ", ".join(f"{number} {quoted(name)}" for number, name in enumerate(listing.stages, 1))
-        return f"; the program has {known}"
-    return (
-        f"; did you mean {' or '.join(quoted(name) for name in listing.stages if near in name.casefold())}?"
-    )

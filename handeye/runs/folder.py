@@ -1,4 +1,5 @@
-"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result, report, and what it cost the host.
+"""The folder that a run leaves: plan, events, trace, checkpoints, pictures, result, report, video, and what it cost
+the host.
 
 It is an observer: it writes down what happens and changes nothing.
 """
@@ -38,6 +39,7 @@ CHECKPOINTS: Final = "checkpoints"
 PICTURES: Final = "pictures"
 HOST: Final = "host.json"
 REPORT: Final = "report.html"
+VIDEO: Final = "video.webp"
 
 
 class HoldsRun(InvalidInput):
@@ -107,7 +109,7 @@ class RunFolder(Observer):
             InvalidInput: the folder cannot be written to.
         """
         self.kept.drop_after(-1)
-        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST, REPORT)]
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST, REPORT, VIDEO)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, written(start.setup))
@@ -157,7 +159,7 @@ class RunFolder(Observer):
 
     def _goes_on(self) -> None:
         """What the run came to before is no longer its result."""
-        for name in (RESULT, REPORT):
+        for name in (RESULT, REPORT, VIDEO):
             (self.path / name).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
@@ -281,7 +283,7 @@ def _refuse_run(path: Path) -> None:
 
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
-    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES, HOST, REPORT}
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES, HOST, REPORT, VIDEO}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)
     others = (

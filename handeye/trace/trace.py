@@ -6,10 +6,11 @@
 >>> trace.at(trace.head.time + 137).step.text    # what the arm was doing 137 s after the run began
 """
 
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Final, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import msgspec
 import numpy as np
@@ -30,6 +31,9 @@ from handeye.trace.records import RawMessage
 from handeye.trace.replay import Moment, Replay
 from handeye.trace.stages import Stage, stages
 from handeye.trace.steps import done_steps
+
+if TYPE_CHECKING:
+    from handeye.video.making import Video
 
 SHOWN: Final = 0.01
 """s to which times are shown; what is typed is as exact as that."""
@@ -195,6 +199,48 @@ class Trace:
         how = exposing(fine=fine, film=film, exposures=exposures)
         model, data = posed(self.scene, self.at(time).poses)
         return photographed(model, data, camera=camera, width=width, height=height, how=how)
+
+    def video(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        camera: str = "orbit",
+        width: int = 480,
+        height: int = 360,
+        seconds: float | None = None,
+        speed: float | None = None,
+        first: str | int | None = None,
+        last: str | int | None = None,
+        captions: bool = False,
+        overwrite: bool = False,
+    ) -> "Video":
+        """Make a video of the run: an animated WebP or a WebM, by the ending of its name.
+
+        The long waits for the camera's mechanism are cut out. Nothing is simulated. It takes OpenGL.
+
+        Args:
+            camera: `orbit` sways round the cell, `follow` goes near to where the hand works; or one of the scene's.
+            seconds: how long it is, 14 where nobody says; short stages are slowed down so that each can be seen.
+            speed: how many times as fast as the run all of it is, in the place of a length.
+            first: the stage to begin with: its number, its name, or a piece of its name.
+            last: the stage to end with.
+            captions: tell stage and clock, and stand still for each picture that the program takes.
+            overwrite: a video that is there may be replaced.
+
+        Raises:
+            InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; there is no such length or
+                speed; or it cannot be written there.
+        """
+        from handeye.door.arguments import given_file
+        from handeye.video.making import make_video
+        from handeye.video.wanted import Wanted
+
+        wanted = Wanted(
+            camera=camera, width=width, height=height, seconds=seconds, speed=speed, first=first, last=last,
+            captions=captions,
+        )  # fmt: skip
+        file = given_file(path, "a video is written to a file that ends in .webp or .webm")
+        return make_video(self, file, wanted, overwrite=overwrite)
 
     @cached_property
     def scene(self) -> Any:

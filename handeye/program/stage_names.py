@@ -1,0 +1,57 @@
+"""Stages as people name them: by number, by name, by a piece of the name."""
+
+import re
+from collections.abc import Sequence
+from typing import Final
+
+from handeye.diagnostics import nearest, quoted
+from handeye.errors import InvalidInput
+
+_NUMBER: Final = re.compile(r"[0-9]{1,9}")
+
+
+def stage_index(text: str, stages: Sequence[str]) -> int:
+    """The index of a stage given by its number from 1, its name, or a piece of it that no other name has.
+
+    Raises:
+        InvalidInput: there is no such stage, or more than one.
+    """
+    if _NUMBER.fullmatch(text.strip()):
+        if not 1 <= int(text) <= len(stages):
+            raise InvalidInput(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
+        return int(text) - 1
+    found = stage_called(text, stages)
+    if found is None:
+        raise InvalidInput(f"there is no stage {quoted(text.strip())}{_meant(text, stages)}")
+    return found
+
+
+def stage_called(text: str, stages: Sequence[str]) -> int | None:
+    """The index of the stage that has this name, or else begins so, or else has it somewhere; None if none does.
+
+    Raises:
+        InvalidInput: several begin so, or have it somewhere.
+    """
+    wanted = text.strip().casefold()
+    names = [name.casefold() for name in stages]
+    if not wanted:
+        return None
+    for fits, how in ((str.__eq__, "are"), (str.startswith, "begin with"), (str.__contains__, "contain")):
+        found = [number for number, name in enumerate(names) if fits(name, wanted)]
+        if len(found) > 1:
+            several = ", ".join(f"{number + 1} {quoted(stages[number])}" for number in found)
+            raise InvalidInput(f"{len(found)} stages {how} {quoted(text.strip())}: {several}")
+        if found:
+            return found[0]
+    return None
+
+
+def _meant(text: str, stages: Sequence[str]) -> str:
+    """`; did you mean ...` with the stages that have a name or a word like this one, or else all there are."""
+    typed = text.strip().casefold()
+    words = {word for name in stages for word in (name, *name.split())}
+    near = nearest(typed, words, len(typed) // 3)
+    if near is None:
+        known = ", ".join(f"{number} {quoted(name)}" for number, name in enumerate(stages, 1))
+        return f"; the program has {known}"
+    return f"; did you mean {' or '.join(quoted(name) for name in stages if near in name.casefold())}?"

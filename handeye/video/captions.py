@@ -1,0 +1,136 @@
+"""Words over the frames of a video: the stage under way and its place among all, the clock, and pictures."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.photograph import Photograph
+
+Mask = NDArray[np.float32]
+"""How much of the ink is on each point, 0 to 1, shape (height, width)."""
+_BAND, _BAR, _LETTERS, _MARGIN = 0.105, 0.016, 0.05, 0.025
+"""Heights of the band of words, of the bar of stages below it and of letters, and the space beside these, in heights of
+the frame."""
+_DARK: Final = 0.35
+"""What is left of the light under the words."""
+_SMALLEST: Final = 0.6
+"""Of their height that letters have left before words are cut."""
+_INK: Final = np.array([255, 250, 240], dtype=np.float32)
+DONE: Final = np.array([228, 164, 52], dtype=np.uint8)
+STOPPED: Final = np.array([214, 48, 40], dtype=np.uint8)
+TO_COME: Final = np.array([70, 70, 74], dtype=np.uint8)
+_INSET: Final = 0.42
+"""Height of a picture over the frame."""
+_FINER: Final = 4
+_FONT: Final = cv2.FONT_HERSHEY_SIMPLEX
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Caption:
+    """What is said over a frame."""
+
+    words: str
+    clock: str
+    stages: int
+    """How many there are."""
+    begun: int
+    """How many of them have begun."""
+    stopped: bool
+    """The last one that has begun was stopped."""
+
+
+def captioned(frame: Photograph, caption: Caption, inset: Photograph | None) -> Photograph:
+    """A frame with a caption on its lower edge, and a picture in its upper right corner."""
+    said = frame.copy()
+    if inset is not None:
+        _put_inset(said, inset)
+    _put_words(said, caption)
+    _put_bar(said, caption)
+    return said
+
+
+def _put_inset(frame: Photograph, inset: Photograph) -> None:
+    """Lay a picture over the upper right corner, with a white edge."""
+    height = max(round(_INSET * len(frame)), 1)
+    width = min(round(height * inset.shape[1] / inset.shape[0]), frame.shape[1])
+    edge = max(len(frame) // 180, 1)
+    small = cv2.resize(inset, (width, height), interpolation=cv2.INTER_AREA)
+    framed = cv2.copyMakeBorder(small, edge, edge, edge, edge, cv2.BORDER_CONSTANT, value=(240, 240, 235))
+    margin = round(_MARGIN * len(frame))
+    place = frame[margin:, ::-1][: len(framed), margin : margin + framed.shape[1]]
+    place[:] = framed[: len(place), ::-1][:, : place.shape[1]]
+
+
+def _put_words(frame: Photograph, caption: Caption) -> None:
+    """Stage on the left, clock on the right, on a darkened band."""
+    height, width = frame.shape[:2]
+    top, bottom = round((1 - _BAND - _BAR) * height), round((1 - _BAR) * height)
+    band = frame[top:bottom]
+    margin = round(2 * _MARGIN * height)
+    clock = lettered(caption.clock, band.shape[:2], width, right=True, margin=margin)
+    free = width - 3 * margin - _inked(clock)
+    ink = np.maximum(clock, lettered(caption.words, band.shape[:2], free, margin=margin))[..., None]
+    band[:] = (band * _DARK * (1 - ink) + _INK * ink).astype(np.uint8)
+
+
+def _put_bar(frame: Photograph, caption: Caption) -> None:
+    """A piece for each stage: done, stopped, to come."""
+    height, width = frame.shape[:2]
+    bar = frame[round((1 - _BAR) * height) :]
+    bar[:] = 0
+    edges = np.linspace(0, width, caption.stages + 1).round().astype(int)
+    for number, (begin, end) in enumerate(pairwise(edges)):
+        last = number == caption.begun - 1
+        colour = TO_COME if number >= caption.begun else STOPPED if last and caption.stopped else DONE
+        bar[:, begin : max(end - 1, begin + 1)] = colour
+
+
+def lettered(words: str, size: Sequence[int], room: int, *, margin: int, right: bool = False) -> Mask:
+    """A line of letters in the middle of a band (height, width), within its room (points)."""
+    height, width = size
+    words, scale = _fitted(words, _FINER * height * _LETTERS / _BAND / _letter_height(), _FINER * room)
+    long, high = _extent(words, scale)
+    left = _FINER * (width - margin) - long if right else _FINER * margin
+    large = np.zeros((_FINER * height, _FINER * width), dtype=np.uint8)
+    place = left, (_FINER * height + high) // 2
+    cv2.putText(large, words, place, _FONT, scale, 255, _weight(scale), cv2.LINE_AA)
+    small = cv2.resize(large, (width, height), interpolation=cv2.INTER_AREA)
+    return np.asarray(small / np.float32(255), dtype=np.float32)
+
+
+def _fitted(words: str, scale: float, room: int) -> tuple[str, float]:
+    """Words as long as a room (points), and their scale: smaller first, then shorter."""
+    least = _SMALLEST * scale
+    while scale > least and _extent(words, scale)[0] > room:
+        scale *= 0.95
+    whole = words
+    while words and _extent(words, scale)[0] > room:
+        whole = whole[:-1]
+        words = f"{whole.rstrip()}..." if whole else ""
+    return words, scale
+
+
+def _extent(words: str, scale: float) -> tuple[int, int]:
+    """Width and height of words, points."""
+    (long, high), _ = cv2.getTextSize(words, _FONT, scale, _weight(scale))
+    return long, high
+
+
+def _letter_height() -> float:
+    """Points that a capital is high at scale 1."""
+    return float(_extent("M", 1)[1])
+
+
+def _weight(scale: float) -> int:
+    return max(round(1.6 * scale), 1)
+
+
+def _inked(mask: Mask) -> int:
+    """How wide what is written is."""
+    columns = np.flatnonzero(mask.any(axis=0))
+    return int(np.ptp(columns)) if len(columns) else 0

@@ -1,0 +1,156 @@
+"""What each frame of a video shows: which moment of the run, from where, and with which words."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.diagnostics import quoted, visible
+from handeye.errors import InvalidInput
+from handeye.planfile.store import decode
+from handeye.pose import Array
+from handeye.program.stage_names import stage_index
+from handeye.see.page.figures import clock
+from handeye.trace.pictures import TakenPicture
+from handeye.trace.stages import BROKEN_OFF, Stage
+from handeye.trace.trace import SHOWN, Trace
+from handeye.video.captions import Caption
+from handeye.video.formats import RATE
+from handeye.video.passages import Passage, Span, at_speed, passage_at, passages, within
+from handeye.video.views import View, views
+from handeye.video.wanted import LONGEST, SECONDS, Wanted
+
+_HELD: Final = 0.1, 1.5
+"""How long the last frame stands: of the whole video, and s at most."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Frame:
+    """A frame of a video."""
+
+    time: float
+    """s, on the cell's clock"""
+    view: View
+    caption: Caption | None
+    looked_at: TakenPicture | None
+    """The picture that is shown in a corner."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Storyboard:
+    """The frames of a video in order, and for how many periods longer the last of them stands."""
+
+    frames: tuple[Frame, ...]
+    held: int
+
+    @property
+    def seconds(self) -> float:
+        """How long the video is."""
+        return (len(self.frames) + self.held) / RATE
+
+
+def storyboard(trace: Trace, wanted: Wanted) -> Storyboard:
+    """Plan a video of a recorded run.
+
+    Raises:
+        InvalidInput: there is no such stage or camera, nothing was recorded there, it would be too long, or an older
+            handeye recorded the run.
+    """
+    shown = passages(trace, _span(trace, wanted), looks=wanted.captions)
+    lasts, held = _paced(shown, wanted)
+    frames = max(round(lasts.sum() * RATE), 1)
+    at, over = passage_at(lasts, np.linspace(0, lasts.sum(), frames))
+    chosen = [shown[number] for number in at]
+    eyes = views(trace, wanted.camera, [passage.stage for passage in chosen], RATE)
+    program = _stages(trace)
+    return Storyboard(
+        frames=tuple(
+            Frame(
+                time=time,
+                view=view,
+                caption=_caption(trace, program, passage, time) if wanted.captions else None,
+                looked_at=passage.looked_at,
+            )
+            for passage, time, view in zip(chosen, _times(chosen, over), eyes, strict=True)
+        ),
+        held=held,
+    )
+
+
+def _times(chosen: Sequence[Passage], over: Array) -> list[float]:
+    """Times of the run (s) at which so much of each passage is over."""
+    spans = np.array([(passage.begin, passage.end) for passage in chosen])
+    return list((spans[:, 0] + over * np.ptp(spans, axis=1)).tolist())
+
+
+def _span(trace: Trace, wanted: Wanted) -> Span:
+    """The time of the run that is asked for, as far as it was recorded.
+
+    Raises:
+        InvalidInput: there is no such stage, or nothing between them.
+    """
+    program, (begin, end) = _stages(trace), trace.covers
+    first, last = (
+        None if given is None else stage_index(str(given), program) for given in (wanted.first, wanted.last)
+    )
+    if first is not None and last is not None and last < first:
+        raise InvalidInput(f"stage {quoted(program[last])} comes before {quoted(program[first])}")
+    if first is not None:
+        begin = max(begin, _carried_out(trace, program[first])[0].begin)
+    if last is not None:
+        end = min(end, _carried_out(trace, program[last])[-1].end)
+    return begin, end
+
+
+def _carried_out(trace: Trace, name: str) -> list[Stage]:
+    """A stage each time that it was carried out.
+
+    Raises:
+        InvalidInput: it was not.
+    """
+    found = [stage for stage in trace.stages if stage.name == name]
+    if not found:
+        there = ", ".join(quoted(stage) for stage in dict.fromkeys(stage.name for stage in trace.stages))
+        raise InvalidInput(f"{trace.name} does not come to stage {quoted(name)}; it has {there or 'none'}")
+    return found
+
+
+def _stages(trace: Trace) -> tuple[str, ...]:
+    """The stages of the program."""
+    return decode(trace.plan, f"the plan in {trace.name}").program.stages
+
+
+def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:
+    """How long each passage is in the video (s), and for how many periods more its last frame stands.
+
+    Raises:
+        InvalidInput: the video would be too long.
+    """
+    share, most = _HELD
+    if wanted.speed is None:
+        periods = max(round((wanted.seconds or SECONDS) * RATE), 1)
+        held = round(min(share * periods, most * RATE))
+        return within(shown, (periods - held) / RATE), held
+    lasts = at_speed(shown, wanted.speed)
+    if lasts.sum() > LONGEST:
+        raise InvalidInput(
+            f"at {wanted.speed:g} times the speed of the run the video would take {lasts.sum():.0f} s; "
+            f"it may take {LONGEST:g} s"
+        )
+    return lasts, round(min(share * lasts.sum(), most) * RATE)
+
+
+def _caption(trace: Trace, program: tuple[str, ...], passage: Passage, time: float) -> Caption:
+    stage = trace.stages[passage.stage] if passage.stage >= 0 else None
+    name = "" if stage is None else stage.name
+    number = program.index(name) + 1 if name in program else 0
+    stopped = stage is not None and stage.status in (BROKEN_OFF, "stopped") and time >= stage.end - SHOWN
+    words = f"{number}  {visible(name)}" if name else ""
+    return Caption(
+        words=f"{words}: stopped" if stopped else words,
+        clock=clock(trace.elapsed(time)),
+        stages=max(len(program), 1),
+        begun=number,
+        stopped=stopped,
+    )

@@ -1,0 +1,187 @@
+"""`handeye video`: a film of a run, or one sentence on why there is none."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from conftest import Command
+from recordings import BODIES, record
+
+import handeye
+from handeye.cell.photograph import Near
+from handeye.errors import InvalidInput
+from handeye.trace import channels, mcap_writer
+from handeye.video import making
+
+pytestmark = pytest.mark.slow
+
+Planned = Callable[[str], str]
+
+
+class FakePhotographer:
+    """Draws a level of grey for each frame."""
+
+    def __init__(self, scene: object, *, width: int, height: int, shadow: int) -> None:
+        self.size, self.taken = (height, width, 3), 0
+
+    def take(self, model: object, data: object, view: str | Near) -> np.ndarray:
+        self.taken += 1
+        return np.full(self.size, self.taken % 256, dtype=np.uint8)
+
+
+@pytest.fixture(autouse=True)
+def no_opengl_needed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(making, "Photographer", FakePhotographer)
+
+
+@pytest.fixture
+def kept(command: Command, planned: Planned) -> Path:
+    """The folder of a run of two stages."""
+    plan = planned('STAGE "open"\nOPEN 1\nSTAGE "shut"\nOPEN 2')
+    assert command("run", plan, "--camera", "ray", "--out", "kept")[0] == 0
+    return Path("kept")
+
+
+SMALL = ("--size", "64x48", "--seconds", "1")
+
+
+def refused(command: Command, *words: str) -> str:
+    """The sentence with which a command is refused, which leaves nothing behind."""
+    before = {path for path in Path().rglob("*") if path.suffix != ".mcap"}
+    code, out, err = command("video", *words)
+    assert (code, out) == (2, "")
+    assert {path for path in Path().rglob("*") if path.suffix != ".mcap"} == before
+    return err.removeprefix("handeye: ").rstrip("\n")
+
+
+def test_the_folder_of_a_run_gets_its_video(command: Command, kept: Path) -> None:
+    code, out, err = command("video", "kept", *SMALL)
+    assert (code, out) == (0, "kept/video.webp: 1.0 s, 11 frames of 64 x 48, 0.00 MB\n")
+    assert err == "drawing frame 1 of 11\n"
+    _, animation = cv2.imreadanimation("kept/video.webp")
+    assert sum(np.array(animation.durations)) == 1000
+
+
+def test_the_same_trace_gives_the_same_video(command: Command, kept: Path) -> None:
+    for name in ("one.webp", "other.webp", "one.webm", "other.webm"):
+        assert command("video", "kept", "-o", name, "--captions", *SMALL)[0] == 0
+    assert Path("one.webp").read_bytes() == Path("other.webp").read_bytes()
+    assert Path("one.webm").read_bytes() == Path("other.webm").read_bytes()
+
+
+def test_it_is_made_from_python_too(kept: Path) -> None:
+    made = handeye.open(kept).video("it.webp", width=64, height=48, speed=0.5, first=1, last="open")
+    assert (made.path, made.bytes) == (Path("it.webp"), Path("it.webp").stat().st_size)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        ({"first": True}, "a stage is given by its number or its name, not True"),
+        ({"camera": 3}, "a camera is given by its name, not 3"),
+        ({"seconds": "14"}, "a video takes up to 600 s, and not 14 s"),
+        ({"width": 64.5}, "a video of 64.5 x 360 cannot be made; a side has 8 to 2048 points"),
+        ({"path": 7}, "a video is written to a file that ends in .webp or .webm, not 7"),
+    ],
+)
+def test_a_wrong_argument_is_told_in_a_sentence(kept: Path, wrong: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(InvalidInput) as told:
+        handeye.open(kept).video(**{"path": "it.webp", **wrong})
+    assert str(told.value) == sentence
+
+
+REFUSALS = {
+    ("--size", "480"): "`480` is no size; one is written as 480x360",
+    ("--size", "4x4"): "a video of 4 x 4 cannot be made; a side has 8 to 2048 points",
+    ("--seconds", "0"): "a video takes up to 600 s, and not 0.0 s",
+    ("--speed", "nan"): "a video is some times as fast as the run, and not nan times",
+    ("--speed", "2", "--seconds", "2"): "a video has a length or a speed; the other follows",
+    ("--speed", "1e-9"): "at 1e-09 times the speed of the run the video would take ",
+    ("--camera", "nowhere"): "no camera nowhere; there are orbit, follow, tv, studio, pump, belt",
+    ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
+    ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
+    ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",
+    ("-o", "it.gif"): "it.gif: a GIF would be ten times as large, in 256 colours",
+    ("-o", "nowhere/it.webp"): "nowhere/it.webp cannot be written: No such file or directory",
+}
+
+
+@pytest.mark.parametrize("words", REFUSALS, ids=" ".join)
+def test_what_there_cannot_be_is_told_in_a_sentence(
+    command: Command, kept: Path, words: tuple[str, ...]
+) -> None:
+    assert refused(command, "kept", *words).startswith(REFUSALS[words])
+
+
+def test_a_video_is_replaced_only_if_somebody_says_so(command: Command, kept: Path) -> None:
+    assert command("video", "kept", *SMALL)[0] == 0
+    assert refused(command, "kept", *SMALL) == "kept/video.webp is there already; --overwrite replaces it"
+    assert command("video", "kept", "--overwrite", *SMALL)[0] == 0
+
+
+def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
+    Path("it.webm").write_text("mine", encoding="utf-8")
+    assert refused(command, "kept", "-o", "it.webm", "--overwrite") == (
+        "it.webm exists and is no WebM video; nothing was written"
+    )
+
+
+def test_a_run_that_goes_on_loses_the_video_of_what_it_was(command: Command, planned: Planned) -> None:
+    plan = planned('STAGE "one"\nOPEN 1\nSTAGE "two"\nOPEN 2')
+    assert command("run", plan, "--camera", "ray", "--out", "kept", "--to", "one")[0] == 0
+    assert command("video", "kept", *SMALL)[0] == 0
+    assert refused(command, "kept", "-o", "it.webp", "--from", "two") == (
+        "kept/trace.mcap does not come to stage `two`; it has `one`"
+    )
+    assert command("resume", "kept")[0] == 0
+    assert not Path("kept/video.webp").exists()
+
+
+def test_an_event_list_does_not_say_where_things_were(command: Command) -> None:
+    Path("events.jsonl").write_text("", encoding="utf-8")
+    assert refused(command, "events.jsonl") == (
+        "events.jsonl is an event list, which does not say where things were; take the trace.mcap"
+    )
+
+
+def test_a_trace_of_a_newer_version(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    with monkeypatch.context() as patch:
+        patch.setattr(mcap_writer, "VERSION", channels.VERSION + 1)
+        record(Path("new.mcap"))
+    assert refused(command, "new.mcap").startswith("new.mcap has trace format version 4")
+
+
+def test_a_trace_of_another_scene(command: Command) -> None:
+    record(Path("other.mcap"))
+    assert f"`{BODIES[1]}`" in refused(command, "other.mcap")
+
+
+def test_a_trace_that_was_cut_short_is_shown_as_far_as_it_goes(command: Command, kept: Path) -> None:
+    data = (kept / "trace.mcap").read_bytes()
+    Path("cut.mcap").write_bytes(data[: len(data) - 40])
+    code, _, err = command("video", "cut.mcap", *SMALL)
+    assert (code, err.splitlines()[0]) == (0, "cut.mcap was cut short; this is a video of what it holds")
+
+
+@pytest.mark.parametrize("name", ["it.webp", "it.webm"])
+def test_one_that_is_interrupted_leaves_nothing(
+    command: Command, kept: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(FakePhotographer, "take", interrupt)
+    before = {*Path().rglob("*")}
+    assert command("video", "kept", "-o", name, *SMALL)[0] == 130
+    assert {*Path().rglob("*")} == before
+
+
+def test_without_opengl_there_is_none(command: Command, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise InvalidInput("OpenGL does not work on this machine")
+
+    monkeypatch.setattr(making, "Photographer", fail)
+    assert refused(command, "kept", *SMALL) == "OpenGL does not work on this machine"
