@@ -104,7 +104,7 @@ REFUSALS = {
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
     ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",
-    ("-o", "it.gif"): "it.gif: a GIF would be ten times as large, in 256 colours",
+    ("-o", "it.gif"): "it.gif: a GIF would be seven times as large, in 256 colours",
     ("-o", "nowhere/it.webp"): "nowhere/it.webp cannot be written: No such file or directory",
 }
 

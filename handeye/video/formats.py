@@ -151,7 +151,7 @@ FORMATS: Final = {
     ),
 }
 REFUSED: Final = {
-    (".gif",): "a GIF would be ten times as large, in 256 colours",
+    (".gif",): "a GIF would be seven times as large, in 256 colours",
     (".png", ".apng"): "an animated PNG would be twenty times as large",
     (".mp4", ".m4v", ".mov", ".avi", ".mkv"): "what OpenCV could write there, no browser plays",
 }

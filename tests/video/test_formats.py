@@ -60,7 +60,7 @@ def test_a_file_is_known_by_how_it_begins() -> None:
 @pytest.mark.parametrize(
     ("name", "sentence"),
     [
-        ("it.gif", "it.gif: a GIF would be ten times as large, in 256 colours; make a .webp or a .webm"),
+        ("it.gif", "it.gif: a GIF would be seven times as large, in 256 colours; make a .webp or a .webm"),
         ("it.APNG", "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm"),
         ("it.mp4", "it.mp4: what OpenCV could write there, no browser plays; make a .webp or a .webm"),
         ("it", "it: the name of a video ends in .webp or .webm"),
