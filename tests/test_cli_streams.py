@@ -43,6 +43,7 @@ CHEAP = {
     "show": "show run",
     "report": "report ✓",
     "video": "video ✓",
+    "compare": "compare ✓ ✓",
     "trace show": "trace show run",
     "trace stats": "trace stats run",
     "trace photograph": "trace photograph run --at 9e9 -o ✓.png",

@@ -49,6 +49,7 @@ LAYERS = [
         "report",
         "see",
         "video",
+        "compare",
         "trace",
         "trials",
         "editor",

@@ -23,6 +23,7 @@ EXAMPLES |= {
     "seven.toml",
     "pin.al",
     "pin.toml",
+    "blind.al",
     "NAME.al",
     "example.al",
     "host.json",

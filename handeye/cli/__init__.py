@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError, Parameter
 from handeye.cli import (
     benches,
     cache,
+    comparisons,
     completion,
     editing,
     exports,
@@ -50,6 +51,7 @@ for commands in (
     records,
     reports,
     videos,
+    comparisons,
     teaching,
     scripts,
     editing,

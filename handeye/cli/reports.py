@@ -64,12 +64,12 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
     check_place(place, REPORT)
     if place.exists() and not overwrite:
         raise InvalidInput(f"{place} holds a report already; --overwrite replaces it")
-    recorded = _recorded(run)
+    recorded = recorded_run(run)
     check_scene(recorded)
     write_over(place, report_page(recorded, album(recorded), animation(recorded)), REPORT)
 
 
-def _recorded(run: Path) -> "Recorded":
+def recorded_run(run: Path) -> "Recorded":
     """The run in a folder or a trace, as far as it can be read.
 
     Raises:

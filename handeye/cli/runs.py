@@ -96,6 +96,13 @@ def run(
     *,
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
+    world_of: Annotated[
+        Path | None,
+        Parameter(
+            help="A run, by its folder or trace: the plan is carried out in its world, with its faults; pictures are "
+            "made as they were there."
+        ),
+    ] = None,
     judge: Annotated[bool, Parameter(help="Let the referee judge the result.")] = False,
     json: Json = False,
     out: Out = None,
@@ -126,14 +133,22 @@ def run(
     was refused; 130: interrupted.
     """
     from handeye.cli.job import Job, work
+    from handeye.cli.recorded_worlds import in_world_of
     from handeye.runs.setup import Setup
     from handeye.runs.snapshot import Checkpoint
 
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage excludes --from and --to")
-    spec = broken(world.spec, fault, plan.program)
-    start = Checkpoint(setup=Setup(plan=plan, world=spec, camera=camera, judged=judge))
+    if world_of is None:
+        spec = broken(world.spec, fault, plan.program)
+        setup = Setup(plan=plan, world=spec, camera=camera, judged=judge)
+    elif world != ANY_WORLD or fault or camera != "auto":
+        others = "--seed, --level, --without, --set, --fault and --camera"
+        raise InvalidInput(f"{world_of} brings its own world; {others} do not go with --world-of")
+    else:
+        setup = in_world_of(world_of, plan, judged=judge)
+    start = Checkpoint(setup=setup)
     stops = _stops(plan.program, to=to if stage is None else stage, until=until, breaks=breaks or [])
     _check_order(plan.program, first, to)
     kept = _checkpoint_folder(checkpoints, out)

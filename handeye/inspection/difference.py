@@ -108,7 +108,7 @@ def _step(before: Plan, after: Plan, pair: Pair, pairs: list[Pair]) -> StepChang
         kind: Literal["added", "removed"] = "added" if old is None else "removed"
         return _change(kind, plan, number, pair)
     one, other = before.program.steps[old], after.program.steps[new]
-    changes = list(_changes(one, other))
+    changes = list(step_changes(one, other))
     ways = [("then", one.next, other.next)]
     was, now = one.operation.branch, other.operation.branch
     if was is not None and now is not None and (was.error is None) == (now.error is None):
@@ -145,8 +145,8 @@ def _change(
     )  # fmt: skip
 
 
-def _changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
-    """Differences of two steps: what, as it was, as it is."""
+def step_changes(one: Step, other: Step) -> Iterator[tuple[str, str, str]]:
+    """Differences of two steps, wherever they lead: what, as it was, as it is."""
     texts, guards = [one_line(s.text) for s in (one, other)], [_guards(s) for s in (one, other)]
     if texts[0] != texts[1]:
         yield "statement", texts[0], texts[1]

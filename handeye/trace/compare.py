@@ -1,9 +1,13 @@
 """Comparison of two traces: the first difference."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import zip_longest
 
-from handeye.trace.channels import EVENTS, LOG, MOMENTS, NEWER
+from handeye.tasks import known
+from handeye.trace.channels import EVENTS, JOINTS, LOG, MOMENTS, NEWER
+from handeye.trace.quantities import differing
+from handeye.trace.quantity_text import quantity_text, values_text
 from handeye.trace.records import RawMessage
 from handeye.trace.resuming import until
 from handeye.trace.sentences import sentence
@@ -22,13 +26,29 @@ def first_difference(a: Trace, b: Trace, *, events: int | None = None, unseen: i
     """
     if a.plan != b.plan:
         return "the traces are of different plans"
-    count, version = 0, min(a.version, b.version)
+    so_far, version = _SoFar(), min(a.version, b.version)
     sides = (_compared(trace, version, events, unseen) for trace in (a, b))
     for here, there in zip_longest(*sides):
+        if here is not None and here.topic == JOINTS:
+            so_far.period(here)
         if here != there:
-            return _difference(a, b, here, there, count)
-        count += here.topic == EVENTS
+            return _difference(a, b, here, there, so_far)
+        so_far.events += here.topic == EVENTS
     return None
+
+
+@dataclass(slots=True)
+class _SoFar:
+    """How far the first of two traces has been read."""
+
+    events: int = 0
+    periods: int = 0
+    last: int = 0
+    """When the last servo period ended, ns."""
+
+    def period(self, message: RawMessage) -> None:
+        """Go on to the servo period of a message."""
+        self.periods, self.last = self.periods + 1, message.time
 
 
 def _compared(trace: Trace, version: int, events: int | None, unseen: int) -> Iterator[RawMessage]:
@@ -40,8 +60,9 @@ def _compared(trace: Trace, version: int, events: int | None, unseen: int) -> It
         count += message.topic == EVENTS
 
 
-def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, events: int) -> str:
-    """Tell what differs in the first two messages that do, with so many equal events before them."""
+def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage | None, so_far: _SoFar) -> str:
+    """Tell what differs in the first two messages that do."""
+    events = so_far.events
     last = a.events[events - 1] if events else None
     after = "before the first event" if last is None else f"after event {events} ({sentence(last)})"
     if here is None or there is None:
@@ -50,11 +71,22 @@ def _difference(a: Trace, b: Trace, here: RawMessage | None, there: RawMessage |
     if {here.topic, there.topic} <= {EVENTS, LOG}:  # a sentence stands before its event
         return f"event {events + 1} differs: {_events(a, b, events)}"
     if here.topic == there.topic and here.time == there.time:
-        return f"{here.topic} differs at {_when(a, here.time / 1e9)}, {after}"
+        period = f"in servo period {so_far.periods}, " if here.time == so_far.last else ""
+        return f"{period}at {_when(a, here.time / 1e9)}, {_quantity(a, here, there)}, {after}"
     first, second = (
         f"{found.topic} at {_when(of, found.time / 1e9)}" for of, found in ((a, here), (b, there))
     )
     return f"one goes on with {first}, the other with {second}, {after}"
+
+
+def _quantity(a: Trace, here: RawMessage, there: RawMessage) -> str:
+    """The quantity that two messages on a channel tell differently."""
+    task = known(a.head.task)
+    found = differing(here, there, None if task is None else task.arm)
+    if found is None:
+        return f"{here.topic} differs"
+    one, other = values_text(found)
+    return f"{quantity_text(found.quantity)} differs: {one} and {other}"
 
 
 def _when(trace: Trace, clock: float) -> str:

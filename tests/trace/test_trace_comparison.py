@@ -69,8 +69,8 @@ def test_an_event_that_differs_is_named_with_what_is_different(tmp_path: Path, w
 def test_a_servo_period_that_differs_is_named_with_what_happened_before(tmp_path: Path, whole: Trace) -> None:
     other = _changed(tmp_path / "b.mcap", tick=7)
     said = (
-        "/joint_states differs at 0.133 s, after event 4 "
-        "(stopped: the hand presses with 32.4 ounces, over 28.8)"
+        "in servo period 8, at 0.133 s, torque of joint column differs: -219.474 oz in and -77.862 oz in, "
+        "after event 4 (stopped: the hand presses with 32.4 ounces, over 28.8)"
     )
     assert first_difference(whole, other) == said
 

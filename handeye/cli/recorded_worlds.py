@@ -1,0 +1,75 @@
+"""Worlds of recorded runs, in which other plans are carried out: what would have happened."""
+
+from pathlib import Path
+from typing import Final
+
+from handeye.cli.common import CameraKind
+from handeye.cli.trace_files import trace_file
+from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, RunStarted
+from handeye.plain_text import counted
+from handeye.planfile.plan import Plan
+from handeye.runs.folder import EVENTS
+from handeye.runs.setup import Setup
+from handeye.trace.eventlist import read_events
+from handeye.trace.reading import is_cut_short, read_trace
+from handeye.variation import DRAWING
+
+_CAMERAS: Final[dict[str, CameraKind]] = {"opengl": "gl", "rays": "ray"}
+
+
+def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
+    """The setup of a plan in the world of a recorded run, with its faults, and pictures made as they were.
+
+    Args:
+        path: the folder of the run, its trace, or its event list.
+
+    Raises:
+        InvalidInput: there is no such run, or its world cannot be built here for this plan.
+    """
+    begun = _beginning(path)
+    _check_drawn_here(path, begun)
+    _check_faults(path, begun, plan)
+    camera = _CAMERAS.get(begun.camera.method, "auto")
+    return Setup(plan=plan, world=begun.world, camera=camera, task=begun.task, judged=judged)
+
+
+def _beginning(path: Path) -> RunStarted:
+    """The beginning of a recorded run."""
+    events = _events(path)
+    if not events or not isinstance(events[0], RunStarted):
+        raise InvalidInput(f"{path} does not hold the start of a run, which tells its world")
+    return events[0]
+
+
+def _events(path: Path) -> tuple[AnyEvent, ...]:
+    """The events of a run; its event list, which tells the same and is shorter, where it lies beside the trace."""
+    file = path / EVENTS if (path / EVENTS).is_file() else trace_file(path)
+    if file.suffix == ".jsonl":
+        return tuple(read_events(file, growing=True))
+    return read_trace(file, lenient=is_cut_short(file)).events
+
+
+def _check_drawn_here(path: Path, begun: RunStarted) -> None:
+    """Raises InvalidInput if this handeye draws another world, or code that it does not have belongs to the run."""
+    world = begun.world
+    if world.drawing != DRAWING:
+        raise InvalidInput(
+            f"the world of {path} was drawn by another handeye: seed {world.seed} gives another world here "
+            f"(drawing {world.drawing} there, {DRAWING} here)"
+        )
+    own = [part for part in begun.own_parts if part != "referee"]
+    if own:
+        raise InvalidInput(
+            f"{path} was carried out with code of its caller for {', '.join(own)}, which is not here"
+        )
+
+
+def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
+    """Raises InvalidInput if a fault sets in with a stage that a plan does not have."""
+    stages = len(plan.program.stages)
+    for fault in begun.world.faults:
+        if fault.stage is not None and fault.stage > stages:
+            raise InvalidInput(
+                f"the fault {fault} in the world of {path} cannot set in: the plan has {counted(stages, 'stage')}"
+            )

@@ -1,0 +1,155 @@
+"""The comparison of two runs: facts, of which text, JSON and page are made."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+
+from handeye.compare.conditions import Condition, conditions
+from handeye.compare.corrected import Corrections, corrections
+from handeye.compare.felt import Stops, stops
+from handeye.compare.first import First, first_difference
+from handeye.compare.pairing import TwoRuns
+from handeye.compare.parting import Parting, Turning, parting
+from handeye.compare.place import Place
+from handeye.compare.searched import Searches, searches
+from handeye.errors import InvalidInput
+from handeye.see.facts.outcome import Kind, outcome
+from handeye.see.recorded import Recorded
+from handeye.trace.stats import StageFigures, statistics
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Compared:
+    """A run that is compared."""
+
+    name: str
+    """Its file."""
+    program: str
+    world: str
+    """Its seed, and what is said of it."""
+    came_to: Kind
+    seconds: float
+    """How long it took, simulated."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stages:
+    """The same stage in two runs; None: it did not come to it."""
+
+    name: str
+    a: StageFigures | None
+    b: StageFigures | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Comparison:
+    """Two runs beside each other."""
+
+    a: Compared
+    b: Compared
+    conditions: tuple[Condition, ...]
+    """In what they depended on, all that differs."""
+    first: First | None
+    """The first thing that was recorded otherwise; None: nothing was."""
+    parted: Parting | None
+    """Where they went different ways; None: nowhere."""
+    searches: tuple[Searches, ...]
+    stops: tuple[Stops, ...]
+    corrections: tuple[Corrections, ...]
+    stages: tuple[Stages, ...]
+
+    @property
+    def same(self) -> bool:
+        """Nothing was recorded otherwise of all that was recorded of both."""
+        return self.first is None
+
+
+def comparison(a: Recorded, b: Recorded) -> Comparison:
+    """Compare two runs.
+
+    Raises:
+        InvalidInput: a run is of a system that carries out no plans, or a message of its trace cannot be understood.
+    """
+    for run in (a, b):
+        if run.trace.head.system != "program":
+            raise InvalidInput(
+                f"{run.trace.name} is a run of the system {run.trace.head.system}; only runs of plans are compared"
+            )
+    runs = TwoRuns(a, b)
+    return Comparison(
+        a=_compared(a),
+        b=_compared(b),
+        conditions=conditions(a.trace.head, b.trace.head),
+        first=first_difference(runs),
+        parted=parting(runs),
+        searches=searches(runs),
+        stops=stops(runs),
+        corrections=corrections(runs),
+        stages=_stages(a, b),
+    )
+
+
+def _compared(run: Recorded) -> Compared:
+    head = run.trace.head
+    return Compared(
+        name=run.trace.name,
+        program=head.program,
+        world=str(head.world),
+        came_to=outcome(run).kind,
+        seconds=run.ends,
+    )
+
+
+def _stages(a: Recorded, b: Recorded) -> tuple[Stages, ...]:
+    """The stages of two runs, in the order in which they were begun."""
+    one, other = ({stage.stage: stage for stage in statistics(run.trace.events, {}).stages} for run in (a, b))
+    return tuple(
+        Stages(name=name, a=one.get(name), b=other.get(name)) for name in dict.fromkeys((*one, *other))
+    )
+
+
+def as_json(found: Comparison) -> dict[str, Any]:
+    """A comparison as data."""
+    first, parted = found.first, found.parted
+    told = {
+        "same": found.same,
+        "a": found.a,
+        "b": found.b,
+        "conditions": found.conditions,
+        "first": None if first is None else _first(first),
+        "parted": None if parted is None else _parted(parted),
+        "searches": found.searches,
+        "stops": found.stops,
+        "corrections": found.corrections,
+        "stages": found.stages,
+    }
+    data: dict[str, Any] = msgspec.to_builtins(told)
+    return data
+
+
+def _first(first: First) -> dict[str, Any]:
+    differing = first.differing
+    return {
+        **_where(first.place),
+        "quantity": differing.name,
+        "unit": differing.unit,
+        "a": differing.a,
+        "b": differing.b,
+        "period": first.period,
+        "places": (first.a, first.b),
+    }
+
+
+def _parted(parted: Parting) -> dict[str, Any]:
+    return {**_where(parted.place), "a": _turning(parted.a), "b": _turning(parted.b)}
+
+
+def _turning(turning: Turning | None) -> dict[str, Any] | None:
+    return None if turning is None else {"place": turning.place, "event": turning.event}
+
+
+def _where(place: Place | None) -> dict[str, Any]:
+    if place is None:
+        return {"stage": None, "step": None, "file": None, "line": None}
+    return {"stage": place.stage, "step": place.step, "file": place.file, "line": place.line}

@@ -1,0 +1,56 @@
+"""Conditions of two runs: what each depended on."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.events import RunStarted
+from handeye.record import Record
+from handeye.trace.sentences import renderer_name
+from handeye.variation import WorldSpec
+
+_NONE: Final = "none"
+_DRAWN: Final = "as drawn"
+
+
+class Condition(Record, frozen=True, kw_only=True):
+    """Something that two runs depended on, and in which they differ."""
+
+    what: str
+    """`task`, `plan`, `arm`, `camera`, `seed` and other words of the world, the names of quantities that were set,
+    `version of ...`, `own ...`."""
+    a: str
+    b: str
+
+
+def conditions(a: RunStarted, b: RunStarted) -> tuple[Condition, ...]:
+    """The conditions in which two runs differ."""
+    both = [dict(_conditions(begun)) for begun in (a, b)]
+    drawn = {name: _DRAWN for begun in (a, b) for name in begun.world.overrides.set}
+    names = dict.fromkeys(name for side in both for name in side)
+    told = ((name, *(side.get(name, drawn.get(name, _NONE)) for side in both)) for name in names)
+    return tuple(Condition(what=name, a=one, b=other) for name, one, other in told if one != other)
+
+
+def _conditions(begun: RunStarted) -> Iterator[tuple[str, str]]:
+    yield "task", begun.task
+    yield "program", begun.program
+    yield "plan", begun.plan
+    yield "arm", f"{begun.arm} {begun.arm_digest}"
+    yield from _world(begun.world)
+    yield "camera", renderer_name(begun.camera)
+    yield from ((f"own {part}", name) for part, name in begun.own_parts.items())
+    yield from ((f"version of {name}", version) for name, version in begun.versions.items())
+
+
+def _world(world: WorldSpec) -> Iterator[tuple[str, str]]:
+    yield "drawing of the world", f"{world.drawing}"
+    yield "seed", f"{world.seed}"
+    yield "level", world.level
+    yield "switched off", ", ".join(world.overrides.without) or _NONE
+    yield from ((name, f"{value!r}") for name, value in world.overrides.set.items())
+    yield from ((f"fault {fault.name}", _fault(fault.value, fault.stage)) for fault in world.faults)
+
+
+def _fault(value: float | None, stage: int | None) -> str:
+    said = "there" if value is None else f"{value!r}"
+    return said if stage is None else f"{said} from stage {stage} on"

@@ -1,0 +1,48 @@
+"""What two runs felt: how each guarded motion ended, motion beside motion."""
+
+from collections.abc import Mapping, Sequence
+
+from handeye.compare.pairing import CarriedOut, Turn, TwoRuns, side_by_side
+from handeye.compare.place import Place
+from handeye.events import GuardTripped
+from handeye.program.guards import GuardKind
+from handeye.record import Record
+
+
+class Stop(Record, frozen=True, kw_only=True):
+    """The end of a guarded motion."""
+
+    place: Place
+    guard: GuardKind | None
+    """The guard that ended it; None: none did."""
+    value: float | None = None
+    """What the guard looked at then: N, N m, or finger switches as a mask."""
+
+
+class Stops(Record, frozen=True, kw_only=True):
+    """The same guarded motion in two runs; None: it did not come to it."""
+
+    a: Stop | None
+    b: Stop | None
+
+    @property
+    def alike(self) -> bool:
+        """Both ended by the same guard, or by none; or only one came to it."""
+        return self.a is None or self.b is None or self.a.guard == self.b.guard
+
+
+def stops(runs: TwoRuns) -> tuple[Stops, ...]:
+    """The guarded motions of two runs, in the order of the script."""
+    both = (_stops(steps) for steps in runs.carried_out)
+    return tuple(Stops(a=a, b=b) for a, b in side_by_side(*both))
+
+
+def _stops(steps: Sequence[CarriedOut]) -> Mapping[Turn, Stop]:
+    return {each.turn: _stop(each) for each in steps if each.step.operation.guards}
+
+
+def _stop(each: CarriedOut) -> Stop:
+    for event in each.done.events:
+        if isinstance(event, GuardTripped):
+            return Stop(place=each.place, guard=event.guard, value=event.value)
+    return Stop(place=each.place, guard=None)

@@ -1,0 +1,92 @@
+"""Where the ways of two runs part: the first event after which they no longer do the same things."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import zip_longest
+from typing import Any
+
+from handeye import events as happened
+from handeye.compare.pairing import TwoRuns
+from handeye.compare.place import Place, place_of
+from handeye.events import AnyEvent, StepStarted
+from handeye.see.recorded import Recorded
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Turning:
+    """An event by which a run went its way."""
+
+    place: Place | None
+    """The step under way, or done last; None: before the first one."""
+    event: AnyEvent
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Parting:
+    """The first event by which two runs went different ways."""
+
+    a: Turning | None
+    """None: the run has ended before."""
+    b: Turning | None
+
+    @property
+    def place(self) -> Place | None:
+        """The step that was under way in the first run, or done last; in the second, where the first has ended."""
+        turning = self.a or self.b
+        return None if turning is None else turning.place
+
+
+def parting(runs: TwoRuns) -> Parting | None:
+    """Where the ways of two runs part; None: nowhere.
+
+    The way is made of the steps that are carried out, and of what decides about them: which guard was met, which errors
+    were raised, how a test came out, what people did.
+    """
+    for a, b in zip_longest(_turnings(runs.a), _turnings(runs.b)):
+        if a is None or b is None or not _alike(runs, a.event, b.event):
+            return Parting(a=a, b=b)
+    return None
+
+
+def _turnings(run: Recorded) -> Iterator[Turning]:
+    place: Place | None = None
+    for event in run.trace.events:
+        if _decides(event) is not None:
+            yield Turning(place=place, event=event)
+        if isinstance(event, StepStarted):
+            place = place_of(run, event)
+
+
+def _alike(runs: TwoRuns, a: AnyEvent, b: AnyEvent) -> bool:
+    """Two events lead the same way."""
+    if isinstance(a, StepStarted) and isinstance(b, StepStarted):
+        return runs.are_beside(a.step, b.step)
+    return type(a) is type(b) and _decides(a) == _decides(b)
+
+
+def _decides(event: AnyEvent) -> Any:
+    """What of an event decides how a run goes on; None: nothing."""
+    match event:
+        case happened.StepStarted():
+            return event.step
+        case happened.GuardTripped():
+            return event.guard
+        case happened.ErrorRaised():
+            return event.number
+        case happened.ErrorTested():
+            return event.number, event.occurred
+        case happened.SearchAdvanced():
+            return event.count
+        case happened.PartInspected():
+            return event.ok
+        case happened.OperatorCalled():
+            return event.message, event.error
+        case happened.OperatorAnswered():
+            return event.choice
+        case happened.ExperimentMade():
+            return event.what, event.name, event.value
+        case happened.PanicStopped():
+            return "panic"
+        case happened.RunFinished():
+            return event.completed
+    return None

@@ -1,0 +1,199 @@
+"""Quantities of a trace: the first one of which two messages on a channel tell different values."""
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import zip_longest
+from typing import Any, Final
+
+import msgspec
+import numpy as np
+from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
+from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
+from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
+
+from handeye.arm.model import ArmModel
+from handeye.events import AnyEvent, FrictionMeasured
+from handeye.record import Record
+from handeye.trace.annotations import read_annotations
+from handeye.trace.channels import ANNOTATIONS, EVENTS, FRAMES, HAND, JOINTS, PICTURE
+from handeye.trace.events_read import read_event
+from handeye.trace.messages import GAP, LEVEL
+from handeye.trace.records import RawMessage
+
+Value = bool | int | float | str | None
+"""Of a quantity; None: there is none."""
+Found = tuple[tuple[str, ...], Value, Value]
+"""The name of a quantity, part by part, and two values of it."""
+
+
+class Differing(Record, frozen=True, kw_only=True):
+    """A quantity of which two runs tell different values."""
+
+    quantity: tuple[str, ...]
+    """Its name, part by part: `("joint", "boom", "position")`."""
+    unit: str = ""
+    """SI unit of its values; empty: they have none, or nobody knows which."""
+    a: Value
+    b: Value
+
+    @property
+    def name(self) -> str:
+        """Its name as one word, for programs: `joint.boom.position`."""
+        return ".".join(part.replace(" ", "_") for part in self.quantity)
+
+
+def differing(a: RawMessage | None, b: RawMessage | None, arm: ArmModel | None = None) -> Differing | None:
+    """The first quantity of which two messages on a channel tell different values, their times left out; None: none.
+
+    Args:
+        a: None: one run has no message there.
+        b: likewise.
+        arm: whose joints they tell of; without it, their units are not known.
+
+    Raises:
+        DecodeError: one of them is not such a message.
+    """
+    message = a or b
+    tell = None if message is None else _TELLERS.get(message.topic)
+    if message is None or tell is None:
+        return None
+    here, there = ({} if each is None else tell(each.data) for each in (a, b))
+    found = next(_differing(here, there), None)
+    if found is None:
+        return None
+    quantity, one, other = found
+    return Differing(quantity=quantity, unit=_unit(message, quantity, arm), a=one, b=other)
+
+
+def differing_events(a: AnyEvent, b: AnyEvent) -> Differing | None:
+    """The first quantity of which two events of a kind tell different values, their times left out; None: none."""
+    found = next(_differing(_event(a), _event(b)), None)
+    if found is None:
+        return None
+    quantity, one, other = found
+    return Differing(quantity=quantity, unit=_event_unit(a, quantity), a=one, b=other)
+
+
+def _differing(a: Any, b: Any, name: tuple[str, ...] = ()) -> Iterator[Found]:
+    """What differs in two values that are made of dictionaries and lists, in the order of the first."""
+    if isinstance(a, Mapping) or isinstance(b, Mapping):
+        one, other = a or {}, b or {}
+        for key in dict.fromkeys((*one, *other)):
+            yield from _differing(one.get(key), other.get(key), (*name, str(key)))
+    elif isinstance(a, list | tuple) or isinstance(b, list | tuple):
+        for number, (one, other) in enumerate(zip_longest(a or (), b or ()), 1):
+            yield from _differing(one, other, (*name, str(number)))
+    elif a != b:
+        yield name, a, b
+
+
+# -- what the messages of each channel tell --------------------------------------------------------------
+
+
+def _joints(data: bytes) -> dict[str, Any]:
+    told: dict[str, Any] = {"joint": {}}
+    for joint in JointStates.FromString(data).joints:
+        if joint.name == GAP:
+            told["gap"] = joint.position
+        else:
+            values = {"position": joint.position, "rate": joint.velocity, "torque": joint.effort}
+            told["joint"][joint.name] = values
+    return told
+
+
+def _hand(data: bytes) -> dict[str, Any]:
+    return {"hand": msgspec.json.decode(data)}
+
+
+def _frames(data: bytes) -> dict[str, Any]:
+    bodies = {}
+    for frame in FrameTransforms.FromString(data).transforms:
+        p, r = frame.translation, frame.rotation
+        turn = {"w": r.w, "x": r.x, "y": r.y, "z": r.z}
+        bodies[frame.child_frame_id] = {"place": {"x": p.x, "y": p.y, "z": p.z}, "turn": turn}
+    return {"body": bodies}
+
+
+def _picture(data: bytes) -> dict[str, Any]:
+    image = RawImage.FromString(data)
+    levels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.width) // LEVEL
+    return {"picture": {"level": levels.tolist()}}
+
+
+def _marks(data: bytes) -> dict[str, Any]:
+    _, marks = read_annotations(data)
+    return {"picture": {"mark": [_mark(mark) for mark in marks]}}
+
+
+def _mark(mark: Any) -> dict[str, Any]:
+    return {"kind": type(mark).__name__} | {name: getattr(mark, name) for name in mark.__slots__}
+
+
+def _event(event: AnyEvent) -> dict[str, Any]:
+    if isinstance(event, FrictionMeasured):
+        joints = {each.joint.name: {"friction": each.friction} for each in event.joints}
+        links = {f"{number}": {"weight": weight} for number, weight in enumerate(event.links, 1)}
+        return {"joint": joints, "link": links, "friction": {"seconds": event.seconds}}
+    told = msgspec.to_builtins(event)
+    kind = told.pop("event")
+    del told["time"]
+    return {kind: {name: _named(value) for name, value in told.items()}}
+
+
+def _named(value: Any) -> Any:
+    """A place or a difference by the names of its parts; anything else as it is."""
+    numbers = isinstance(value, list | tuple) and all(isinstance(each, float) for each in value)
+    return dict(zip(_AXES, value, strict=False)) if numbers else value
+
+
+_AXES: Final = ("x", "y", "z", "O", "A", "T")
+_TELLERS: Final[Mapping[str, Callable[[bytes], dict[str, Any]]]] = {
+    JOINTS: _joints,
+    HAND: _hand,
+    FRAMES: _frames,
+    PICTURE: _picture,
+    ANNOTATIONS: _marks,
+    EVENTS: lambda data: _event(read_event(data)),
+}
+
+
+# -- units ---------------------------------------------------------------------------------------------------
+
+_JOINT_UNITS: Final = {
+    "revolute": {"position": "rad", "rate": "rad/s", "torque": "N m", "friction": "N m"},
+    "prismatic": {"position": "m", "rate": "m/s", "torque": "N", "friction": "N"},
+}
+_HAND_UNITS: Final = {"force": "N", "moment": "N m", "gap": "m", "driver_torque": "N m"}
+_GUARD_UNITS: Final = {"force": "N", "against": "N", "moment": "N m", "torque": "N m"}
+_EVENT_UNITS: Final = {
+    "hand": "m", "planned": "m", "gap": "m", "shift": "m", "offset": "m", "difference": "m", "x": "m", "y": "m",
+    "yaw": "rad", "lens": "m", "seconds": "s",
+}  # fmt: skip
+
+
+def _unit(message: RawMessage, quantity: tuple[str, ...], arm: ArmModel | None) -> str:
+    match quantity:
+        case ("joint", name, *what):
+            kinds = {} if arm is None else {joint.name: joint.kind for joint in arm.joints}
+            return _JOINT_UNITS[kinds[name]][what[0]] if what and name in kinds else ""
+        case ("gap",) | ("body", _, "place", _):
+            return "m"
+        case ("hand", "guards", number, "limit"):
+            return _GUARD_UNITS.get(_hand(message.data)["hand"]["guards"][int(number) - 1]["guard"], "")
+        case ("hand", what, *_):
+            return _HAND_UNITS.get(what, "")
+    return _event_unit(read_event(message.data), quantity) if message.topic == EVENTS else ""
+
+
+def _event_unit(event: AnyEvent, quantity: tuple[str, ...]) -> str:
+    """The unit of a quantity of an event."""
+    match quantity:
+        case (_, "value" | "limit" | "friction"):
+            return _GUARD_UNITS.get(str(getattr(event, "guard", "")), "")
+        case ("joint", name, what) if isinstance(event, FrictionMeasured):
+            kinds = {each.joint.name: each.joint.kind for each in event.joints}
+            return _JOINT_UNITS[kinds[name]][what] if name in kinds else ""
+        case (_, "at", axis):
+            return "m" if axis in _AXES[:3] else "rad"
+        case (_, what, *_):
+            return _EVENT_UNITS.get(what, "")
+    return ""

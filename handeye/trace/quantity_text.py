@@ -1,0 +1,88 @@
+"""Words for quantities of a trace, and their values in the units of the arm language."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from handeye.plain_text import printable, told_apart
+from handeye.trace.quantities import Differing, Value
+from handeye.units import UNITS
+
+_SHOWN_IN: Final[Mapping[str, str]] = {
+    "m": "in", "m/s": "in/s", "rad": "deg", "rad/s": "deg/s", "N": "oz", "N m": "oz in",
+}  # fmt: skip
+"""The unit that people are told a quantity in, by its SI unit."""
+_DECIMALS: Final = 3
+_EVENTS: Final[Mapping[str, str]] = {
+    "Adjusted": "goal that was moved",
+    "CameraBusy": "camera's work",
+    "ErrorRaised": "error",
+    "ErrorTested": "test of an error",
+    "GuardFaint": "guard that is hard to feel",
+    "GuardTripped": "stop",
+    "HandTold": "hand's place",
+    "OperatorAnswered": "operator's answer",
+    "OperatorCalled": "call of the operator",
+    "PartInspected": "part inspected",
+    "PartSeen": "part seen",
+    "PictureTaken": "picture taken",
+    "PositionDefined": "position defined",
+    "Restored": "difference restored",
+    "RunFinished": "end of the run",
+    "Saved": "difference saved",
+    "SearchAdvanced": "place of the search",
+    "StageFinished": "end of the stage",
+    "StageStarted": "beginning of the stage",
+    "StepFinished": "end of the step",
+}
+"""Words for the events of which a quantity is told."""
+
+
+def quantity_text(quantity: tuple[str, ...]) -> str:
+    """A quantity in words: `position of joint boom`, `place x of body base`, `value of the stop`."""
+    match quantity:
+        case (("joint" | "body" | "link") as kind, name, *what):
+            said = f"{' '.join(what)} of {kind} {name}"
+        case ("picture", "level", row, column):
+            said = f"level of the picture in row {row}, column {column}"
+        case (of, *what) if what:
+            said = (
+                f"{' '.join(what).replace('_', ' ')} of the {of}"
+                if of.islower()
+                else f"{' '.join(what)} of {of}"
+            )
+        case _:
+            said = " ".join(quantity)
+    return printable(said)
+
+
+def values_text(found: Differing) -> tuple[str, str]:
+    """Both values, with as many decimals as it takes to tell them apart."""
+    numbers = [value for value in (found.a, found.b) if _is_number(value)]
+    told = iter(_numbers(numbers, found.unit))
+    one, other = (next(told) if _is_number(value) else _word(value) for value in (found.a, found.b))
+    return one, other
+
+
+def _is_number(value: Value) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _numbers(values: list[Value], unit: str) -> list[str]:
+    """Numbers in the unit that people are told them in; in SI, to the last bit, where nothing else tells them apart."""
+    numbers = [float(value) for value in values if isinstance(value, int | float)]
+    if all(isinstance(value, int) for value in values):
+        return [f"{value}" for value in values]
+    shown = UNITS.get(_SHOWN_IN.get(unit, unit))
+    size, name = (1.0, unit) if shown is None else (shown.size, shown.name)
+    told = told_apart([number / size for number in numbers], _DECIMALS)
+    if len({*told}) == len({*numbers}):
+        return [_with_unit(each, name) for each in told]
+    return [_with_unit(repr(number), unit) for number in numbers]
+
+
+def _with_unit(number: str, unit: str) -> str:
+    return f"{number} {unit}".rstrip()
+
+
+def _word(value: Value) -> str:
+    return "none" if value is None else printable(str(value))

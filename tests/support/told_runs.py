@@ -1,0 +1,38 @@
+"""Runs of a short script of which only the events are told: made up, step by step."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from recordings import started
+from short_runs import GRASP, plan_of
+
+from handeye.events import AnyEvent, StepFinished, StepStarted
+from handeye.planfile.store import encode
+from handeye.see.recorded import Recorded
+from handeye.trace.trace import Trace
+
+Happening = Callable[..., AnyEvent]
+"""An event whose time is still to be told."""
+
+
+def happens(kind: Callable[..., AnyEvent], **fields: object) -> Happening:
+    """An event in a step."""
+    return partial(kind, **fields)
+
+
+def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> Recorded:
+    """A run of a script that carried out some steps, each by the words that it begins with."""
+    plan = plan_of(script)
+    events: list[AnyEvent] = [started()]
+    for number, (words, inside) in enumerate(steps):
+        time = 11.0 + number
+        step = next(n for n, step in enumerate(plan.program.steps) if step.text.startswith(words))
+        line, text = plan.program.steps[step].line, plan.program.steps[step].text
+        events.append(StepStarted(time=time, step=step, line=line, text=text))
+        events += [each(time=time + 0.5) for each in inside]
+        events.append(StepFinished(time=time + 0.9, step=step, hand=None, planned=None, gap=None))
+    trace = Trace(
+        name="told.mcap", version=3, head=started(), plan=encode(plan).encode(), events=tuple(events), counts={},
+        messages=(),
+    )  # fmt: skip
+    return Recorded(trace=trace)
