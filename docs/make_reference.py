@@ -68,6 +68,12 @@ GROUPS: Final = {
         "Forces": "trace.forces.Forces",
         "Moment": "trace.replay.Moment",
         "Video": "video.making.Video",
+        "handeye.compare": "door.comparing.compare",
+        "handeye.Comparison": "comparison.comparison.Comparison",
+        "First": "comparison.first.First",
+        "Differing": "trace.quantities.Differing",
+        "Parting": "comparison.parting.Parting",
+        "Place": "comparison.place.Place",
     },
     "Tasks": {
         "handeye.Task": "tasks.interface.Task",

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from handeye import tasks, trials
+    from handeye.comparison.comparison import Comparison
     from handeye.door.begin import assemble, begin
+    from handeye.door.comparing import compare
     from handeye.door.diagnostic import Diagnostic, ScriptError
     from handeye.door.opening import open
     from handeye.door.plans import Plan, plan
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Comparison",
     "Diagnostic",
     "Finding",
     "HandeyeError",
@@ -47,6 +50,7 @@ __all__ = [
     "at_least",
     "at_most",
     "begin",
+    "compare",
     "open",
     "plan",
     "scripts",
@@ -55,6 +59,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Comparison": "handeye.comparison.comparison",
     "Diagnostic": "handeye.door.diagnostic",
     "Finding": "handeye.judge.finding",
     "HandeyeError": "handeye.errors",
@@ -71,6 +76,7 @@ _HOMES = {
     "at_least": "handeye.judge.finding",
     "at_most": "handeye.judge.finding",
     "begin": "handeye.door.begin",
+    "compare": "handeye.door.comparing",
     "open": "handeye.door.opening",
     "plan": "handeye.door.plans",
     "scripts": "handeye.door.provided",

@@ -49,7 +49,7 @@ LAYERS = [
         "report",
         "see",
         "video",
-        "compare",
+        "comparison",
         "trace",
         "trials",
         "editor",

@@ -18,11 +18,11 @@ def compare(a: TraceFile, b: TraceFile, /, *, json: Json = False) -> int:
 
     Exit code 0: they are compared, whatever was found; 2: bad input.
     """
-    from handeye.cli.reports import recorded_run
-    from handeye.compare.comparison import as_json, comparison
-    from handeye.compare.text import comparison_text
+    from handeye.cli.reports import read_recorded
+    from handeye.comparison.comparison import as_json, comparison
+    from handeye.comparison.text import comparison_text
 
-    found = comparison(recorded_run(a), recorded_run(b))
+    found = comparison(read_recorded(a), read_recorded(b))
     if json:
         put_json(as_json(found))
     else:

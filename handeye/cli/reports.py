@@ -11,7 +11,6 @@ from handeye.cli.traces import TraceFile
 from handeye.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from handeye.report.result import Result
     from handeye.see.recorded import Recorded
 
 
@@ -64,18 +63,18 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
     check_place(place, REPORT)
     if place.exists() and not overwrite:
         raise InvalidInput(f"{place} holds a report already; --overwrite replaces it")
-    recorded = recorded_run(run)
+    recorded = read_recorded(run)
     check_scene(recorded)
     write_over(place, report_page(recorded, album(recorded), animation(recorded)), REPORT)
 
 
-def recorded_run(run: Path) -> "Recorded":
+def read_recorded(run: Path) -> "Recorded":
     """The run in a folder or a trace, as far as it can be read.
 
     Raises:
         InvalidInput: there is none.
     """
-    from handeye.see.recorded import Recorded
+    from handeye.report.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
 
     file = trace_file(run)
@@ -84,19 +83,4 @@ def recorded_run(run: Path) -> "Recorded":
             f"{file} is an event list, which does not say where things were; take the trace.mcap"
         )
     cut = is_cut_short(file)
-    result, remarks = _result(run)
-    return Recorded(trace=read_trace(file, lenient=cut), whole=not cut, result=result, remarks=remarks)
-
-
-def _result(run: Path) -> tuple["Result | None", tuple[str, ...]]:
-    """What the folder of a run says that it came to, if it says so, and what is wrong with that."""
-    from handeye.report.kept_run import kept_run
-    from handeye.runs.folder import RESULT
-
-    if not (run / RESULT).is_file():
-        return None, ()
-    try:
-        kept = kept_run(run)
-    except InvalidInput as fault:
-        return None, (str(fault),)
-    return (kept.result if kept.left else None), kept.faults
+    return recorded_run(run, read_trace(file, lenient=cut), whole=not cut)

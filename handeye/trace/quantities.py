@@ -33,7 +33,9 @@ class Differing(Record, frozen=True, kw_only=True):
     unit: str = ""
     """SI unit of its values; empty: they have none, or nobody knows which."""
     a: Value
+    """In the first run; None: it tells none."""
     b: Value
+    """In the second."""
 
     @property
     def name(self) -> str:

@@ -15,7 +15,7 @@ OBJECTS = [
     for name in handeye.__all__
     if inspect.isclass(getattr(handeye, name)) or inspect.isfunction(getattr(handeye, name))
 ]
-PLAIN = {"HandeyeError", "InvalidInput", "Result", "Task", "Trace"}
+PLAIN = {"Comparison", "HandeyeError", "InvalidInput", "Result", "Task", "Trace"}
 """Names whose examples are those of what makes them."""
 FINDER = doctest.DocTestFinder()
 

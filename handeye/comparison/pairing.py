@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
-from handeye.compare.place import Place, place_of
+from handeye.comparison.place import Place, place_of
 from handeye.inspection.alignment import Pair, aligned
 from handeye.program.program import Step
 from handeye.see.recorded import Recorded

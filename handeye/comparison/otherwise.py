@@ -8,7 +8,7 @@ from typing import Final
 import msgspec
 
 from handeye.arm.model import ArmModel
-from handeye.compare.stretches import Stretch, Told
+from handeye.comparison.stretches import Stretch, Told
 from handeye.events import AnyEvent, OperatorAnswered, StepFinished
 from handeye.trace.channels import FRAMES, HAND, JOINTS
 from handeye.trace.quantities import Differing, differing, differing_events

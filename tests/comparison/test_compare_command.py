@@ -12,9 +12,9 @@ from conftest import Command
 from recordings import EVENTS, Recording, record
 from report_pages import recorded
 
-from handeye.compare.comparison import Comparison, comparison
-from handeye.compare.conditions import Condition
-from handeye.compare.text import comparison_text
+from handeye.comparison.comparison import Comparison, comparison
+from handeye.comparison.conditions import Condition
+from handeye.comparison.text import comparison_text
 from handeye.errors import InvalidInput
 from handeye.events import Event, GuardTripped
 from handeye.see.recorded import Recorded

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from handeye.compare.pairing import CarriedOut, Turn, TwoRuns, side_by_side
-from handeye.compare.place import Place
+from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
+from handeye.comparison.place import Place
 from handeye.events import GuardTripped
 from handeye.program.guards import GuardKind
 from handeye.record import Record

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 
 from msgspec.structs import replace
 
-from handeye.compare.pairing import CarriedOut, Turn, TwoRuns, side_by_side
-from handeye.compare.place import Place
+from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
+from handeye.comparison.place import Place
 from handeye.events import AnyEvent, ErrorRaised, SearchAdvanced
 from handeye.program.causes import PlacesTried
 from handeye.record import Record

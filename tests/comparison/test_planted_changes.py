@@ -8,9 +8,9 @@ import pytest
 from compared_runs import SCRIPT, block_start, kept
 
 from handeye.cell.joint_sensors import JointSensors
-from handeye.compare.comparison import Comparison, comparison
-from handeye.compare.first import First
-from handeye.compare.place import Place, place_of
+from handeye.comparison.comparison import Comparison, comparison
+from handeye.comparison.first import First
+from handeye.comparison.place import Place, place_of
 from handeye.events import StepStarted
 from handeye.pose import Array
 from handeye.see.recorded import Recorded

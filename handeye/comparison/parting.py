@@ -6,8 +6,8 @@ from itertools import zip_longest
 from typing import Any
 
 from handeye import events as happened
-from handeye.compare.pairing import TwoRuns
-from handeye.compare.place import Place, place_of
+from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.place import Place, place_of
 from handeye.events import AnyEvent, StepStarted
 from handeye.see.recorded import Recorded
 
@@ -26,8 +26,9 @@ class Parting:
     """The first event by which two runs went different ways."""
 
     a: Turning | None
-    """None: the run has ended before."""
+    """Where the first run stood, and what happened next; None: it has ended before."""
     b: Turning | None
+    """The second run."""
 
     @property
     def place(self) -> Place | None:

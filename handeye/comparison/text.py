@@ -3,15 +3,15 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
-from handeye.compare.comparison import Compared, Comparison
-from handeye.compare.conditions import Condition
-from handeye.compare.corrected import Correction, Corrections
-from handeye.compare.felt import Stop, Stops
-from handeye.compare.first import First
-from handeye.compare.otherwise import EVENT
-from handeye.compare.parting import Parting, Turning
-from handeye.compare.place import Place
-from handeye.compare.searched import Search, Searches
+from handeye.comparison.comparison import Compared, Comparison
+from handeye.comparison.conditions import Condition
+from handeye.comparison.corrected import Correction, Corrections
+from handeye.comparison.felt import Stop, Stops
+from handeye.comparison.first import First
+from handeye.comparison.otherwise import EVENT
+from handeye.comparison.parting import Parting, Turning
+from handeye.comparison.place import Place
+from handeye.comparison.searched import Search, Searches
 from handeye.events import AnyEvent, StepStarted
 from handeye.plain_text import counted, one_line
 from handeye.program.guards import GuardKind

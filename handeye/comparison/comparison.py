@@ -5,14 +5,14 @@ from typing import Any
 
 import msgspec
 
-from handeye.compare.conditions import Condition, conditions
-from handeye.compare.corrected import Corrections, corrections
-from handeye.compare.felt import Stops, stops
-from handeye.compare.first import First, first_difference
-from handeye.compare.pairing import TwoRuns
-from handeye.compare.parting import Parting, Turning, parting
-from handeye.compare.place import Place
-from handeye.compare.searched import Searches, searches
+from handeye.comparison.conditions import Condition, conditions
+from handeye.comparison.corrected import Corrections, corrections
+from handeye.comparison.felt import Stops, stops
+from handeye.comparison.first import First, first_difference
+from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.parting import Parting, Turning, parting
+from handeye.comparison.place import Place
+from handeye.comparison.searched import Searches, searches
 from handeye.errors import InvalidInput
 from handeye.see.facts.outcome import Kind, outcome
 from handeye.see.recorded import Recorded
@@ -47,7 +47,9 @@ class Comparison:
     """Two runs beside each other."""
 
     a: Compared
+    """The first run."""
     b: Compared
+    """The second."""
     conditions: tuple[Condition, ...]
     """In what they depended on, all that differs."""
     first: First | None
@@ -55,14 +57,23 @@ class Comparison:
     parted: Parting | None
     """Where they went different ways; None: nowhere."""
     searches: tuple[Searches, ...]
+    """Places that each tried."""
     stops: tuple[Stops, ...]
+    """How their guarded motions ended."""
     corrections: tuple[Corrections, ...]
+    """Differences that each saved, and parts that it saw."""
     stages: tuple[Stages, ...]
+    """What each took."""
 
     @property
     def same(self) -> bool:
         """Nothing was recorded otherwise of all that was recorded of both."""
         return self.first is None
+
+    def __str__(self) -> str:
+        from handeye.comparison.text import comparison_text
+
+        return "\n".join(comparison_text(self))
 
 
 def comparison(a: Recorded, b: Recorded) -> Comparison:

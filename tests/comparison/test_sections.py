@@ -4,11 +4,11 @@ from short_runs import GRASP
 from told_runs import happens, told
 
 from handeye import events as happened
-from handeye.compare.corrected import corrections
-from handeye.compare.felt import stops
-from handeye.compare.pairing import TwoRuns
-from handeye.compare.parting import parting
-from handeye.compare.searched import searches
+from handeye.comparison.corrected import corrections
+from handeye.comparison.felt import stops
+from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.parting import parting
+from handeye.comparison.searched import searches
 from handeye.program.causes import PlacesTried
 from handeye.program.guards import GuardKind
 

@@ -5,8 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from handeye.compare.pairing import CarriedOut, Turn, TwoRuns, side_by_side
-from handeye.compare.place import Place
+from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
+from handeye.comparison.place import Place
 from handeye.events import PartSeen, Saved
 from handeye.record import Record
 

@@ -7,10 +7,10 @@ from itertools import zip_longest
 import msgspec
 from google.protobuf.message import DecodeError
 
-from handeye.compare.otherwise import otherwise
-from handeye.compare.pairing import TwoRuns
-from handeye.compare.place import Place, place_of
-from handeye.compare.stretches import Stretch, stretches
+from handeye.comparison.otherwise import otherwise
+from handeye.comparison.pairing import TwoRuns
+from handeye.comparison.place import Place, place_of
+from handeye.comparison.stretches import Stretch, stretches
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, StepStarted
 from handeye.inspection.difference import step_changes
@@ -27,9 +27,11 @@ class First:
     a: Place | None
     """The step under way; None: before the first one, or the run has ended there."""
     b: Place | None
+    """That of the second run."""
     period: int | None = None
     """The servo period of the step, from 1; None: it is of none."""
     differing: Differing
+    """The quantity, and both values."""
     next: tuple[AnyEvent | None, AnyEvent | None] = (None, None)
     """What happened next, where that is what differs; None: the step went on, or the run ended."""
 

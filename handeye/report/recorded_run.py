@@ -1,0 +1,32 @@
+"""A recorded run with what its folder tells of it besides its trace."""
+
+from pathlib import Path
+
+from handeye.errors import InvalidInput
+from handeye.report.kept_run import kept_run
+from handeye.report.result import Result
+from handeye.runs.folder import RESULT
+from handeye.see.recorded import Recorded
+from handeye.trace.trace import Trace
+
+
+def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> Recorded:
+    """A run of which the trace was read.
+
+    Args:
+        run: its folder, or its trace.
+        whole: the trace was read to its end.
+    """
+    result, remarks = _result(run)
+    return Recorded(trace=trace, whole=whole, result=result, remarks=remarks)
+
+
+def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
+    """What the folder of a run says that it came to, if it says so, and what is wrong with that."""
+    if not (run / RESULT).is_file():
+        return None, ()
+    try:
+        kept = kept_run(run)
+    except InvalidInput as fault:
+        return None, (str(fault),)
+    return (kept.result if kept.left else None), kept.faults
