@@ -18,7 +18,7 @@ from handeye.files import Kind
 
 RATE: Final = 12
 """Frames a second."""
-_QUALITY: Final = 70
+_QUALITY: Final = 75
 _MOST: Final = 1 << 30
 """Bytes of the frames of a WebP animation, which are all in memory at once."""
 _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)

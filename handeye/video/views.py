@@ -22,7 +22,7 @@ _SWAY: Final = 34.0
 """degrees"""
 _CLOSE, _WIDE = 0.42, 2.3
 """How near the eye goes to where the hand works: m, and m for each m that the hand is from the middle of its places."""
-_AMID: Final = np.array([0.5, 0.5, 0.15])
+_AMID: Final = np.array([0.5, 0.5, -0.1])
 """Where the eye looks amid these places: below their middle, for the hand works where it is low."""
 _STAYS: Final = 0.05
 """m"""
