@@ -1,51 +1,79 @@
-"""Makes the pictures of the README anew from a recorded run; `docs/plan.md` says how `pins.svg` is drawn.
+"""Makes every picture of the README and of docs/ anew, but for `pipeline.svg`, which people draw.
 
-handeye assemble --seed 15 --camera gl --out DIR
-python docs/make_pictures.py DIR
+python docs/make_pictures.py [DIR]
+
+DIR holds the run that is shown, kept by `handeye assemble --seed 15 --camera gl --out DIR`; without it, it is carried
+out first. It takes OpenGL.
 """
 
 import sys
+import tempfile
 from pathlib import Path
 
 import cv2
-import numpy as np
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 import handeye  # noqa: E402
+from handeye.inspection.drawing import flow_svg  # noqa: E402
+from handeye.inspection.flow import flow  # noqa: E402
+from handeye.planfile.store import read_plan  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"
-BIG, SEEN, SMALL = (1120, 840), (666, 512), (560, 420)
-FASTER, FRAME, STILL = 40, 100, 2000
-"""How many times as fast the film is; ms that a picture of it stands, and that its last does."""
+SEED = 15
+PINS = 4
+"""The stage whose flow is drawn."""
+BIG, SEEN = (1120, 840), (666, 512)
 
 
-def shrunk(name: str, picture: Path, size: tuple[int, int]) -> None:
+def kept(name: str, picture: Path, size: tuple[int, int]) -> None:
     """A picture of the run, smaller."""
     image = cv2.resize(cv2.imread(str(picture)), size, interpolation=cv2.INTER_AREA)
     cv2.imwrite(str(PICTURES / name), image, [cv2.IMWRITE_PNG_COMPRESSION, 9])
 
 
-def film(trace: "handeye.Trace") -> None:
-    """The run from the studio, without the calibration before it."""
-    begun, ends = trace.times[0] - trace.elapsed(trace.times[0]), trace.times[-1]
-    times = [*np.arange(begun, ends, FASTER * FRAME / 1000), ends]
-    frames = [trace.frame(time, width=SMALL[0], height=SMALL[1]) for time in times]
-    animation = cv2.Animation()
-    animation.frames = [cv2.cvtColor(np.ascontiguousarray(frame), cv2.COLOR_RGB2BGR) for frame in frames]
-    animation.durations = np.array([FRAME] * (len(times) - 1) + [STILL], dtype=np.int32)
-    cv2.imwriteanimation(str(PICTURES / "assembly.webp"), animation, [cv2.IMWRITE_WEBP_QUALITY, 60])
+def photographed(name: str, trace: "handeye.Trace", camera: str) -> None:
+    """The cell as the run has left it."""
+    width, height = BIG
+    picture = trace.frame(trace.times[-1], camera, width=width, height=height, fine=True)
+    cv2.imwrite(str(PICTURES / name), picture[:, :, ::-1], [cv2.IMWRITE_PNG_COMPRESSION, 9])
 
 
-def main(run: Path) -> None:
+def filmed(name: str, trace: "handeye.Trace") -> None:
+    """The whole run."""
+    trace.video(
+        PICTURES / name, camera="follow", captions=True, seconds=16, width=520, height=390, overwrite=True
+    )
+
+
+def drawn(name: str, stage: int) -> None:
+    """The flow of a stage of the plan."""
+    plan = read_plan(ROOT / "plans" / "water_pump.plan.json")
+    (PICTURES / name).write_text(flow_svg(flow(plan, stage)), encoding="utf-8")
+
+
+def make(run: Path) -> None:
     """All of them."""
-    shrunk("workcell.png", run / "pictures" / "end_studio.png", BIG)
-    shrunk("pump.png", run / "pictures" / "end_pump.png", BIG)
-    shrunk("base_found.png", run / "pictures" / "close_up.png", SEEN)
-    shrunk("gasket_checked.png", run / "pictures" / "after.png", SEEN)
-    film(handeye.open(run))
+    trace = handeye.open(run)
+    photographed("workcell.png", trace, "studio")
+    photographed("pump.png", trace, "pump")
+    kept("base_found.png", run / "pictures" / "close_up.png", SEEN)
+    kept("gasket_checked.png", run / "pictures" / "after.png", SEEN)
+    filmed("assembly.webp", trace)
+    drawn("pins.svg", PINS)
+
+
+def main(words: list[str]) -> None:
+    """Make them of the run that is named, or of one that is carried out for them."""
+    if words:
+        make(Path(words[0]))
+        return
+    with tempfile.TemporaryDirectory(prefix="handeye-") as folder:
+        run = Path(folder) / "run"
+        handeye.assemble(seed=SEED, camera="gl", out=run)
+        make(run)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(sys.argv[1:])

@@ -19,7 +19,7 @@ _LOOK: Final = 0.7
 """s of the video for which a picture is looked at."""
 _LOOKING: Final = 0.4
 """Of a video that may go into that, at most."""
-_LEAST: Final = 0.5
+_LEAST: Final = 2 / 3
 """Of the time that every stage would have if all had the same: what each has at least."""
 
 Span = tuple[float, float]

@@ -71,11 +71,13 @@ def test_at_a_speed_all_stages_are_equally_fast(trace: Trace) -> None:
 
 
 @pytest.mark.parametrize("seconds", [1.0, 14.0])
-def test_in_a_length_each_stage_has_half_of_an_equal_share_at_least(trace: Trace, seconds: float) -> None:
+def test_in_a_length_each_stage_has_two_thirds_of_an_equal_share_at_least(
+    trace: Trace, seconds: float
+) -> None:
     run = run_of(trace, *stage("one", 10, 12), *stage("two", 12, 14), *stage("three", 14, 100))
     lasts = within(passages(run, (10, 100), looks=False), seconds)
     assert lasts.sum() == pytest.approx(seconds)
-    assert lasts[:2] == pytest.approx(seconds / 6)
+    assert lasts[:2] == pytest.approx(2 / 9 * seconds)
 
 
 def test_pictures_take_no_more_than_four_tenths_of_a_video(trace: Trace) -> None:

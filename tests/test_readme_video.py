@@ -1,0 +1,84 @@
+"""The video that leads the README: long enough, small enough, and all eleven steps to be told apart."""
+
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from whole_runs import STAGES
+
+from handeye.video.captions import DONE
+
+ROOT = Path(__file__).parent.parent
+VIDEO = ROOT / "docs" / "pictures" / "assembly.webp"
+
+pytestmark = pytest.mark.slow
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A frame as long as it stands."""
+
+    frame: NDArray[np.uint8]
+    seconds: float
+
+    @property
+    def stage(self) -> int:
+        """How many pieces of the bar on its lower edge are lit."""
+        width = self.frame.shape[1]
+        middles = [(2 * number + 1) * width // (2 * len(STAGES)) for number in range(len(STAGES))]
+        far = np.abs(self.frame[-3, middles, ::-1].astype(int) - DONE).max(axis=1)
+        return int((far < 40).sum())
+
+    @property
+    def scene(self) -> NDArray[np.uint8]:
+        """The frame without what is said over it."""
+        height, width = self.frame.shape[:2]
+        return self.frame[height // 5 : height * 4 // 5, : width * 3 // 5]
+
+
+@cache
+def shown() -> tuple[Shown, ...]:
+    done, animation = cv2.imreadanimation(str(VIDEO))
+    assert done
+    return tuple(
+        Shown(frame=frame[..., :3], seconds=milliseconds / 1000)
+        for frame, milliseconds in zip(animation.frames, np.array(animation.durations), strict=True)
+    )
+
+
+def test_it_is_the_picture_that_leads_the_readme() -> None:
+    first = (ROOT / "README.md").read_text(encoding="utf-8").partition("](docs/pictures/")[2]
+    assert first.startswith("assembly.webp)")
+
+
+def test_it_is_long_enough_and_small_enough() -> None:
+    assert sum(frame.seconds for frame in shown()) >= 12
+    assert VIDEO.stat().st_size < 1.5e6
+
+
+def test_the_eleven_steps_come_in_order_and_each_stands_long_enough_to_be_read() -> None:
+    stages = [frame.stage for frame in shown()]
+    assert stages == sorted(stages)
+    seconds = np.zeros(len(STAGES) + 1)
+    for frame in shown():
+        seconds[frame.stage] += frame.seconds
+    assert seconds[0] == 0
+    assert seconds[1:].min() > 0.6
+
+
+def test_no_two_steps_show_the_same() -> None:
+    of_stages = [[frame.scene.astype(int) for frame in shown() if frame.stage == n] for n in range(1, 12)]
+    middles = [frames[len(frames) // 2] for frames in of_stages]
+    assert min(np.abs(one - other).mean() for one, other in pairwise(middles)) > 5
+
+
+def test_something_moves_in_every_step_but_the_first_and_the_check() -> None:
+    for number, name in enumerate(STAGES, 1):
+        frames = [frame.scene.astype(int) for frame in shown() if frame.stage == number]
+        moved = max(np.abs(one - other).mean() for one, other in pairwise(frames))
+        assert moved > 2 or name in ("find the base", "check the gasket")
