@@ -20,6 +20,7 @@ FOUNDATIONS = {
     "codes",
     "diagnostics",
     "errors",
+    "extras",
     "files",
     "folders",
     "resources",

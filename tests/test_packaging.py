@@ -17,6 +17,7 @@ ROOT = Path(__file__).parent.parent
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 DEPENDENCIES = [Requirement(text) for text in PROJECT["dependencies"]]
+EXTRAS = [Requirement(text) for texts in PROJECT["optional-dependencies"].values() for text in texts]
 BUILDING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["build"]]
 TESTING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["dev"]]
 PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
@@ -65,7 +66,7 @@ def test_what_the_package_imports_and_what_it_asks_for_are_the_same() -> None:
     modules = (ROOT / "handeye").rglob("*.py")
     imported = {name.split(".")[0] for m in modules for name in imports(m.read_text("utf-8"), m.stem)}
     foreign = imported - sys.stdlib_module_names - PEERS - {"handeye"}
-    asked = {canonicalize_name(wanted.name) for wanted in DEPENDENCIES}
+    asked = {canonicalize_name(wanted.name) for wanted in DEPENDENCIES + EXTRAS}
     assert {canonicalize_name(PACKAGE_OF.get(name, name)) for name in foreign} == asked
 
 

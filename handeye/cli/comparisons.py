@@ -3,7 +3,7 @@
 from cyclopts import App
 
 from handeye.cli.common import Json, put_json, say
-from handeye.cli.traces import TraceFile
+from handeye.cli.trace_files import TraceFile
 
 
 def register(app: App) -> None:

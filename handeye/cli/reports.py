@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import say
-from handeye.cli.trace_files import trace_file
-from handeye.cli.traces import TraceFile
+from handeye.cli.trace_files import TraceFile, trace_file
 from handeye.errors import InvalidInput
 
 if TYPE_CHECKING:

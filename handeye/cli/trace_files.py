@@ -1,9 +1,15 @@
 """The file that a run's trace, or what there is of it, is read from."""
 
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from handeye.cli.common import note
 from handeye.errors import InvalidInput
+
+File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
+TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]
 
 
 def trace_file(path: Path) -> Path:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
+from handeye.cli import trace_exports
 from handeye.cli.common import (
     Height,
     Json,
@@ -20,7 +21,7 @@ from handeye.cli.common import (
     screen,
 )
 from handeye.cli.photographs import PLAIN, FineOptions
-from handeye.cli.trace_files import trace_file
+from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
 
@@ -28,15 +29,13 @@ if TYPE_CHECKING:
     from handeye.events import AnyEvent
     from handeye.trace.reading import Trace
 
-File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
-TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]
-
 
 def register(app: App) -> None:
     """Add the commands to the command line."""
     trace = App(name="trace", help="Read the traces that runs leave.")
     for command in (show, stats, photograph, verify):
         trace.command(command)
+    trace_exports.register(trace)
     app.command(trace)
 
 

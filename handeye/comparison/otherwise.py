@@ -41,7 +41,7 @@ def otherwise(a: Stretch, b: Stretch, arm: ArmModel | None) -> Otherwise | None:
     period = 0
     for number, (one, other) in enumerate(zip_longest(a.told, b.told)):
         topics = [told.message.topic for told in (one, other) if told is not None]
-        period += JOINTS in topics
+        period += topics == [JOINTS, JOINTS]
         found = _differing(one, other, arm)
         if found is not None:
             next = (_next(a.told, number), _next(b.told, number)) if found.quantity == EVENT else (None, None)

@@ -86,7 +86,7 @@ def _first(first: First) -> Iterator[str]:
 
 
 def _next(event: AnyEvent | None) -> str:
-    return "it goes on, or ends" if event is None else sentence(event)
+    return "no event yet" if event is None else sentence(event)
 
 
 def _parted(parted: Parting | None) -> Iterator[str]:

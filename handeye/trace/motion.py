@@ -15,6 +15,8 @@ from handeye.trace.records import RawMessage
 class Motion:
     """Columns of n servo periods of an arm of m joints, by its sensors."""
 
+    names: tuple[str, ...]
+    """Of the joints, in order."""
     times: Array
     """Ends of the periods on the cell's clock, shape (n,), s."""
     joints: Array
@@ -46,6 +48,7 @@ def read_motion(messages: Iterable[RawMessage]) -> Motion:
     columns = np.array(rows, dtype=np.float64).reshape(len(rows), len(names), 3)
     arm = np.delete(columns, gap, axis=1)
     return Motion(
+        names=tuple(name for name in names if name != GAP),
         times=np.array(times),
         joints=arm[:, :, 0],
         rates=arm[:, :, 1],

@@ -143,7 +143,9 @@ def _event(event: AnyEvent) -> dict[str, Any]:
 
 def _named(value: Any) -> Any:
     """A place or a difference by the names of its parts; anything else as it is."""
-    numbers = isinstance(value, list | tuple) and all(isinstance(each, float) for each in value)
+    if not isinstance(value, list | tuple) or len(value) > len(_AXES):
+        return value
+    numbers = all(isinstance(each, int | float) for each in value)
     return dict(zip(_AXES, value, strict=False)) if numbers else value
 
 

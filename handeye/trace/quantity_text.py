@@ -45,11 +45,7 @@ def quantity_text(quantity: tuple[str, ...]) -> str:
         case ("picture", "level", row, column):
             said = f"level of the picture in row {row}, column {column}"
         case (of, *what) if what:
-            said = (
-                f"{' '.join(what).replace('_', ' ')} of the {of}"
-                if of.islower()
-                else f"{' '.join(what)} of {of}"
-            )
+            said = f"{' '.join(what).replace('_', ' ')} of the {_EVENTS.get(of, of)}"
         case _:
             said = " ".join(quantity)
     return printable(said)

@@ -11,9 +11,12 @@ from compared_runs import block_start, kept
 from conftest import Command
 from recordings import EVENTS, Recording, record
 from report_pages import recorded
+from told_runs import saved, told
 
 from handeye.comparison.comparison import Comparison, comparison
 from handeye.comparison.conditions import Condition
+from handeye.comparison.corrected import corrections
+from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.text import comparison_text
 from handeye.errors import InvalidInput
 from handeye.events import Event, GuardTripped
@@ -147,3 +150,15 @@ def test_people_are_told_what_differed_first_and_where_the_ways_part(missed: Com
         "  A: it goes on at line 11: CHANGE [0 0 1] .2\n"
         "  B: error 2: the fingers closed beyond the minimum gap: "
     ) in text
+
+
+@pytest.mark.slow
+def test_corrections_are_told_where_they_are_more_than_a_hair_apart(missed: Comparison) -> None:
+    def told_of(*apart: float) -> str:
+        found = tuple(each for x in apart for each in corrections(TwoRuns(told(saved(x)), told(saved(0.0)))))
+        return "\n".join(comparison_text(replace(missed, corrections=found)))
+
+    assert "Corrections: 1 in both, 1 within 0.02 in of each other\n\n" in told_of(0.0005)
+    said = told_of(0.0005, 0.00254)
+    assert "Corrections: 2 in both, 1 within 0.02 in of each other\n" in said
+    assert "C1 in A (0.10, 0.00, 0.00) in, in B (0.00, 0.00, 0.00) in: 0.10 in apart" in said

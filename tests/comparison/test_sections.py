@@ -1,7 +1,7 @@
 """What two runs searched, felt and corrected stands beside each other, step by step."""
 
 from short_runs import GRASP
-from told_runs import happens, told
+from told_runs import happens, saved, told
 
 from handeye import events as happened
 from handeye.comparison.corrected import corrections
@@ -21,10 +21,6 @@ def advanced(count: int) -> tuple[str, list]:
 
 def met(value: float, guard: GuardKind = GuardKind.FORCE) -> tuple[str, list]:
     return DOWN, [happens(happened.GuardTripped, guard=guard, value=value, limit=13.9)]
-
-
-def saved(x: float) -> tuple[str, list]:
-    return "SAVE", [happens(happened.Saved, name="C1", difference=(x, 0.0, 0.0))]
 
 
 def test_a_search_has_the_places_that_each_run_tried() -> None:

@@ -6,7 +6,7 @@ from functools import partial
 from recordings import started
 from short_runs import GRASP, plan_of
 
-from handeye.events import AnyEvent, StepFinished, StepStarted
+from handeye.events import AnyEvent, Saved, StepFinished, StepStarted
 from handeye.planfile.store import encode
 from handeye.see.recorded import Recorded
 from handeye.trace.trace import Trace
@@ -36,3 +36,8 @@ def told(*steps: tuple[str, Sequence[Happening]], script: str = GRASP) -> Record
         messages=(),
     )  # fmt: skip
     return Recorded(trace=trace)
+
+
+def saved(x: float) -> tuple[str, Sequence[Happening]]:
+    """The step of the script that saves, with what it saves (m)."""
+    return "SAVE", [happens(Saved, name="C1", difference=(x, 0.0, 0.0))]

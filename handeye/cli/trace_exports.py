@@ -1,0 +1,83 @@
+"""Commands that hand what a trace holds to other programs, and draw it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import say
+from handeye.cli.reports import read_recorded
+from handeye.cli.trace_files import TraceFile
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.files import check_place, write_over
+from handeye.plain_text import counted
+
+if TYPE_CHECKING:
+    from handeye.trace.table_files import Format
+
+Folder = Annotated[Path, Parameter(name=["--output", "-o"], help="The folder to write.")]
+Overwrite = Annotated[bool, Parameter(help="Replace the tables that are in the folder.")]
+
+
+def register(trace: App) -> None:
+    """Add the commands to those on traces."""
+    trace.command(plot)
+    export = App(name="export", help="Write joints, forces and events of a run as tables.")
+    for command in (csv, parquet):
+        export.command(command)
+    trace.command(export)
+
+
+def plot(
+    run: TraceFile,
+    /,
+    *,
+    output: Annotated[
+        Path, Parameter(name=["--output", "-o"], help="The plot: its name ends in .png, .svg or .pdf.")
+    ],
+    stage: Annotated[
+        str | None, Parameter(help="This stage alone: its number, its name, or a piece of it.")
+    ] = None,
+) -> int:
+    """Draw joints, force of the hand and events of a run against time; it needs the extra `plot`, matplotlib.
+
+    Exit code 0: it is written; 2: bad input.
+    """
+    from handeye.trace.plot import plot as plot_of
+    from handeye.trace.plot_drawing import KINDS, drawn
+
+    kind = KINDS.get(output.suffix.lower())
+    if kind is None:
+        raise InvalidInput(
+            f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
+        )
+    check_place(output, kind)
+    write_over(output, drawn(plot_of(read_recorded(run).trace, stage), output.suffix.lower()), kind)
+    say(str(output))
+    return 0
+
+
+def csv(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
+    """Write tables of a run as CSV, with a README that tells their columns.
+
+    Exit code 0: they are written; 2: bad input.
+    """
+    return _exported(run, output, "csv", overwrite=overwrite)
+
+
+def parquet(run: TraceFile, /, *, output: Folder, overwrite: Overwrite = False) -> int:
+    """Write tables of a run as Parquet, with a README that tells their columns; it needs the extra `export`, pyarrow.
+
+    Exit code 0: they are written; 2: bad input.
+    """
+    return _exported(run, output, "parquet", overwrite=overwrite)
+
+
+def _exported(run: Path, output: Path, kind: "Format", *, overwrite: bool) -> int:
+    from handeye.trace.table_files import export_tables
+
+    written = export_tables(output, lambda: read_recorded(run).trace, kind, overwrite=overwrite)
+    said = ", ".join(f"{table.name} ({counted(table.rows, 'row')})" for table in written)
+    say(f"{output}: {said}")
+    return 0

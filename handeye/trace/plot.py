@@ -1,0 +1,152 @@
+"""What a plot of a trace shows: joints, force and events against time, in the units of the arm language."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from msgspec.structs import replace
+
+from handeye import events as happened
+from handeye.errors import InvalidInput
+from handeye.events import AnyEvent
+from handeye.pose import Array
+from handeye.program.stage_names import stage_index
+from handeye.tasks import known
+from handeye.trace.stages import Stage
+from handeye.trace.steps import Span
+from handeye.trace.trace import Trace
+from handeye.units import DEGREE, INCH, OUNCE_FORCE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Curve:
+    """Values of a quantity against time."""
+
+    name: str
+    times: Array
+    """s since the run began, shape (n,)."""
+    values: Array
+    """In the unit of the panel, shape (n,); NaN: there is none."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Panel:
+    """Curves that share an axis."""
+
+    name: str
+    unit: str
+    curves: tuple[Curve, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mark:
+    """Events of a kind."""
+
+    name: str
+    times: tuple[float, ...]
+    """s since the run began."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Plot:
+    """A plot of a run, or of a stage of it."""
+
+    title: str
+    begin: float
+    """s since the run began."""
+    end: float
+    stages: tuple[Stage, ...]
+    """Times since the run began."""
+    panels: tuple[Panel, ...]
+    marks: tuple[Mark, ...]
+
+
+_MARKED: Final[Mapping[str, type[AnyEvent]]] = {
+    "stop": happened.GuardTripped,
+    "error": happened.ErrorRaised,
+    "search": happened.SearchAdvanced,
+    "saved": happened.Saved,
+    "picture": happened.PictureTaken,
+    "operator": happened.OperatorCalled,
+}
+"""Events that are marked, by what they are called."""
+
+
+def plot(trace: Trace, stage: str | None = None) -> Plot:
+    """A plot of a trace.
+
+    Args:
+        stage: a stage alone: its number among those that were carried out, its name, or a piece of it.
+
+    Raises:
+        InvalidInput: there is no such stage, nothing was recorded between the events, or the trace cannot be read.
+    """
+    begin, end = trace.covers if stage is None else _covers(trace, stage)
+    rows = Span(begin, end).rows(trace.times)
+    if rows.start == rows.stop:
+        raise InvalidInput(f"{trace.name} holds no motion there to be drawn")
+    return Plot(
+        title=f"{trace.head.program}, {trace.head.world}",
+        begin=trace.elapsed(begin),
+        end=trace.elapsed(end),
+        stages=tuple(_stages(trace)),
+        panels=(*_joints(trace, rows), _forces(trace, rows)),
+        marks=tuple(_marks(trace, begin, end)),
+    )
+
+
+def _covers(trace: Trace, stage: str) -> tuple[float, float]:
+    """From when to when a stage was carried out, each time that it was, s of the cell's clock."""
+    names = tuple(dict.fromkeys(each.name for each in trace.stages))
+    name = names[stage_index(stage, names)]
+    found = [each for each in trace.stages if each.name == name]
+    return found[0].begin, found[-1].end
+
+
+def _stages(trace: Trace) -> Iterator[Stage]:
+    for stage in trace.stages:
+        yield replace(stage, begin=trace.elapsed(stage.begin), end=trace.elapsed(stage.end))
+
+
+def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
+    """A panel for the joints that turn, one for those that slide and the fingers; SI where the arm is not known."""
+    task = known(trace.head.task)
+    kinds = {} if task is None else {joint.name: joint.kind for joint in task.arm.joints}
+    times = trace.times[rows] - trace.head.time
+    motion = trace.motion
+    turning, sliding, others = [], [Curve(name="gap", times=times, values=trace.gaps[rows] / INCH)], []
+    for number, name in enumerate(motion.names):
+        values = motion.joints[rows, number]
+        match kinds.get(name):
+            case "revolute":
+                turning.append(Curve(name=name, times=times, values=values / DEGREE))
+            case "prismatic":
+                sliding.append(Curve(name=name, times=times, values=values / INCH))
+            case _:
+                others.append(Curve(name=name, times=times, values=values))
+    for name, unit, curves in (
+        ("joints that turn", "deg", turning),
+        ("joints that slide, fingers", "in", sliding),
+        ("joints", "SI", others),
+    ):
+        if curves:
+            yield Panel(name=name, unit=unit, curves=tuple(curves))
+
+
+def _forces(trace: Trace, rows: slice) -> Panel:
+    forces = trace.forces()
+    times = forces.times[rows] - trace.head.time
+    curves = (
+        Curve(name=axis, times=times, values=forces.force[rows, number] / OUNCE_FORCE)
+        for number, axis in enumerate("xyz")
+    )
+    return Panel(name="force of the hand", unit="oz", curves=tuple(curves))
+
+
+def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:
+    """Events that happened, kind by kind."""
+    for name, kind in _MARKED.items():
+        times = (event.time for event in trace.events if isinstance(event, kind))
+        inside = tuple(trace.elapsed(time) for time in times if begin <= time <= end)
+        if inside:
+            yield Mark(name=name, times=inside)

@@ -1,0 +1,107 @@
+"""The folder in which the tables of a trace are handed to other programs."""
+
+import csv
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from io import BytesIO, StringIO
+from pathlib import Path
+from typing import Final, Literal, get_args
+
+import numpy as np
+
+from handeye.extras import MissingExtra
+from handeye.folders import FolderKind, check_folder, write_folder
+from handeye.plain_text import printable
+from handeye.trace.tables import Column, Table, tables
+from handeye.trace.trace import Trace
+
+Format = Literal["csv", "parquet"]
+README: Final = "README.md"
+_BEGINS: Final = "# Tables of a run of handeye\n"
+EXPORT: Final = FolderKind(
+    name="tables of handeye",
+    known_by=README,
+    begins=_BEGINS.encode(),
+    holds=(README, *(f"*.{ending}" for ending in get_args(Format))),
+)
+
+
+def export_tables(
+    path: Path, trace: Callable[[], Trace], kind: Format, *, overwrite: bool
+) -> tuple[Table, ...]:
+    """Write the tables of a trace to a folder, with a README that tells their columns; the tables that were written.
+
+    Args:
+        trace: asked for after the place has been looked at.
+
+    Raises:
+        InvalidInput: they cannot be written there, a package is missing, or the trace cannot be read.
+    """
+    check_folder(path, EXPORT, overwrite=overwrite)
+    written = _WRITERS[kind]
+    made = tables(trace())
+    files = {f"{table.name}.{kind}": written(table) for table in made}
+    write_folder(path, {README: _readme(made, kind).encode(), **files})
+    return made
+
+
+def csv_bytes(table: Table) -> bytes:
+    """A table as CSV: its columns' names, then a row a line; numbers as exact as they are, none an empty cell."""
+    text = StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow([column.name for column in table.columns])
+    rows.writerows(zip(*map(_cells, table.columns), strict=True))
+    return text.getvalue().encode()
+
+
+def _cells(column: Column) -> Iterable[object]:
+    values = column.values
+    if isinstance(values, np.ndarray):
+        return ("" if value != value else value for value in values.tolist())  # NaN is not itself
+    return values
+
+
+def parquet_bytes(table: Table) -> bytes:
+    """A table as Parquet; units and meanings are metadata of its fields.
+
+    Raises:
+        MissingExtra: the package that writes it is not installed.
+    """
+    try:
+        import pyarrow as pa
+        from pyarrow import parquet
+    except ImportError:
+        raise MissingExtra("trace export parquet", "pyarrow", "export") from None
+    arrays = [pa.array(column.values, from_pandas=True) for column in table.columns]  # NaN is none
+    fields = [
+        pa.field(column.name, array.type, metadata={"unit": column.unit, "about": column.about})
+        for column, array in zip(table.columns, arrays, strict=True)
+    ]
+    made = pa.Table.from_arrays(arrays, schema=pa.schema(fields, metadata={"about": table.about}))
+    file = BytesIO()
+    parquet.write_table(made, file)
+    return file.getvalue()
+
+
+_WRITERS: Final[Mapping[Format, Callable[[Table], bytes]]] = {"csv": csv_bytes, "parquet": parquet_bytes}
+
+
+def _readme(made: Iterable[Table], kind: Format) -> str:
+    """What the files hold, column by column."""
+    return "\n".join(
+        [_BEGINS, "Figures are in SI units; a cell without one is empty.", *_told(made, kind), ""]
+    )
+
+
+def _told(made: Iterable[Table], kind: Format) -> Iterator[str]:
+    for table in made:
+        yield from (
+            "",
+            f"## {table.name}.{kind}",
+            "",
+            table.about,
+            "",
+            "| column | unit | |",
+            "|---|---|---|",
+        )
+        for column in table.columns:
+            yield f"| `{printable(column.name)}` | {column.unit} | {printable(column.about)} |"

@@ -1,0 +1,174 @@
+"""A trace as tables for programs that analyse data: joints and forces by servo periods, and what happened."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.arm.model import ArmModel
+from handeye.events import AnyEvent, StageStarted, StepStarted
+from handeye.pose import Array
+from handeye.tasks import known
+from handeye.trace.resuming import event_data
+from handeye.trace.sentences import sentence
+from handeye.trace.steps import CLOCKS
+from handeye.trace.trace import Trace
+
+Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
+NO_STEP: Final = -1
+"""Number in the place of a step where none was under way."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Column:
+    """A column of a table."""
+
+    name: str
+    about: str
+    unit: str = ""
+    """SI; empty: none."""
+    values: Values
+    """One for each row; NaN or an empty text: there is none."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Table:
+    """A table of a run."""
+
+    name: str
+    about: str
+    columns: tuple[Column, ...]
+
+    @property
+    def rows(self) -> int:
+        """How many there are."""
+        return len(self.columns[0].values)
+
+
+def tables(trace: Trace) -> tuple[Table, ...]:
+    """Joints, forces and events of a run.
+
+    Raises:
+        InvalidInput: a message is not what its channel says; or there are no forces, and the arm is not known here.
+    """
+    return _joints(trace), _forces(trace), _events(trace)
+
+
+def _joints(trace: Trace) -> Table:
+    task = known(trace.head.task)
+    motion, arm = trace.motion, None if task is None else task.arm
+    columns = [
+        Column(
+            name=f"{name.replace(' ', '_')}_{what}",
+            about=f"{what} of the joint {name}",
+            unit=_joint_unit(arm, name, what),
+            values=values[:, number],
+        )
+        for number, name in enumerate(motion.names)
+        for what, values in (("position", motion.joints), ("rate", motion.rates), ("torque", motion.efforts))
+    ]
+    gap = Column(name="gap", about="opening of the fingers by the sensor", unit="m", values=motion.gaps)
+    about = "What the sensors told at the end of each servo period, and what was put out in it."
+    return Table(name="joints", about=about, columns=(*_under_way(trace, motion.times), *columns, gap))
+
+
+_UNITS: Final = {
+    "revolute": {"position": "rad", "rate": "rad/s", "torque": "N m"},
+    "prismatic": {"position": "m", "rate": "m/s", "torque": "N"},
+}
+
+
+def _joint_unit(arm: ArmModel | None, name: str, what: str) -> str:
+    kinds = {} if arm is None else {joint.name: joint.kind for joint in arm.joints}
+    return _UNITS[kinds[name]][what] if name in kinds else ""
+
+
+def _forces(trace: Trace) -> Table:
+    forces = trace.forces()
+    rows = forces.estimated | (forces.guard != "")
+    vectors = (
+        ("force", "force of the hand on the world", "N", forces.force),
+        ("moment", "moment of the hand on the world about its tool centre point", "N m", forces.moment),
+        ("axis", "unit vector along or about which the guard looks", "", forces.axis),
+    )
+    columns = [
+        Column(name=f"{name}_{axis}", about=f"{about}, {axis}", unit=unit, values=values[rows, number])
+        for name, about, unit, values in vectors
+        for number, axis in enumerate("xyz")
+    ]
+    guard = tuple(map(str, forces.guard[rows]))
+    columns += [
+        Column(
+            name="guard", about="kind of the guard that watches, the first if there are several", values=guard
+        ),
+        Column(name="value", about="what it looks at: N, N m, or finger switches", values=forces.value[rows]),
+        Column(name="limit", about="what it allows of that", values=forces.limit[rows]),
+    ]
+    about = (
+        "What the hand felt, in the servo periods in which that was estimated or a guard watched; world axes."
+    )
+    if not forces.recorded:
+        about += " The trace does not hold it: it was reckoned from joints and torques."
+    return Table(name="forces", about=about, columns=(*_under_way(trace, forces.times[rows]), *columns))
+
+
+def _events(trace: Trace) -> Table:
+    events = trace.events
+    times = np.array([event.time for event in events])
+    columns = (
+        _since(trace, times),
+        *_places(_happening(events)),
+        Column(name="event", about="its kind", values=tuple(type(event).__name__ for event in events)),
+        Column(name="said", about="the event in a sentence", values=tuple(map(sentence, events))),
+        Column(name="data", about="all of it, as JSON", values=tuple(event_data(e).decode() for e in events)),
+    )
+    return Table(name="events", about="Everything that happened and was not undone.", columns=columns)
+
+
+# -- when, and in which step -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Happening:
+    """Where a run stands from an event on."""
+
+    stage: str
+    step: StepStarted | None
+
+
+def _happening(events: Iterable[AnyEvent]) -> Iterator[_Happening]:
+    """Where a run stands from each event on."""
+    stage, step = "", None
+    for event in events:
+        if isinstance(event, StageStarted):
+            stage = event.stage
+        elif isinstance(event, StepStarted):
+            step = event
+        yield _Happening(stage, step)
+
+
+def _under_way(trace: Trace, times: Array) -> tuple[Column, ...]:
+    """When servo periods ended, shape (n,), and which step was under way in each."""
+    happening = tuple(_happening(trace.events))
+    begun = np.array([event.time for event in trace.events]) + CLOCKS
+    rows = np.searchsorted(begun, times, side="right") - 1
+    return _since(trace, times), *_places(happening[row] for row in rows.tolist())
+
+
+def _since(trace: Trace, times: Array) -> Column:
+    return Column(
+        name="time", about="since the run began", unit="s", values=np.round(times - trace.head.time, 6)
+    )
+
+
+def _places(happening: Iterable[_Happening]) -> tuple[Column, ...]:
+    each = tuple(happening)
+    steps = np.array([NO_STEP if at.step is None else at.step.step for at in each], dtype=np.int64)
+    lines = tuple("" if at.step is None else at.step.place for at in each)
+    return (
+        Column(name="stage", about="the stage under way", values=tuple(at.stage for at in each)),
+        Column(name="step", about=f"number of the step under way; {NO_STEP}: none", values=steps),
+        Column(name="line", about="its line in the script", values=lines),
+    )

@@ -1,0 +1,138 @@
+"""A trace as tables: what the columns hold, and the folder they are written to."""
+
+import csv
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Command
+from recordings import EVENTS, record
+
+from handeye.trace.reading import read_trace
+from handeye.trace.sentences import sentence
+from handeye.trace.table_files import csv_bytes
+from handeye.trace.tables import Table, tables
+from handeye.trace.trace import Trace
+
+
+@pytest.fixture(scope="module")
+def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
+    path = tmp_path_factory.mktemp("tables") / "a.mcap"
+    record(path)
+    return read_trace(path)
+
+
+@pytest.fixture(scope="module")
+def made(trace: Trace) -> dict[str, Table]:
+    """The tables by their names."""
+    return {table.name: table for table in tables(trace)}
+
+
+def column(table: Table, name: str) -> list[object]:
+    return list(next(each.values for each in table.columns if each.name == name))
+
+
+def test_there_is_a_row_for_each_servo_period(trace: Trace, made: dict[str, Table]) -> None:
+    joints = made["joints"]
+    assert column(joints, "time") == pytest.approx(trace.times - trace.head.time)
+    assert column(joints, "boom_position") == trace.joints[:, 2].tolist()
+    assert column(joints, "wrist_roll_rate") == trace.rates[:, 3].tolist()
+    assert column(joints, "hand_roll_torque") == trace.efforts[:, 5].tolist()
+    assert column(joints, "gap") == trace.gaps.tolist()
+
+
+def test_units_go_by_what_joints_do(made: dict[str, Table]) -> None:
+    units = {each.name: each.unit for each in made["joints"].columns}
+    assert [units[f"boom_{what}"] for what in ("position", "rate", "torque")] == ["m", "m/s", "N"]
+    assert [units[f"shoulder_{what}"] for what in ("position", "rate", "torque")] == ["rad", "rad/s", "N m"]
+
+
+def test_each_row_tells_the_step_that_was_under_way(trace: Trace, made: dict[str, Table]) -> None:
+    joints = made["joints"]
+    told = list(zip(*(column(joints, name) for name in ("stage", "step", "line")), strict=True))
+    first, last = trace.stages[0], trace.stages[-1]
+    rows = [at for at, time in zip(told, trace.times, strict=True) if first.begin < time <= first.end + 1e-6]
+    assert set(rows) == {("open", 0, "2")}
+    rows = [at for at, time in zip(told, trace.times, strict=True) if time > last.begin + 1e-3]
+    assert set(rows) == {("again", 2, "6")}
+
+
+def test_forces_have_a_row_where_there_is_something_to_tell(trace: Trace, made: dict[str, Table]) -> None:
+    forces, known = trace.forces(), trace.forces().estimated
+    assert 0 < known.sum() < len(known)
+    assert column(made["forces"], "force_z") == forces.force[known, 2].tolist()
+    assert column(made["forces"], "guard") == ["force"] * known.sum()
+    assert column(made["forces"], "limit") == [8.0] * known.sum()
+
+
+def test_every_event_has_its_row_its_sentence_and_all_of_it(made: dict[str, Table]) -> None:
+    events = made["events"]
+    assert column(events, "event") == [type(event).__name__ for event in EVENTS]
+    assert column(events, "said") == [sentence(event) for event in EVENTS]
+    assert [json.loads(data)["time"] for data in column(events, "data")] == [event.time for event in EVENTS]
+
+
+def test_csv_gives_every_number_back_to_the_bit(made: dict[str, Table]) -> None:
+    joints = made["joints"]
+    head, *rows = csv.reader(csv_bytes(joints).decode().splitlines())
+    assert head == [each.name for each in joints.columns]
+    for number, each in enumerate(joints.columns):
+        if isinstance(each.values, np.ndarray):
+            assert [float(row[number]) for row in rows] == each.values.tolist()
+
+
+def test_a_figure_that_is_not_there_is_an_empty_cell(made: dict[str, Table]) -> None:
+    forces = made["forces"]
+    lacking = next(each for each in forces.columns if each.name == "value")
+    gone = replace(lacking, values=np.array([np.nan, 1.5]))
+    assert csv_bytes(Table(name="two", about="", columns=(gone, gone))) == b"value,value\n,\n1.5,1.5\n"
+
+
+# -- the folder ------------------------------------------------------------------------------------------------
+
+
+def test_the_folder_holds_a_file_for_each_table_and_tells_its_columns(
+    command: Command, tmp_path: Path
+) -> None:
+    record(tmp_path / "a.mcap")
+    said = "told: joints (72 rows), forces (36 rows), events (37 rows)\n"
+    assert command("trace", "export", "csv", "a.mcap", "-o", "told") == (0, said, "")
+    assert {path.name for path in Path("told").iterdir()} == {
+        "README.md", "joints.csv", "forces.csv", "events.csv",
+    }  # fmt: skip
+    readme = Path("told/README.md").read_text(encoding="utf-8")
+    assert "| `boom_position` | m | position of the joint boom |" in readme
+
+
+def test_tables_are_replaced_only_if_somebody_says_so_and_nothing_else_ever(
+    command: Command, tmp_path: Path
+) -> None:
+    record(tmp_path / "a.mcap")
+    words = ("trace", "export", "csv", "a.mcap", "-o", "told")
+    assert command(*words)[0] == 0
+    assert command(*words)[2] == ("handeye: told holds tables of handeye already; --overwrite replaces it\n")
+    assert command(*words, "--overwrite")[0] == 0
+    Path("told/mine.txt").touch()
+    assert "told holds other things" in command(*words, "--overwrite")[2]
+
+
+def test_an_event_list_makes_no_tables(command: Command) -> None:
+    Path("events.jsonl").touch()
+    code, _, err = command("trace", "export", "csv", "events.jsonl", "-o", "told")
+    assert (code, Path("told").exists()) == (2, False)
+    assert err.endswith("does not say where things were; take the trace.mcap\n")
+
+
+def test_parquet_without_pyarrow_is_told_with_the_way_to_get_it(
+    command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    record(tmp_path / "a.mcap")
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    code, _, err = command("trace", "export", "parquet", "a.mcap", "-o", "told")
+    needed = "`trace export parquet` needs pyarrow, which is not installed"
+    how = "`pip install pyarrow` brings it, and so does the extra `export` of handeye"
+    assert (code, err) == (2, f"handeye: {needed}: {how}\n")
+    assert not Path("told").exists()
