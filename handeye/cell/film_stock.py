@@ -75,7 +75,7 @@ def _grain(height: int, width: int) -> Array:
 FILMS: Final[Mapping[str, FilmStock]] = {
     "colour": FilmStock(
         lighting=Lighting(
-            lamp=(0.76, 0.69, 0.59), gloss=0.8, sky=(0.36, 0.39, 0.44), everywhere=(0.21, 0.215, 0.23),
+            lamp=(0.76, 0.69, 0.59), gloss=0.8, sky=(0.40, 0.43, 0.48), everywhere=(0.24, 0.245, 0.26),
             stand=(0.9, -0.95, 0.9), radius=0.12,
         ),
         developed=_colour,

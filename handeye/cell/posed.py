@@ -6,13 +6,16 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
+from handeye.cell.clock_hands import hand_poses
 from handeye.cell.looks import LATENT, SEEN
+from handeye.cell.truth import Truth
+from handeye.pose import Array
 
 Posed = tuple[mujoco.MjModel, mujoco.MjData]
 """A scene as it stands."""
 
 
-def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> Posed:
+def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: float = 0.0) -> Posed:
     """A copy of a scene with its bodies where they were.
 
     It can only be looked at: shapes are put where they were, and joints are not.
@@ -20,13 +23,15 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> Posed:
     Args:
         poses: by the names of bodies, place in W (m) and unit quaternion w, x, y, z. Bodies without one stay as drawn,
             and those that only an event shows stay hidden. Names that the scene does not have are left out.
+        time: by the cell's clock, s, for the hands of the scene's clock.
     """
     model = copy.copy(scene)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
+    stood: dict[str, Sequence[float] | Array] = {**poses, **hand_poses(scene, time)}
     known = {model.body(number).name: number for number in range(1, model.nbody)}
-    for name in known.keys() & poses.keys():
-        body, pose = known[name], np.asarray(poses[name], dtype=float)
+    for name in known.keys() & stood.keys():
+        body, pose = known[name], np.asarray(stood[name], dtype=float)
         data.xpos[body] = pose[:3]
         mujoco.mju_quat2Mat(data.xmat[body], pose[3:])
         _show(model, body)
@@ -36,6 +41,15 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]]) -> Posed:
         data.geom_xpos[geom] = data.xpos[body] + R @ model.geom_pos[geom]
         data.geom_xmat[geom] = (R @ turn.reshape(3, 3)).ravel()
     return model, data
+
+
+def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
+    """A copy of a scene with its bodies where those of a cell are: for pictures of a cell that has less in it."""
+    model, data = truth.model, truth.data
+    waiting = {*model.geom_bodyid[model.geom_group == LATENT].tolist()}
+    there = [body for body in range(1, model.nbody) if body not in waiting]
+    poses = {model.body(body).name: (*data.xpos[body], *data.xquat[body]) for body in there}
+    return posed(scene, poses, data.time)
 
 
 def _show(model: mujoco.MjModel, body: int) -> None:

@@ -21,8 +21,8 @@ FINE: Final = 2
 """Samples for a picture point, along the line and across it."""
 LUMA: Final = np.array([0.299, 0.587, 0.114])
 """Weights of red, green and blue in luminance, ITU-R BT.601."""
-SHOWN: Final = np.array([1, 0, 1, 0, 0, 0], dtype=np.uint8)
-"""Geom groups the camera sees: the ground and the parts. Group 1 is scenery for people, those above 2 are not seen."""
+SHOWN: Final = np.array([1, 0, 1, 0, 0, 1], dtype=np.uint8)
+"""Geom groups the camera sees: the ground and the parts, and 5, which people leave out; not 1, scenery for people."""
 
 
 class SceneRenderer(ABC):

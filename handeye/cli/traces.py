@@ -94,7 +94,7 @@ def photograph(
         raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
     moment = trace.head.time + at
     state = trace.at(moment)
-    write_over(output, png(how.take(posed(trace.scene, state.poses), camera, width, height)), PNG)
+    write_over(output, png(how.take(posed(trace.scene, state.poses, state.time), camera, width, height)), PNG)
     doing = "" if state.step is None else f", line {state.step.place}: {state.step.text}"
     say(f"{output}: {trace.elapsed(state.time):.2f} s{doing}")
     return 0

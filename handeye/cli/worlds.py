@@ -59,10 +59,12 @@ def render(
 ) -> int:
     """Render a picture of the work cell."""
     from handeye.cell.photograph import PNG, check_size, png
+    from handeye.cell.posed import as_it_stands
 
     check_place(output, PNG)
     check_size(width, height)
-    truth = task().cell(broken(world.spec, fault), "ray").truth
-    write_over(output, png(how.take((truth.model, truth.data), camera, width, height)), PNG)
+    spec = broken(world.spec, fault)
+    posed = as_it_stands(task().scene(spec), task().cell(spec, "ray").truth)
+    write_over(output, png(how.take(posed, camera, width, height)), PNG)
     say(f"{output}: {width} x {height}, camera {camera}")
     return 0

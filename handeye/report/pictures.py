@@ -5,6 +5,7 @@ from pathlib import Path
 import cv2
 
 from handeye.cell.photograph import photograph_png
+from handeye.cell.posed import as_it_stands
 from handeye.errors import InvalidInput
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Found
@@ -42,8 +43,7 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
     for name in context_of(runner.system).state.shots:
         write_whole(folder / f"{name.lower()}.png", annotated_png(context_of(runner.system), name))
-    truth = runner.cell.truth
-    if runner.cell.renderer.method == "opengl":
+    if runner.cell.renderer.method == "opengl" and runner.task.photographs:
+        posed = as_it_stands(runner.task.scene(runner.setup.world), runner.cell.truth)
         for camera in runner.task.photographs:
-            png = photograph_png(truth.model, truth.data, camera, 1280, 960)
-            write_whole(folder / f"end_{camera}.png", png)
+            write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))

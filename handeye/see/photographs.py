@@ -143,7 +143,7 @@ def _take(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> Iterator[Ph
     begin, end = run.trace.covers
     for each in wanted:
         moment = run.trace.at(min(max(each.time + run.trace.head.time, begin), end))
-        fine = photographer.take(*posed(run.trace.scene, moment.poses), each.view)
+        fine = photographer.take(*posed(run.trace.scene, moment.poses, moment.time), each.view)
         yield Photograph(
             time=each.time, shows=each.shows, width=size.width, height=size.height, webp=_webp(fine, size)
         )

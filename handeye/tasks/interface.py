@@ -115,7 +115,7 @@ class Task(ABC):
 
     @abstractmethod
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        """The scene of a world as it is drawn, before anything has happened in it.
+        """The scene of a world as people are shown it, before anything has happened in it: it is never simulated.
 
         Raises:
             InvalidInput: there is no such world.

@@ -197,7 +197,8 @@ class Trace:
         from handeye.cell.posed import posed
 
         how = exposing(fine=fine, film=film, exposures=exposures)
-        model, data = posed(self.scene, self.at(time).poses)
+        moment = self.at(time)
+        model, data = posed(self.scene, moment.poses, moment.time)
         return photographed(model, data, camera=camera, width=width, height=height, how=how)
 
     def video(

@@ -72,7 +72,7 @@ def _drawn(trace: Trace, board: Storyboard, wanted: Wanted, told: Told) -> Itera
     )
     for number, frame in enumerate(board.frames):
         told(number, len(board.frames))
-        fine = photographer.take(*posed(trace.scene, trace.at(frame.time).poses), frame.view)
+        fine = photographer.take(*posed(trace.scene, trace.at(frame.time).poses, frame.time), frame.view)
         small = cv2.resize(fine, (wanted.width, wanted.height), interpolation=cv2.INTER_AREA)
         yield _said(np.asarray(small, dtype=np.uint8), frame)
 

@@ -22,7 +22,7 @@ from short_runs import begin, through
 
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
-from handeye.see.player import scene_bytes, script, tracks_bytes
+from handeye.see.player import scene_bytes, script, shown_poses, tracks_bytes
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 
@@ -123,14 +123,14 @@ def test_the_whole_run_can_be_shown(page: Page, trace: Trace) -> None:
 
 
 def test_every_body_is_where_it_was_and_hidden_where_it_was_not(page: Page, trace: Trace) -> None:
-    rows = np.linspace(0, len(trace.times) - 1, 20).astype(int)
+    rows, shown = np.linspace(0, len(trace.times) - 1, 20).astype(int), shown_poses(trace)
     times = (trace.times[rows] - trace.head.time).tolist()
     told = page.evaluate(
         f"{times}.map(t => Object.fromEntries(player.names.map(n => [n, player.pose(n, t)])))"
     )
     for row, poses in zip(rows, told, strict=True):
         for name, pose in poses.items():
-            true = trace.poses[name][row]
+            true = shown[name][row]
             there = bool(true[2] > -1.0)
             assert (pose is not None) == there, (name, row)
             if there:

@@ -19,6 +19,7 @@ from handeye.runs.runner import Runner
 from handeye.see.animation import animation
 from handeye.see.page.document import report_page
 from handeye.see.photographs import album
+from handeye.see.player import shown_poses
 from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
 
@@ -97,14 +98,14 @@ def test_the_line_that_is_lit_is_the_one_under_way(run: Recorded, page: Page) ->
 
 
 def test_every_body_is_where_it_was(run: Recorded, page: Page) -> None:
-    rows = np.linspace(0, len(run.trace.times) - 1, 20).astype(int)
+    rows, shown = np.linspace(0, len(run.trace.times) - 1, 20).astype(int), shown_poses(run.trace)
     for row in rows:
         seconds = run.seconds(run.trace.times[row])
         told = page.evaluate(
             f"(p => Object.fromEntries(p.names.map(n => [n, p.pose(n, {seconds})])))(view.player)"
         )
         for name, pose in told.items():
-            true = run.trace.poses[name][row]
+            true = shown[name][row]
             if true[2] > -1.0:
                 chord = min(np.linalg.norm(pose[3:] - sign * true[3:]) for sign in (1, -1))
                 assert np.linalg.norm(pose[:3] - true[:3]) < PLACE, (name, row)

@@ -33,10 +33,14 @@ page to be scrolled.
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
+from handeye.cell.clock_hands import drawn_poses
 from handeye.see.player import scene, tracks
+from handeye.trace.messages import Poses
 from handeye.trace.trace import Trace
 
-__all__ = ["scene_bytes", "script", "tracks_bytes"]
+__all__ = ["scene_bytes", "script", "shown_poses", "tracks_bytes"]
 
 MODULES: Final = (
     "geometry", "packed", "tracks", "shaders", "graphics", "bodies", "shadows", "camera", "picture", "hands", "player",
@@ -61,15 +65,22 @@ def tracks_bytes(trace: Trace) -> bytes:
     Raises:
         InvalidInput: as `scene_bytes`; or nothing was recorded between the events.
     """
-    model, (begin, end) = trace.scene, trace.covers
-    shown = {model.body(body).name for body in range(1, model.nbody) if scene.seen(model, body)}
+    begin, end = trace.covers
     return tracks.tracks_bytes(
-        {name: rows for name, rows in trace.poses.items() if name in shown},
+        shown_poses(trace),
         times=trace.times - trace.head.time,
         begin=trace.elapsed(begin),
         end=trace.elapsed(end),
-        lowest=scene.lowest(model),
+        lowest=scene.lowest(trace.scene),
     )
+
+
+def shown_poses(trace: Trace) -> dict[str, Poses]:
+    """Poses of the bodies that are seen in all servo periods, as the trace has them; of what no run moves, as drawn."""
+    model, poses = trace.scene, trace.poses
+    shown = [model.body(body).name for body in range(1, model.nbody) if scene.seen(model, body)]
+    drawn = drawn_poses(model, [name for name in shown if name not in poses], trace.times)
+    return {name: poses[name] if name in poses else drawn[name].astype(np.float32) for name in shown}
 
 
 def script() -> str:

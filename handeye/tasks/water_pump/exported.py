@@ -18,6 +18,7 @@ from handeye.tasks.interface import ExportedScene
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import specification
+from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.threads import holes_of
 
 RENAMED: Final = {"pin0": "pin1", "pin1": "pin2"}
@@ -49,6 +50,7 @@ def exported(world: PumpWorld, truth: Truth, keyframe: str) -> ExportedScene:
     spec = specification(world)
     model.eq_data[:] = spec.compile().eq_data  # of bonds that are left out
     spec.copy_back(model)
+    add_textures(spec)
     threaded = dict(_threaded(truth, data))
     for kind, names in _MECHANISMS.items():
         for thing in [thing for thing in getattr(spec, kind) if thing.name.startswith(names)]:

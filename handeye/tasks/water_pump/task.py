@@ -61,9 +61,9 @@ class WaterPump(Task):
         return catalogue(seed)
 
     def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        from handeye.tasks.water_pump.scene import build
+        from handeye.tasks.water_pump.scene import dressed
 
-        return build(PumpWorld.draw(spec))
+        return dressed(PumpWorld.draw(spec))
 
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
         from handeye.tasks.water_pump.cell import build_cell

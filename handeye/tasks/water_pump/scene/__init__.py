@@ -10,11 +10,11 @@ from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import add_arm
 from handeye.tasks.water_pump.scene.base import add_base
 from handeye.tasks.water_pump.scene.cover import add_gasket, add_merging, add_top
+from handeye.tasks.water_pump.scene.dressing import dress
 from handeye.tasks.water_pump.scene.fasteners import add_pins, add_screws
 from handeye.tasks.water_pump.scene.fixtures import add_blocks, add_plain_stations
 from handeye.tasks.water_pump.scene.room import add_room
 from handeye.tasks.water_pump.scene.shapes import Shaper
-from handeye.tasks.water_pump.scene.textures import add_textures
 from handeye.tasks.water_pump.scene.tool import add_driver
 
 _METAL: Final = (
@@ -46,7 +46,6 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
     add_driver(shaper, world)
     add_plain_stations(shaper, world)
     add_merging(spec)
-    add_textures(spec)
     break_parts(spec, world.drawn.spec.faults, world.drawn.spec.seed)
     return spec
 
@@ -54,3 +53,10 @@ def specification(world: PumpWorld) -> mujoco.MjSpec:
 def build(world: PumpWorld) -> mujoco.MjModel:
     """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
     return specification(world).compile()
+
+
+def dressed(world: PumpWorld) -> mujoco.MjModel:
+    """The scene as people are shown it, compiled: it has what no working cell needs. It is never simulated."""
+    spec = specification(world)
+    dress(Shaper(spec=spec))
+    return spec.compile()

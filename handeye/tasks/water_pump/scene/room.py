@@ -12,8 +12,13 @@ from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.shapes import Shaper
 
+LEFT, BACK, RIGHT, FRONT = -2.4, -2.0, 6.0, 6.0
+"""Where the room ends, m: walls on the left and at the back, nothing elsewhere."""
 TRAY = -2.0
 """Height (m) of a tray under the floor, out of every sight, for screws that have become part of a thread."""
+
+
+Point3 = tuple[float, float, float]
 
 
 def add_room(shaper: Shaper, world: PumpWorld) -> None:
@@ -70,26 +75,28 @@ def _add_belt(shaper: Shaper, world: PumpWorld) -> None:
 def _add_building(shaper: Shaper, screws: int) -> None:
     d = dimensions()
     body, floor = shaper.spec.worldbody, -d("table.height")
-    left, back, right, front = -2.4, -2.0, 6.0, 6.0
-    shaper.box(body, "look", (left, back, floor - 0.02), (right, front, floor), "floor", "floor")
-    shaper.box(body, "scenery", (left, back - 0.05, floor), (right, back, 3.0), "plaster", "wall0")
-    shaper.box(body, "scenery", (left - 0.05, back, floor), (left, front, 3.0), "plaster", "wall1")
-    shaper.box(body, "scenery", (left, back, floor), (right, back + 0.015, floor + 0.09), "iron", "skirting0")
-    shaper.box(body, "scenery", (left, back, floor), (left + 0.015, front, floor + 0.09), "iron", "skirting1")
+    shaper.box(body, "look", (LEFT, BACK, floor - 0.02), (RIGHT, FRONT, floor), "floor", "floor")
+    shaper.box(body, "scenery", (LEFT, BACK - 0.05, floor), (RIGHT, BACK, 3.0), "plaster", "wall0")
+    shaper.box(body, "scenery", (LEFT - 0.05, BACK, floor), (LEFT, FRONT, 3.0), "plaster", "wall1")
+    shaper.box(body, "scenery", (LEFT, BACK, floor), (RIGHT, BACK + 0.015, floor + 0.09), "iron", "skirting0")
+    shaper.box(body, "scenery", (LEFT, BACK, floor), (LEFT + 0.015, FRONT, floor + 0.09), "iron", "skirting1")
     shaper.box(body, "solid", (-0.3, -0.3, TRAY - 0.02), (0.3, 0.3, TRAY), name="tray")
     for k in range(screws):
         body.add_site(name=f"park{k}", pos=[0.05 * k, 0.0, TRAY], group=5)
 
 
+def cabinet(number: int) -> tuple[Point3, Point3]:
+    """Corners of a cabinet of the computer (m): its front, on the left and below, and on the right and above."""
+    left, floor = -0.85 + 0.57 * number, -dimensions()("table.height")
+    return (left, -1.35, floor + 0.06), (left + 0.55, -1.35, floor + 1.75)
+
+
 def _add_computer(shaper: Shaper) -> None:
     """Three cabinets against the far wall, with their rows of indicator lamps."""
     body, floor = shaper.spec.worldbody, -dimensions()("table.height")
-    back, front, top = -1.95, -1.35, floor + 1.75
     for k in range(3):
-        left, right = -0.85 + 0.57 * k, -0.30 + 0.57 * k
-        shaper.box(
-            body, "scenery", (left, back, floor + 0.06), (right, front, top), "cabinet", f"computer{k}"
-        )
+        (left, front, below), (right, _, top) = cabinet(k)
+        shaper.box(body, "scenery", (left, -1.95, below), (right, front, top), "cabinet", f"computer{k}")
         plate = (left + 0.03, front, top - 0.10), (right - 0.03, front + 0.004, top - 0.03)
         shaper.box(body, "scenery", *plate, "red", f"computer_name_plate{k}")
         for n, z in enumerate((0.35, 0.62, 0.89)):
@@ -116,10 +123,11 @@ def _add_tripod(shaper: Shaper) -> None:
     shaper.cylinder(head, "scenery", 0.048, (0, 0, 0.055), (0, 0, 0.07), "black")
     for side in (-1, 1):
         shaper.cylinder(head, "scenery", 0.016, (side * 0.022, 0, 0.04), (side * 0.022, 0, 0.055), "steel")
-    shaper.cylinder(body, "scenery", 0.02, (x, y + 0.16, 0.35), (x, y + 0.16, z + 0.20), "steel", "tripod")
+    back = y + 0.45  # it leans, and stays out of the view of `studio`
+    shaper.cylinder(body, "scenery", 0.02, (x, back, 0.35), (x, y + 0.14, z + 0.20), "steel", "tripod")
     for k, angle in enumerate((0.5, 2.6, 4.7)):
-        foot = (x + 0.42 * math.cos(angle), y + 0.30 + 0.30 * math.sin(angle), floor)
-        shaper.cylinder(body, "scenery", 0.014, foot, (x, y + 0.16, 0.55), "black", f"tripod_leg{k}")
+        foot = (x + 0.42 * math.cos(angle), back + 0.30 * math.sin(angle), floor)
+        shaper.cylinder(body, "scenery", 0.014, foot, (x, back, 0.55), "black", f"tripod_leg{k}")
 
 
 def _towards(view: Array) -> list[float]:

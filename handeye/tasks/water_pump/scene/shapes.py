@@ -120,6 +120,19 @@ class Shaper:
         at: Vector = (0.0, 0.0, 0.0),
     ) -> mujoco.MjsGeom:  # fmt: skip
         """Visual surface without collisions: vertices, shape (n, 3), and triangles, shape (m, 3)."""
+        return self._surface("look", body, name, material, surface, at)
+
+    def scenery(
+        self, body: mujoco.MjsBody, name: str, material: str, surface: tuple[Array, NDArray[np.int32]],
+        at: Vector = (0.0, 0.0, 0.0),
+    ) -> mujoco.MjsGeom:  # fmt: skip
+        """The same for people alone."""
+        return self._surface("scenery", body, name, material, surface, at)
+
+    def _surface(
+        self, style: str, body: mujoco.MjsBody, name: str, material: str,
+        surface: tuple[Array, NDArray[np.int32]], at: Vector,
+    ) -> mujoco.MjsGeom:  # fmt: skip
         if self.spec.mesh(name) is None:
             self.spec.add_mesh(
                 name=name,
@@ -127,7 +140,7 @@ class Shaper:
                 userface=surface[1].ravel().tolist(),
                 inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
             )
-        geom = body.add_geom(self.style("look"), type=MESH, meshname=name, pos=at)
+        geom = body.add_geom(self.style(style), type=MESH, meshname=name, pos=at)
         geom.material = material
         return geom
 

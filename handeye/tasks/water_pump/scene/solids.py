@@ -5,11 +5,12 @@ own in a world is kept for the next one.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
-from manifold3d import CrossSection, Manifold  # type: ignore[import-not-found]  # stubs, but no marker
+from manifold3d import CrossSection, Manifold, OpType  # type: ignore[import-not-found]  # stubs, but no marker
 from numpy.typing import NDArray
 
 from handeye.pose import Array
@@ -43,6 +44,21 @@ def hull(*sections: CrossSection) -> CrossSection:
 def extruded(section: CrossSection, z0: float, z1: float) -> Manifold:
     """The solid over a section between two heights, m."""
     return Manifold.extrude(section, z1 - z0).translate((0.0, 0.0, z0))
+
+
+def prism(profile: Sequence[Point], y0: float, y1: float) -> Manifold:
+    """The solid over a profile of (x, z) corners, in order, between two planes along y, m."""
+    return (
+        Manifold.extrude(CrossSection([list(profile)]), y1 - y0)
+        .rotate((90.0, 0.0, 0.0))
+        .translate((0.0, y1, 0.0))
+    )
+
+
+def tube(points: Sequence[tuple[float, float, float]], radius: float) -> Manifold:
+    """A round solid along the way through points, m."""
+    balls = [Manifold.sphere(radius, 12).translate(point) for point in points]
+    return Manifold.batch_boolean([Manifold.batch_hull(list(two)) for two in pairwise(balls)], OpType.Add)
 
 
 def bore(radius: float, z0: float, z1: float, *, above: float = 0.0, below: float = 0.0) -> Manifold:

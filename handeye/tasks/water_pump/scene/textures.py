@@ -9,35 +9,44 @@ from typing import Final
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from handeye.pose import Array
 
 _SIZE: Final = 512
+_BENCH: Final = 1024
+"""Points along a side of the bench, of which people see more than of anything else."""
+_BOARDS: Final = 33
 Grain = Callable[[np.random.Generator], Array]
-"""Draws a picture of relative intensities, shape (512, 512, 3)."""
+"""Draws a square picture of relative intensities, shape (n, n, 3)."""
 
 
 def add_textures(spec: mujoco.MjSpec) -> None:
     """Give the materials their grain. Each is drawn from a generator of its own, always the same."""
-    for name, repeat in _REPEATS.items():
+    for name, pixels in _pixels().items():
         texture = spec.add_texture(name=name, type=mujoco.mjtTexture.mjTEXTURE_2D)
-        texture.width, texture.height, texture.nchannel = _SIZE, _SIZE, 3
-        texture.data = _pixels(name)
+        texture.height, texture.width, texture.nchannel = pixels.shape
+        texture.data = pixels.tobytes()
+    for name, repeat in _REPEATS.items():
         material = spec.material(name)
-        material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
+        material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = _LIKE.get(name, name)
         material.texrepeat[:] = [repeat, repeat]
         material.texuniform = repeat != 1
 
 
 @cache
-def _pixels(name: str) -> bytes:
-    rng = np.random.default_rng(sorted(_REPEATS).index(name))
-    return np.clip(_GRAINS[name](rng) * 255, 0, 255).astype(np.uint8).tobytes()
+def _pixels() -> dict[str, NDArray[np.uint8]]:
+    """Pictures of the grains by their names."""
+    drawn = (grain(np.random.default_rng(number)) for number, grain in enumerate(_GRAINS.values()))
+    return {
+        name: np.clip(255 * grain, 0, 255).astype(np.uint8)
+        for name, grain in zip(_GRAINS, drawn, strict=True)
+    }
 
 
-def _smooth(rng: np.random.Generator, along_x: float, along_y: float) -> Array:
+def _smooth(rng: np.random.Generator, along_x: float, along_y: float, size: int = _SIZE) -> Array:
     """Noise blurred around the edges by Gaussians of these sigmas (px), of unit variance."""
-    noise, frequency = rng.standard_normal((_SIZE, _SIZE)), np.fft.fftfreq(_SIZE)
+    noise, frequency = rng.standard_normal((size, size)), np.fft.fftfreq(size)
     window = np.exp(-2 * np.pi**2 * np.add.outer((along_y * frequency) ** 2, (along_x * frequency) ** 2))
     soft = np.asarray(np.fft.ifft2(np.fft.fft2(noise) * window).real, np.float64)
     return np.asarray((soft - soft.mean()) / soft.std())
@@ -47,22 +56,24 @@ def _tinted(value: Array, tint: tuple[float, float, float] = (1.0, 1.0, 1.0)) ->
     return np.asarray(value[..., None] * np.array(tint))
 
 
-def _wood(rng: np.random.Generator, boards: int, tint: tuple[float, float, float]) -> Array:
-    """Boards side by side along x, each with its own tone and grain."""
-    row = np.arange(_SIZE)
-    tone = rng.uniform(-0.07, 0.04, boards)[row * boards // _SIZE][:, None]
-    streaks = 0.035 * _smooth(rng, 60, 1.2) + 0.02 * np.sin(6 * _smooth(rng, 90, 12))
-    gap = np.where(row * boards % _SIZE < boards, 0.6, 1.0)[:, None]
-    return _tinted((0.87 + tone + streaks) * gap, tint)
+def _streaks(rng: np.random.Generator, size: int = _SIZE) -> Array:
+    """Grain of wood along x."""
+    return 0.035 * _smooth(rng, 60, 1.2, size) + 0.02 * np.sin(6 * _smooth(rng, 90, 12, size))
 
 
 def _bench(rng: np.random.Generator) -> Array:
-    """Old maple."""
-    return _wood(rng, 11, (1.0, 0.84, 0.62))
+    """Old maple: narrow boards along x, each with its own tone, and of two pieces that meet somewhere."""
+    row = np.arange(_BENCH)
+    board = row * _BOARDS // _BENCH
+    tones, joints = rng.uniform(-0.08, 0.05, (_BOARDS, 2)), rng.integers(0, _BENCH, _BOARDS)
+    first = row[None, :] < joints[board][:, None]
+    tone = np.where(first, tones[board][:, :1], tones[board][:, 1:])
+    gap = (row * _BOARDS % _BENCH < _BOARDS)[:, None] | (abs(row[None, :] - joints[board][:, None]) < 1)
+    return _tinted((0.88 + tone + _streaks(rng, _BENCH)) * np.where(gap, 0.66, 1.0), (1.0, 0.84, 0.62))
 
 
 def _timber(rng: np.random.Generator) -> Array:
-    return _wood(rng, 1, (1.0, 0.95, 0.88))
+    return _tinted(0.87 + _streaks(rng), (1.0, 0.95, 0.88))
 
 
 def _cast(rng: np.random.Generator) -> Array:
@@ -71,8 +82,11 @@ def _cast(rng: np.random.Generator) -> Array:
 
 
 def _milled(rng: np.random.Generator) -> Array:
-    """Marks of a milling cutter."""
-    return _tinted(0.94 + 0.02 * _smooth(rng, 40, 0.8), (1.0, 1.0, 0.99))
+    """Marks of a face mill that went along y: arcs, a little uneven."""
+    x = np.arange(_SIZE) - _SIZE / 2
+    arc = np.sqrt((0.8 * _SIZE) ** 2 - x**2)
+    marks = np.sin(2 * np.pi * _MARKS * np.add.outer(np.arange(_SIZE), -arc) / _SIZE)
+    return _tinted(0.92 + 0.022 * marks + 0.012 * _smooth(rng, 30, 1.0) + 0.012 * _smooth(rng, 25, 25))
 
 
 def _woven(rng: np.random.Generator) -> Array:
@@ -91,10 +105,15 @@ def _tiles(rng: np.random.Generator) -> Array:
     return _tinted((tone + 0.025 * _smooth(rng, 3, 3)) * np.where(joints, 0.75, 1.0), (1.0, 0.97, 0.9))
 
 
+_MARKS: Final = 64
+"""Marks of the mill in a picture."""
 _GRAINS: Final[dict[str, Grain]] = {
-    "table": _bench, "wood": _timber, "cast": _cast, "machined": _milled, "belt": _woven, "floor": _tiles,
+    "belt": _woven, "cast": _cast, "floor": _tiles, "machined": _milled, "table": _bench, "wood": _timber,
 }  # fmt: skip
+"""By the names of their materials."""
+_LIKE: Final = {"top": "machined", "block": "machined"}
+"""Materials that have the grain of another."""
 _REPEATS: Final = {
-    "table": 1, "wood": 1, "cast": 25.0, "machined": 12.0, "belt": 1, "floor": 3.3,
+    "belt": 1, "cast": 25.0, "floor": 3.3, "machined": 12.0, "table": 1, "wood": 1, "top": 12.0, "block": 12.0,
 }  # fmt: skip
 """How often a grain repeats: in a metre, or once over the whole thing."""
