@@ -46,15 +46,23 @@ def _shoulder(light: Array, gain: float) -> Array:
     return np.asarray(1.28 * bright * (1 + bright / 9) / (1 + bright))
 
 
+def _contrast(values: Array, share: float) -> Array:
+    """Values that are darker where they are dark and lighter where they are light, by a share of the way to a curve."""
+    return np.asarray((1 - share) * values + share * values**2 * (3 - 2 * values))
+
+
+def _on_screen(light: Array, gain: float) -> Array:
+    return np.asarray(np.clip(_shoulder(light, gain), 0, 1) ** (1 / GAMMA))
+
+
 def _colour(light: Array) -> Array:
-    return np.asarray(np.clip(_shoulder(light, 3.0), 0, 1) ** (1 / GAMMA))
+    return _contrast(_on_screen(light, 3.1), 0.35)
 
 
 def _black_and_white(light: Array) -> Array:
     """Hard paper: deep shadows, and a tone of its own where it is white."""
-    grey = np.clip(_shoulder(light @ _PANCHROMATIC, 4.5), 0, 1) ** (1 / GAMMA)
-    steep = grey * grey * (3 - 2 * grey)
-    tone = 0.06 + 0.90 * (0.6 * steep + 0.4 * grey) + _grain(*grey.shape)
+    grey = _contrast(_on_screen(light @ _PANCHROMATIC, 4.5), 0.6)
+    tone = 0.06 + 0.90 * grey + _grain(*grey.shape)
     return np.asarray(tone[..., None] * _PAPER)
 
 
@@ -75,7 +83,7 @@ def _grain(height: int, width: int) -> Array:
 FILMS: Final[Mapping[str, FilmStock]] = {
     "colour": FilmStock(
         lighting=Lighting(
-            lamp=(0.76, 0.69, 0.59), gloss=0.8, sky=(0.40, 0.43, 0.48), everywhere=(0.24, 0.245, 0.26),
+            lamp=(0.76, 0.69, 0.59), gloss=0.8, sky=(0.44, 0.47, 0.52), everywhere=(0.29, 0.295, 0.31),
             stand=(0.9, -0.95, 0.9), radius=0.12,
         ),
         developed=_colour,

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from handeye.pose import Array
 
-APERTURE: Final = 0.010
-"""Radius of the opening, m: of a 50 mm lens at f/2.5."""
+APERTURE: Final = 0.008
+"""Radius of the opening, m: of a 50 mm lens at f/3.1."""
 _NEAR, _FAR = 0.1, 14.0
 """Clipping planes, m."""
 _MIDDLE: Final = 20

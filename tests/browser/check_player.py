@@ -140,7 +140,7 @@ def test_every_body_is_where_it_was_and_hidden_where_it_was_not(page: Page, trac
     assert len(told[0]) >= 30
 
 
-@pytest.mark.parametrize("view", ["room", "hand", "pump", "belt", "tv"])
+@pytest.mark.parametrize("view", ["room", "hand", "pump", "work", "belt", "tv"])
 def test_every_view_shows_something(page: Page, view: str) -> None:
     assert view in page.evaluate("player.views")
     settle(page, view)

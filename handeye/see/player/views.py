@@ -11,7 +11,7 @@ ROOM: Final = "room"
 """The view that a page begins with."""
 _CALLED: Final = {"studio": ROOM}
 """Cameras of scenes that have another name here."""
-_ORDER: Final = (ROOM, "hand", "pump", "belt", "tv")
+_ORDER: Final = (ROOM, "hand", "pump", "work", "belt", "tv")
 _TOOL: Final = "tool"
 """Site of a scene where its hand is."""
 _BESIDE: Final = np.array([0.30, 0.38, 0.36])

@@ -144,6 +144,6 @@ def test_names_that_the_cell_needs_are_there(bench):
         assert model.actuator(name) is not None
     for name in ("merge_top", "merge_gasket", *(f"thread{k}" for k in range(6))):
         assert model.equality(name) is not None
-    for camera in ("tv", "studio", "pump", "belt"):
+    for camera in ("tv", "studio", "pump", "work", "belt"):
         assert model.camera(camera) is not None
     assert ARM == "stanford/"

@@ -14,8 +14,8 @@ _REEL: Final = 0.100
 """Radius of a reel, m."""
 _TELETYPE: Final = (-1.70, -0.55)
 """Where the teletype stands, m."""
-_TURN: Final = [math.cos(math.pi / 6), 0.0, 0.0, math.sin(math.pi / 6)]
-"""How it is turned: no face of it straight to people's lamp, where OpenGL's shadows are full of specks."""
+_TURN: Final = [math.cos(math.radians(-5)), 0.0, 0.0, math.sin(math.radians(-5))]
+"""How it is turned: towards people's lamp, for faces that are nearly in line with its light are full of specks."""
 
 
 def add_reels(shaper: Shaper) -> None:
