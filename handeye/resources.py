@@ -1,4 +1,4 @@
-"""Finds the folders that travel with the package: `scenes` and `plans`."""
+"""Finds the folders that travel with the package: `scenes`, `plans` and `demo`."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)
 
 
 def folder(name: str) -> Path:
-    """The folder `scenes` or `plans`.
+    """The folder `scenes`, `plans` or `demo`.
 
     Raises:
         InvalidInput: the installation is incomplete.
@@ -29,3 +29,8 @@ def scenes() -> Path:
 def plans() -> Path:
     """Arm programs with their taught positions and compiled plans."""
     return folder("plans")
+
+
+def demo() -> Path:
+    """A run of the water pump to be looked at: a thinned trace, its result, and a picture of its end."""
+    return folder("demo")

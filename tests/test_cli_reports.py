@@ -9,6 +9,7 @@ from recordings import BODIES, record
 from report_pages import tree
 from short_runs import begin
 
+from handeye import resources
 from handeye.cli import job
 from handeye.errors import InvalidInput
 from handeye.see import animation, photographs
@@ -159,3 +160,44 @@ def test_a_run_is_what_it_is_whatever_comes_of_its_report(
 def test_a_report_is_known_by_how_it_begins(command: Command, kept: Path) -> None:
     assert command("report", "kept", "-o", "page.html")[0] == 0
     assert Path("page.html").read_bytes().startswith(REPORT.begins)
+
+
+def test_the_demo_is_a_page_of_eleven_stages_made_without_opengl(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(WaterPump, "photographs", ("studio", "pump"))
+    code, out, _ = command("report", "--demo")
+    assert (code, out) == (0, "demo.html\n")
+    page = tree(Path("demo.html").read_text(encoding="utf-8"))
+    assert page.all("h1")[0].text == "The pump is assembled."
+    assert [image.attributes["alt"] for image in page.all("header")[0].all("img")] == ["The end of the run"]
+    assert len(page.one("stages").all("a")) == 11
+    assert len(page.one("seen").all("figure")) == 4
+    assert "This trace is thinned" in page.one("felt").text
+    assert "No photograph: OpenGL does not work on this machine." in page.one("run").text
+
+
+def test_the_demo_is_less_than_a_megabyte() -> None:
+    assert sum(file.stat().st_size for file in resources.demo().rglob("*")) < 1_000_000
+
+
+@pytest.mark.parametrize("words", [(), ("kept", "--demo")])
+def test_a_report_is_of_one_run(command: Command, words: tuple[str, ...]) -> None:
+    assert refused(command, *words) == "a report is of one run: give its folder or its trace, or --demo"
+
+
+def test_a_picture_that_a_run_has_left_and_nobody_can_read_is_missing(
+    command: Command, kept: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(WaterPump, "photographs", ("studio", "pump"))
+    (kept / "pictures" / "end_pump.png").write_bytes(b"no picture")
+    assert command("report", "kept")[0] == 0
+    page = tree((kept / "report.html").read_text(encoding="utf-8"))
+    assert page.all("header")[0].all("img") == []
+
+
+def test_a_trace_is_thinned_where_nothing_is_yet(command: Command, kept: Path) -> None:
+    assert command("trace", "thin", "kept", "-o", "thin.mcap")[0] == 0
+    assert command("trace", "thin", "kept", "-o", "thin.mcap")[2].endswith("--overwrite replaces it\n")
+    code, _, err = command("trace", "thin", "kept", "-o", "kept/trace.mcap", "--overwrite")
+    assert (code, err) == (2, "handeye: kept/trace.mcap holds the trace that is to be thinned\n")

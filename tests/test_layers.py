@@ -14,6 +14,7 @@ PACKAGE = Path(__file__).parent.parent / "handeye"
 FOUNDATIONS = {
     "units",
     "pose",
+    "straight_ways",
     "boxes",
     "record",
     "source",

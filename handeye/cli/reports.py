@@ -1,16 +1,20 @@
 """Command that makes a page of a run."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import say
+from handeye.cli.common import note, say
 from handeye.cli.trace_files import TraceFile, trace_file
 from handeye.errors import InvalidInput
 
 if TYPE_CHECKING:
     from handeye.see.recorded import Recorded
+
+
+DEMO: Final = "demo.html"
+"""The page of the run that comes with handeye, if nobody says otherwise."""
 
 
 def register(app: App) -> None:
@@ -19,28 +23,46 @@ def register(app: App) -> None:
 
 
 def report(
-    run: TraceFile,
+    run: TraceFile | None = None,
     /,
     *,
     output: Annotated[
         Path | None,
         Parameter(
             name=["--output", "-o"],
-            help="The page, .html; by default report.html in the folder of the run, or beside the trace.",
+            help="The page, .html; by default report.html in the folder of the run, or beside the trace; of `--demo` "
+            "demo.html here.",
         ),
     ] = None,
     overwrite: Annotated[bool, Parameter(help="Replace the report that is there.")] = False,
+    demo: Annotated[
+        bool, Parameter(negative="", help="Of a run that comes with handeye; nothing has to be carried out.")
+    ] = False,
 ) -> int:
     """Make a page of a run: one file with what happened, why, and what was seen and felt.
 
     Exit code 0: it is written, whatever the run came to; 2: bad input.
     """
-    from handeye.runs.folder import REPORT
+    from handeye import resources
 
-    place = output or (run / REPORT if run.is_dir() else run.with_name(REPORT))
-    write_report(run, place, overwrite=overwrite)
+    if (run is None) != demo:
+        raise InvalidInput("a report is of one run: give its folder or its trace, or --demo")
+    if run is None:
+        place = output or Path(DEMO)
+        write_report(resources.demo(), place, overwrite=overwrite)
+        note(f"open {place} in a browser")
+    else:
+        place = output or _beside(run)
+        write_report(run, place, overwrite=overwrite)
     say(str(place))
     return 0
+
+
+def _beside(run: Path) -> Path:
+    """Where the report of a run is left if nobody says: in its folder, or beside its trace."""
+    from handeye.runs.folder import REPORT
+
+    return run / REPORT if run.is_dir() else run.with_name(REPORT)
 
 
 def write_report(run: Path, place: Path, *, overwrite: bool) -> None:

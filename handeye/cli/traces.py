@@ -21,6 +21,7 @@ from handeye.cli.common import (
     screen,
 )
 from handeye.cli.photographs import PLAIN, FineOptions
+from handeye.cli.thinning import thin
 from handeye.cli.trace_files import File, TraceFile, trace_file
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 def register(app: App) -> None:
     """Add the commands to the command line."""
     trace = App(name="trace", help="Read the traces that runs leave.")
-    for command in (show, stats, photograph, verify):
+    for command in (show, stats, photograph, verify, thin):
         trace.command(command)
     trace_exports.register(trace)
     app.command(trace)

@@ -3,10 +3,12 @@
 from pathlib import Path
 
 from handeye.errors import InvalidInput
+from handeye.files import read_whole
 from handeye.report.kept_run import kept_run
 from handeye.report.result import Result
-from handeye.runs.folder import RESULT
+from handeye.runs.folder import PICTURES, RESULT
 from handeye.see.recorded import Recorded
+from handeye.tasks import known
 from handeye.trace.trace import Trace
 
 
@@ -18,7 +20,16 @@ def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> Recorded:
         whole: the trace was read to its end.
     """
     result, remarks = _result(run)
-    return Recorded(trace=trace, whole=whole, result=result, remarks=remarks)
+    return Recorded(trace=trace, whole=whole, result=result, end=_end(run, trace), remarks=remarks)
+
+
+def _end(run: Path, trace: Trace) -> bytes | None:
+    """The picture of its end in the folder of a run: that which shows the work."""
+    task = known(trace.head.task)
+    views = () if task is None else task.photographs
+    files = (run / PICTURES / f"end_{view}{ending}" for view in views[-1:] for ending in (".png", ".webp"))
+    found = next(filter(Path.is_file, files), None)
+    return None if found is None else read_whole(found)
 
 
 def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
     PanicStopped,
@@ -51,9 +52,11 @@ def difference(trace: Trace, folder: Path) -> str | None:
     """Carry out a run again, keeping it in `folder`; the first thing in which it differs, in a sentence.
 
     Raises:
-        InvalidInput: it cannot be carried out here.
+        InvalidInput: it cannot be carried out here, or its trace is thinned.
     """
     trace.check_repeatable()
+    if trace.thinned:
+        raise InvalidInput(f"{trace.name} is thinned: verify the whole trace, which it was made from")
     wanted = trace.events[: settled(trace.events)]
     start = Checkpoint(setup=setup_of(trace))
     keeping = open_new(folder, start)

@@ -1,10 +1,11 @@
 """Photographs of a recorded run for its report: one that leads it, and one of each stage."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import cv2
+import numpy as np
 
 from handeye.cell.photograph import Near, Photographer
 from handeye.cell.photograph import Photograph as Points
@@ -86,7 +87,16 @@ def _leading(run: Recorded, outcome: Outcome) -> Photograph:
     closest = _ROOM if task is None or not task.photographs else task.photographs[-1]
     view = closest if done else _at_hand(run, outcome.time)
     shows = "The end of the run" if done else "The hand at the last moment"
-    return _taken(run, [_Wanted(time=outcome.time, view=view, shows=shows)], LARGE)[0]
+    (taken,) = _taken(run, [_Wanted(time=outcome.time, view=view, shows=shows)], LARGE)
+    return taken if taken.webp is not None or not done or run.end is None else _left(run.end, taken)
+
+
+def _left(picture: bytes, missing: Photograph) -> Photograph:
+    """The picture that the run itself has left of its end, in the place of a photograph that could not be taken."""
+    points = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
+    if points is None:
+        return missing
+    return replace(missing, webp=_webp(points.astype(np.uint8, copy=False), LARGE), missing="")
 
 
 def _of_stages(run: Recorded) -> tuple[Photograph, ...]:

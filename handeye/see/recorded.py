@@ -19,6 +19,8 @@ class Recorded:
     """The trace was read to its end; False: its file was cut short."""
     result: Result | None = None
     """What the run came to; None: nobody told."""
+    end: bytes | None = None
+    """The picture of its end that it has left, a PNG or WebP file; None: it left none."""
     remarks: tuple[str, ...] = ()
     """What of its folder could not be read, a sentence each."""
 

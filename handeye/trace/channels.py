@@ -27,6 +27,8 @@ REPEATABLE: Final = 2
 """Version from which on a run can be built again from its trace."""
 METADATA: Final = "handeye"
 """Name of the metadata record that says what the file is and what the run depended on."""
+THINNED: Final = "thinned"
+"""What that record also has where the file holds some of the servo periods of the run, not all."""
 PLAN: Final = "plan.json"
 """Name of the attachment with the plan."""
 

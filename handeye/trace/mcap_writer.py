@@ -12,7 +12,7 @@ from mcap.writer import Writer
 
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
-from handeye.trace.channels import CHANNELS, FORMAT, METADATA, NUMBERS, PLAN, VERSION, nanoseconds
+from handeye.trace.channels import CHANNELS, FORMAT, METADATA, NUMBERS, PLAN, THINNED, VERSION, nanoseconds
 from handeye.versions import HANDEYE
 
 CHUNK: Final = 1 << 20
@@ -64,11 +64,20 @@ class GrowingFile:
             self._sink = _Sink(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o666))
         self._writer = Writer(cast(IO[Any], self._sink), chunk_size=1 << 62, enable_data_crcs=True)
 
-    def begin(self, head: RunStarted, plan: bytes) -> None:
-        """Write what stands before all messages: what the file is, the plan, the channels."""
+    def begin(self, head: RunStarted, plan: bytes, *, thinned: bool = False) -> None:
+        """Write what stands before all messages: what the file is, the plan, the channels.
+
+        Args:
+            thinned: the file will hold some of the servo periods of the run, not all.
+        """
         said = msgspec.to_builtins(head)
         said["seed"], said["world"] = head.world.seed, msgspec.json.encode(head.world).decode()
-        metadata = {"format": FORMAT, "version": VERSION, **_flat(said)}
+        metadata = {
+            "format": FORMAT,
+            "version": VERSION,
+            **({THINNED: "yes"} if thinned else {}),
+            **_flat(said),
+        }
         with self._complaining():
             self._writer.start(library=f"handeye {HANDEYE}")
             self._writer.add_metadata(METADATA, {key: str(value) for key, value in metadata.items()})

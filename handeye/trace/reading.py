@@ -3,19 +3,23 @@
 import re
 from collections import Counter
 from pathlib import Path
+from typing import Final
 
 import msgspec
+from mcap.writer import MCAP0_MAGIC
 
 from handeye.errors import InvalidInput
 from handeye.events import RunStarted
-from handeye.files import read_whole
+from handeye.files import Kind, read_whole
 from handeye.planfile.store import written_digest
-from handeye.trace.channels import EVENTS, FORMAT, VERSION
+from handeye.trace.channels import EVENTS, FORMAT, THINNED, VERSION
 from handeye.trace.events_read import read_event
 from handeye.trace.records import Unsound, check, front, is_ended, is_mcap, read_messages
 from handeye.trace.trace import Trace
 
 __all__ = ["Trace", "read_trace"]
+
+TRACE: Final = Kind("trace", re.escape(MCAP0_MAGIC), ending=".mcap")
 
 
 def read_trace(path: Path, *, lenient: bool = False) -> Trace:
@@ -29,7 +33,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
     """
     data = read_whole(path)
     try:
-        plan, version = _identify(path, data)
+        plan, version, thinned = _identify(path, data)
         if not lenient:
             check(data)
         messages = tuple(read_messages(data, lenient=lenient))
@@ -48,6 +52,7 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
     return Trace(
         name=str(path),
         version=version,
+        thinned=thinned,
         head=events[0],
         plan=plan,
         events=tuple(events),
@@ -66,8 +71,8 @@ def is_cut_short(path: Path) -> bool:
     return is_mcap(data) and not is_ended(data)
 
 
-def _identify(path: Path, data: bytes) -> tuple[bytes, int]:
-    """The plan in a file that says it is a trace this program can read, and the version of its format.
+def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
+    """The plan in a file that says it is a trace of ours, the version of its format, and whether it is thinned.
 
     Raises:
         InvalidInput: it does not say so.
@@ -87,4 +92,4 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int]:
         )
     if start.plan is None:
         raise Unsound("has no plan in it")
-    return start.plan, int(version)
+    return start.plan, int(version), THINNED in start.metadata

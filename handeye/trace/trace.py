@@ -64,6 +64,8 @@ class Trace:
     """Messages on each channel that has any."""
     messages: tuple[RawMessage, ...] = field(repr=False)
     """All of them, in the order they were written."""
+    thinned: bool = False
+    """It holds some of the servo periods, not all: `handeye trace thin` wrote it."""
 
     # -- what happened ---------------------------------------------------------------------------------
 

@@ -37,7 +37,7 @@ MOVED: Final = 1e-6
 PUT_AWAY: Final = -1.0
 """Height (m) below which parts lie that have become something else; the floor is higher."""
 
-_BOUNDARIES: Final = (RunStarted, StageFinished)
+BOUNDARIES: Final = (RunStarted, StageFinished)
 """Events after which a run may be taken up again."""
 
 
@@ -79,7 +79,7 @@ class Writing:
             file, line = self._place[0] or name, self._place[1]
             said = messages.log(time, level, sentence(event), name=name, file=file, line=line)
             self.file.write(LOG, time, said)
-        self.file.write(EVENTS, time, event_data(event), boundary=isinstance(event, _BOUNDARIES))
+        self.file.write(EVENTS, time, event_data(event), boundary=isinstance(event, BOUNDARIES))
         self.events += 1
 
     def picture(self, event: PictureTaken, picture: Picture) -> None:
@@ -124,7 +124,7 @@ class Writing:
     def copy(self, message: RawMessage) -> None:
         """Write a message of another file."""
         event = read_event(message.data) if message.topic == EVENTS else None
-        self.file.write(message.topic, message.time, message.data, boundary=isinstance(event, _BOUNDARIES))
+        self.file.write(message.topic, message.time, message.data, boundary=isinstance(event, BOUNDARIES))
         if event is not None:
             self.events += 1
             self._note(event)

@@ -12,14 +12,14 @@ from handeye.plain_text import printable
 from handeye.see import player
 from handeye.see.animation import Animation
 from handeye.see.facts.corrections import corrections
-from handeye.see.facts.felt import guarded_motions, lost_trips
+from handeye.see.facts.felt import GuardedMotion, guarded_motions, lost_trips
 from handeye.see.facts.outcome import outcome
 from handeye.see.facts.planned import ends
 from handeye.see.facts.searches import searches
 from handeye.see.facts.seen import lost_pictures, seen_pictures
 from handeye.see.facts.told import told
 from handeye.see.page.elements import element
-from handeye.see.page.felt import felt_section
+from handeye.see.page.felt import How, felt_section
 from handeye.see.page.moments import moments
 from handeye.see.page.planned import planned_section
 from handeye.see.page.record import record_section
@@ -62,14 +62,20 @@ def report_page(run: Recorded, photographs: Album, animated: Animation | None) -
 
 def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:
     felt, stages = guarded_motions(run), run.trace.stages
-    recorded = not felt or run.trace.forces().recorded
     yield view_section(run, photographs.stages)
     yield timing_section(run)
     yield seen_section(seen_pictures(run), lost=lost_pictures(run))
-    yield felt_section(felt, recorded=recorded, lost=lost_trips(run, felt))
+    yield felt_section(felt, how=_felt_how(run, felt), lost=lost_trips(run, felt))
     yield planned_section(ends(run), corrections(run), searches(run), stages, run.trace.head.time)
     yield referee_section(run)
     yield record_section(run)
+
+
+def _felt_how(run: Recorded, felt: Sequence[GuardedMotion]) -> How:
+    """How a trace tells what was felt."""
+    if felt and not run.trace.forces().recorded:
+        return How.RECKONED
+    return How.THINNED if run.trace.thinned else How.RECORDED
 
 
 def _head(name: str, style: str, scripts: Sequence[str]) -> Markup:

@@ -1,6 +1,7 @@
 """What the hand felt: for every guarded motion, what its guard looked at against time."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from enum import StrEnum
 from itertools import groupby
 
 import numpy as np
@@ -12,20 +13,25 @@ from handeye.see.facts.felt import GuardedMotion
 from handeye.see.page.elements import element, note, section, to_moment
 from handeye.see.page.figures import exact_clock, felt
 from handeye.see.page.plots import HIGH, WIDE, Scale, curve, dot, drawing, rule, words
+from handeye.trace.thinning import FELT
 
 _TOP, _BOTTOM = 14.0, HIGH - 16.0
 
 
-def felt_section(motions: Sequence[GuardedMotion], *, recorded: bool, lost: int) -> Markup:
-    """The section.
+class How(StrEnum):
+    """How a trace tells what was felt, as a sentence."""
 
-    Args:
-        recorded: the program estimated at the time what is shown.
-        lost: guards that were met before the trace begins.
-    """
-    return section(
-        "felt", "What the hand felt", *_lost(lost), *_content(motions, recorded=recorded, lost=lost)
+    RECORDED = ""
+    RECKONED = " This trace is of before force was recorded: it is reckoned from joints and torques."
+    THINNED = (
+        f" This trace is thinned: the curves lie within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} N m "
+        "of what was recorded, and what was felt most is kept."
     )
+
+
+def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Markup:
+    """The section; `lost`: guards that were met before the trace begins."""
+    return section("felt", "What the hand felt", *_lost(lost), *_content(motions, how=how, lost=lost))
 
 
 def _lost(lost: int) -> Iterator[Markup]:
@@ -35,17 +41,12 @@ def _lost(lost: int) -> Iterator[Markup]:
         )
 
 
-def _content(motions: Sequence[GuardedMotion], *, recorded: bool, lost: int) -> Iterator[Markup]:
+def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Iterator[Markup]:
     if not motions:
         if not lost:
             yield note("No motion of this run had a guard: the hand felt for nothing.")
         return
     met = sum(motion.trip is not None for motion in motions)
-    how = (
-        ""
-        if recorded
-        else " This trace is of before force was recorded: it is reckoned from joints and torques."
-    )
     yield note(
         f"{counted(len(motions), 'guarded motion')}; the guards of {met} were met. Each curve is what the guard looked "
         "at: the force of the hand along its axis, a moment, or the torque of the screwdriver. The dashed line is what "

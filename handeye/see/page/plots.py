@@ -1,6 +1,5 @@
 """Drawings of figures, as vectors."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -9,6 +8,7 @@ import numpy as np
 from handeye.markup import Markup
 from handeye.pose import Array
 from handeye.see.page.elements import Child, element
+from handeye.straight_ways import Rows, needed_rows
 
 WIDE, HIGH = 240.0, 90.0
 """Of a small figure, in its own units."""
@@ -63,42 +63,20 @@ def bar(x: float, y: float, wide: float, high: float, *, class_: str) -> Markup:
 
 
 def kept_points(points: Array, tolerance: float) -> Array:
-    """Points without those nearer than a tolerance to the line through the rest, shape (n, 2).
+    """Points without those nearer than a tolerance to the line through the rest, shape (n, 2)."""
 
-    The first and the last are kept; the farthest from the line between two that are kept is kept, until none is far.
-    """
-    keep = np.zeros(len(points), dtype=np.bool_)
-    keep[[0, -1]] = True
-    open_ranges = [(0, len(points) - 1)]
-    while open_ranges:
-        first, last = open_ranges.pop()
-        between = points[first + 1 : last]
-        if not len(between):
-            continue
-        far = _distances(between, points[first], points[last])
-        farthest = int(np.argmax(far))
-        if far[farthest] > tolerance:
-            middle = first + 1 + farthest
-            keep[middle] = True
-            open_ranges += [(first, middle), (middle, last)]
-    return points[keep]
+    def off(first: Rows, row: Rows, last: Rows) -> Array:
+        return _distances(points[row], points[first], points[last]) / tolerance
+
+    return points[needed_rows(off, sorted({0, len(points) - 1}))]
 
 
-def _distances(points: Array, begin: Array, end: Array) -> Array:
-    """Distances of points from the straight line through two others, shape (n,)."""
-    along = end - begin
-    length = float(np.hypot(*along))
-    if length == 0:
-        return np.asarray(np.hypot(*(points - begin).T))
-    return np.asarray(
-        np.abs(along[0] * (points[:, 1] - begin[1]) - along[1] * (points[:, 0] - begin[0])) / length
-    )
-
-
-def steps_between(least: float, most: float) -> Sequence[float]:
-    """Powers of ten from one bound to another, for a logarithmic scale."""
-    first, last = int(np.floor(np.log10(least))), int(np.ceil(np.log10(most)))
-    return [10.0**power for power in range(first, last + 1)]
+def _distances(points: Array, begins: Array, ends: Array) -> Array:
+    """Distances of points from straight lines, each through two others, shape (n,)."""
+    along, off = ends - begins, points - begins
+    lengths = np.hypot(*along.T)
+    across = np.abs(along[:, 0] * off[:, 1] - along[:, 1] * off[:, 0])
+    return np.where(lengths > 0, across / np.where(lengths > 0, lengths, 1.0), np.hypot(*off.T))
 
 
 def _at(value: float) -> str:

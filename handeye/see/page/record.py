@@ -59,7 +59,7 @@ def _facts(run: Recorded) -> Markup:
         ("pictures by", renderer_name(head.camera)),
         *((f"{part} by", name) for part, name in head.own_parts.items()),
         ("versions", ", ".join(f"{name} {version}" for name, version in head.versions.items())),
-        ("trace", f"format {run.trace.version}"),
+        ("trace", f"format {run.trace.version}{', thinned' if run.trace.thinned else ''}"),
         ("page", f"made by handeye {HANDEYE}"),
         *(("left out", remark) for remark in run.remarks),
     ]

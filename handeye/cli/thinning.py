@@ -1,0 +1,37 @@
+"""Command that thins the trace of a run."""
+
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from handeye.cli.common import say
+from handeye.cli.trace_files import TraceFile, trace_file
+from handeye.errors import InvalidInput
+
+
+def thin(
+    file: TraceFile,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The thinned trace, .mcap.")],
+    overwrite: Annotated[bool, Parameter(help="Replace the trace that is there.")] = False,
+) -> int:
+    """Write a trace with no more of the motion than it takes to show the run, a tenth as large.
+
+    It is a trace in its own right; only `verify` needs the whole one.
+    """
+    from handeye.files import check_place
+    from handeye.trace.reading import TRACE, read_trace
+    from handeye.trace.thinned_file import write_thinned
+
+    whole = trace_file(file)
+    trace = read_trace(whole)
+    check_place(output, TRACE)
+    if output.exists() and output.samefile(whole):
+        raise InvalidInput(f"{output} holds the trace that is to be thinned")
+    if output.exists() and not overwrite:
+        raise InvalidInput(f"{output} holds a trace already; --overwrite replaces it")
+    kept = write_thinned(trace, output)
+    say(f"{output}: {kept} of {len(trace.times)} servo periods")
+    return 0
