@@ -24,6 +24,9 @@ def register(app: App) -> None:
 
 def report(
     run: TraceFile | None = None,
+    other: Annotated[
+        Path | None, Parameter(help="A second run: the page compares the two, as `compare -o` does.")
+    ] = None,
     /,
     *,
     output: Annotated[
@@ -39,18 +42,24 @@ def report(
         bool, Parameter(negative="", help="Of a run that comes with handeye; nothing has to be carried out.")
     ] = False,
 ) -> int:
-    """Make a page of a run: one file with what happened, why, and what was seen and felt.
+    """Make a page of a run, or of two: one file with what happened, why, and what was seen and felt.
 
     Exit code 0: it is written, whatever the run came to; 2: bad input.
     """
     from handeye import resources
+    from handeye.cli.comparisons import write_comparison
 
-    if (run is None) != demo:
+    if (run is None) != demo or (demo and other is not None):
         raise InvalidInput("a report is of one run: give its folder or its trace, or --demo")
     if run is None:
         place = output or Path(DEMO)
         write_report(resources.demo(), place, overwrite=overwrite)
         note(f"open {place} in a browser")
+    elif other is not None:
+        if output is None:
+            raise InvalidInput("a page of two runs belongs to neither; say with -o where it is to be written")
+        place = output
+        write_comparison(run, other, place, overwrite=overwrite)
     else:
         place = output or _beside(run)
         write_report(run, place, overwrite=overwrite)

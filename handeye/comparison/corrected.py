@@ -9,6 +9,7 @@ from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
 from handeye.comparison.place import Place
 from handeye.events import PartSeen, Saved
 from handeye.record import Record
+from handeye.trace.account import ASTRAY
 
 
 class Correction(Record, frozen=True, kw_only=True):
@@ -36,6 +37,11 @@ class Corrections(Record, frozen=True, kw_only=True):
         if self.a is None or self.b is None or len(self.a.at) != len(self.b.at):
             return None
         return float(np.linalg.norm(np.subtract(self.b.at, self.a.at)))
+
+    @property
+    def alike(self) -> bool:
+        """They are not worth a word apart; or only one was made."""
+        return self.apart is None or self.apart <= ASTRAY
 
 
 def corrections(runs: TwoRuns) -> tuple[Corrections, ...]:

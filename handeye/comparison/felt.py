@@ -28,7 +28,7 @@ class Stops(Record, frozen=True, kw_only=True):
     @property
     def alike(self) -> bool:
         """Both ended by the same guard, or by none; or only one came to it."""
-        return self.a is None or self.b is None or self.a.guard == self.b.guard
+        return len({side.guard for side in (self.a, self.b) if side is not None}) == 1
 
 
 def stops(runs: TwoRuns) -> tuple[Stops, ...]:

@@ -30,6 +30,12 @@ class Searches(Record, frozen=True, kw_only=True):
     a: Search | None
     b: Search | None
 
+    @property
+    def alike(self) -> bool:
+        """Both tried as many places; or only one came to it."""
+        sides = self.a, self.b
+        return len({(side.places, side.exhausted) for side in sides if side is not None}) == 1
+
 
 def searches(runs: TwoRuns) -> tuple[Searches, ...]:
     """The searches of two runs, in the order of the script."""

@@ -1,49 +1,35 @@
 """The comparison of two runs in lines of text, in the units of the arm language."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.comparison.comparison import Compared, Comparison
+from handeye.comparison.comparison import Comparison
 from handeye.comparison.conditions import Condition
-from handeye.comparison.corrected import Correction, Corrections
-from handeye.comparison.felt import Stop, Stops
+from handeye.comparison.corrected import Corrections
+from handeye.comparison.felt import Stops
 from handeye.comparison.first import First
-from handeye.comparison.otherwise import EVENT
-from handeye.comparison.parting import Parting, Turning
-from handeye.comparison.place import Place
-from handeye.comparison.searched import Search, Searches
-from handeye.events import AnyEvent, StepStarted
-from handeye.plain_text import counted, one_line
-from handeye.program.guards import GuardKind
-from handeye.see.facts.outcome import Kind
+from handeye.comparison.parting import Parting
+from handeye.comparison.searched import Searches
+from handeye.comparison.wording import (
+    correction_words,
+    first_words,
+    moment_words,
+    place_words,
+    run_words,
+    search_words,
+    stop_words,
+    turning_words,
+)
 from handeye.trace.account import ASTRAY
-from handeye.trace.quantity_text import quantity_text, values_text
-from handeye.trace.sentences import inches, sentence
 from handeye.trace.stats import StageFigures
-from handeye.units import DEGREE, INCH, UNITS
+from handeye.units import INCH
 
-_CAME_TO: Final[dict[Kind, str]] = {
-    "right": "it ended, and the work is right",
-    "wrong": "it ended, and the work is not right",
-    "ended": "it came to its end",
-    "stopped": "it stopped and called the operator",
-    "panic": "the panic button was hit",
-    "paused": "it stands before its end",
-    "broken off": "its trace was cut short",
-}
 _BOTH: Final = ("A", "B")
-_UNITS: Final[Mapping[GuardKind, str]] = {
-    GuardKind.FORCE: "oz",
-    GuardKind.AGAINST: "oz",
-    GuardKind.MOMENT: "oz in",
-    GuardKind.TORQUE: "oz in",
-}
-"""Units in which people are told what a guard looked at."""
 
 
 def comparison_text(found: Comparison) -> list[str]:
     """A comparison as lines of text."""
-    runs = [f"{letter}  {_run(run)}" for letter, run in zip(_BOTH, (found.a, found.b), strict=True)]
+    runs = [f"{letter}  {run_words(run)}" for letter, run in zip(_BOTH, (found.a, found.b), strict=True)]
     lines = [*runs, *_conditions(found.conditions)]
     if found.first is None:
         return [*lines, "", "Nothing was recorded otherwise: both did the same, to the last bit."]
@@ -56,10 +42,6 @@ def comparison_text(found: Comparison) -> list[str]:
         _took(found),
     )
     return [*lines, *(line for section in map(tuple, sections) if section for line in ("", *section))]
-
-
-def _run(run: Compared) -> str:
-    return f"{run.name}: {run.program}, {run.world}, {run.seconds:.1f} s: {_CAME_TO[run.came_to]}"
 
 
 def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
@@ -75,95 +57,49 @@ def _conditions(differing: Sequence[Condition]) -> Iterator[str]:
 
 
 def _first(first: First) -> Iterator[str]:
-    period = "" if first.period is None else f", servo period {first.period}"
-    yield f"Recorded otherwise first: {_where(first.place)}{period}"
-    if first.differing.quantity == EVENT:
-        yield f"  A: {_next(first.next[0])}"
-        yield f"  B: {_next(first.next[1])}"
-    else:
-        one, other = values_text(first.differing)
-        yield f"  {quantity_text(first.differing.quantity)}: A {one}, B {other}"
-
-
-def _next(event: AnyEvent | None) -> str:
-    return "no event yet" if event is None else sentence(event)
+    yield f"Recorded otherwise first: {moment_words(first)}"
+    yield from (f"  {line}" for line in first_words(first))
 
 
 def _parted(parted: Parting | None) -> Iterator[str]:
     if parted is None:
         yield "Both went the same way: the same steps, stops, errors and answers."
         return
-    yield f"Their ways part: {_where(parted.place)}"
-    yield f"  A: {_turning(parted.a)}"
-    yield f"  B: {_turning(parted.b)}"
-
-
-def _turning(turning: Turning | None) -> str:
-    if turning is None:
-        return "it has ended"
-    if isinstance(turning.event, StepStarted):
-        return f"it goes on at line {turning.event.place}: {one_line(turning.event.text)}"
-    return sentence(turning.event)
-
-
-def _where(place: Place | None) -> str:
-    """A step, as people find it."""
-    if place is None:
-        return "before the first step"
-    return f"{place.stage}, line {place.name}: {one_line(place.text)}"
+    yield f"Their ways part: {place_words(parted.place)}"
+    yield f"  A: {turning_words(parted.a)}"
+    yield f"  B: {turning_words(parted.b)}"
 
 
 # -- what each searched, felt and corrected ------------------------------------------------------------------------
 
 
 def _searched(found: Sequence[Searches]) -> Iterator[str]:
-    if not found:
-        return
-    both = [(each.a, each.b) for each in found if each.a is not None and each.b is not None]
-    other = [(a, b) for a, b in both if (a.places, a.exhausted) != (b.places, b.exhausted)]
-    yield f"Searches: {len(both)} in both, {len(both) - len(other)} with as many places{_alone(found)}"
-    for a, b in other:
-        yield f"  {_where(a.place)}: A {_places(a)}, B {_places(b)}"
-
-
-def _places(search: Search) -> str:
-    return counted(search.places, "place") + (", all of them" if search.exhausted else "")
+    yield from _counted("Searches", "with as many places", found)
+    for each in found:
+        if each.a is not None and each.b is not None and not each.alike:
+            yield f"  {place_words(each.a.place)}: A {search_words(each.a)}, B {search_words(each.b)}"
 
 
 def _felt(found: Sequence[Stops]) -> Iterator[str]:
-    if not found:
-        return
-    both = [(each.a, each.b) for each in found if each.a is not None and each.b is not None]
-    other = [(a, b) for a, b in both if a.guard != b.guard]
-    yield f"Guarded motions: {len(both)} in both, {len(both) - len(other)} ended alike{_alone(found)}"
-    for a, b in other:
-        yield f"  {_where(a.place)}: A {_stop(a)}, B {_stop(b)}"
-
-
-def _stop(stop: Stop) -> str:
-    if stop.guard is None or stop.value is None:
-        return "was not stopped"
-    unit = _UNITS.get(stop.guard)
-    told = "" if unit is None else f" at {stop.value / UNITS[unit].size:.1f} {unit}"
-    return f"was stopped by {stop.guard.value}{told}"
+    yield from _counted("Guarded motions", "ended alike", found)
+    for each in found:
+        if each.a is not None and each.b is not None and not each.alike:
+            yield f"  {place_words(each.a.place)}: A {stop_words(each.a)}, B {stop_words(each.b)}"
 
 
 def _corrected(found: Sequence[Corrections]) -> Iterator[str]:
-    if not found:
-        return
-    both = [(each.a, each.b, each.apart) for each in found if each.a is not None and each.b is not None]
-    apart = [(a, b, off) for a, b, off in both if off is not None and off > ASTRAY]
-    yield (
-        f"Corrections: {len(both)} in both, {len(both) - len(apart)} within {ASTRAY / INCH:.2f} in of each other"
-        f"{_alone(found)}"
-    )
-    for a, b, off in apart:
-        yield f"  {_where(a.place)}: {a.name} in A {_at(a)}, in B {_at(b)}: {off / INCH:.2f} in apart"
+    yield from _counted("Corrections", f"within {ASTRAY / INCH:.2f} in of each other", found)
+    for each in found:
+        if each.a is not None and each.b is not None and each.apart is not None and not each.alike:
+            told = f"{each.a.name} in A {correction_words(each.a)}, in B {correction_words(each.b)}"
+            yield f"  {place_words(each.a.place)}: {told}: {each.apart / INCH:.2f} in apart"
 
 
-def _at(found: Correction) -> str:
-    turned = "" if found.yaw is None else f", turned {found.yaw / DEGREE:.1f} deg"
-    return f"{inches(found.at)}{turned}"
+def _counted(what: str, alike: str, found: Sequence[Searches | Stops | Corrections]) -> Iterator[str]:
+    """How many there are in both runs, and how many of those are alike; nothing where there are none at all."""
+    both = [each for each in found if each.a is not None and each.b is not None]
+    if found:
+        yield f"{what}: {len(both)} in both, {sum(each.alike for each in both)} {alike}{_alone(found)}"
 
 
 def _alone(found: Sequence[Searches | Stops | Corrections]) -> str:
@@ -190,6 +126,6 @@ def _seconds(figures: StageFigures | None) -> float | None:
 
 
 def _row(name: str, wide: int, a: float | None, b: float | None) -> str:
-    longer = "" if a is None or b is None else f"{b - a:+.1f}"
+    longer = "" if a is None or b is None else f"{b - a:+z.1f}"
     cells = (*("-" if seconds is None else f"{seconds:.1f}" for seconds in (a, b)), longer)
     return f"{name:{wide}}" + "".join(f"{cell:>9}" for cell in cells)

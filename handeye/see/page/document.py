@@ -46,17 +46,17 @@ def report_page(run: Recorded, photographs: Album, animated: Animation | None) -
         InvalidInput: its trace cannot be understood, or is of an older handeye.
     """
     came, heard = outcome(run), told(run)
-    scripts = [*([] if animated is None else [player.script()]), _resource("page.js")]
+    scripts = [*([] if animated is None else [player.script()]), resource("page.js")]
     body = element(
         "body",
         verdict(run, came, heard, photographs.leading),
         element("main", *_sections(run, photographs)),
         moments(run, came, heard),
-        *([] if animated is None else [_packed("scene", animated.scene), _packed("tracks", animated.tracks)]),
+        *([] if animated is None else [packed("scene", animated.scene), packed("tracks", animated.tracks)]),
         *(element("script", Markup(script)) for script in scripts),
     )
     name = printable(f"{run.trace.head.program}: {title(run, came)}")
-    page = element("html", _head(name, _resource("page.css") + widths(run), scripts), body, lang="en")
+    page = element("html", head(name, resource("page.css") + widths(run), scripts), body, lang="en")
     return (_MARK + page + "\n").encode()
 
 
@@ -78,7 +78,7 @@ def _felt_how(run: Recorded, felt: Sequence[GuardedMotion]) -> How:
     return How.THINNED if run.trace.thinned else How.RECORDED
 
 
-def _head(name: str, style: str, scripts: Sequence[str]) -> Markup:
+def head(name: str, style: str, scripts: Sequence[str]) -> Markup:
     """The head, with a policy that lets in the page's own style and scripts and nothing else."""
     policy = (
         f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src {_digest(style)}; "
@@ -94,7 +94,7 @@ def _head(name: str, style: str, scripts: Sequence[str]) -> Markup:
     )
 
 
-def _packed(name: str, data: bytes) -> Markup:
+def packed(name: str, data: bytes) -> Markup:
     """Data that a script of the page unpacks."""
     return element("script", Markup(b64encode(data).decode()), id=name, type="application/octet-stream")
 
@@ -104,5 +104,6 @@ def _digest(content: str) -> str:
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
 
 
-def _resource(name: str) -> str:
+def resource(name: str) -> str:
+    """A file that goes into the page as it is."""
     return Path(__file__).with_name(name).read_text(encoding="utf-8")

@@ -1,0 +1,96 @@
+"""Words for what a comparison of two runs has found, in the units of the arm language."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from handeye.comparison.comparison import Compared
+from handeye.comparison.corrected import Correction
+from handeye.comparison.felt import Stop
+from handeye.comparison.first import First
+from handeye.comparison.otherwise import EVENT
+from handeye.comparison.parting import Turning
+from handeye.comparison.place import Place
+from handeye.comparison.searched import Search
+from handeye.events import AnyEvent, StepStarted
+from handeye.plain_text import counted, one_line
+from handeye.program.guards import GuardKind
+from handeye.see.facts.outcome import Kind
+from handeye.trace.quantity_text import quantity_text, values_text
+from handeye.trace.sentences import inches, sentence
+from handeye.units import DEGREE, UNITS
+
+_CAME_TO: Final[dict[Kind, str]] = {
+    "right": "it ended, and the work is right",
+    "wrong": "it ended, and the work is not right",
+    "ended": "it came to its end",
+    "stopped": "it stopped and called the operator",
+    "panic": "the panic button was hit",
+    "paused": "it stands before its end",
+    "broken off": "its trace was cut short",
+}
+_UNITS: Final[Mapping[GuardKind, str]] = {
+    GuardKind.FORCE: "oz",
+    GuardKind.AGAINST: "oz",
+    GuardKind.MOMENT: "oz in",
+    GuardKind.TORQUE: "oz in",
+}
+"""Units in which people are told what a guard looked at."""
+
+
+def run_words(run: Compared) -> str:
+    """A run, and what it came to."""
+    return f"{run.name}: {run.program}, {run.world}, {run.seconds:.1f} s: {_CAME_TO[run.came_to]}"
+
+
+def moment_words(first: First) -> str:
+    """The step in which something went otherwise, and the servo period."""
+    period = "" if first.period is None else f", servo period {first.period}"
+    return f"{place_words(first.place)}{period}"
+
+
+def first_words(first: First) -> tuple[str, ...]:
+    """The quantity that differs, and both values; or what happened next in both."""
+    if first.differing.quantity == EVENT:
+        return f"A: {_next(first.next[0])}", f"B: {_next(first.next[1])}"
+    one, other = values_text(first.differing)
+    return (f"{quantity_text(first.differing.quantity)}: A {one}, B {other}",)
+
+
+def _next(event: AnyEvent | None) -> str:
+    return "no event yet" if event is None else sentence(event)
+
+
+def turning_words(turning: Turning | None) -> str:
+    """How a run went on."""
+    if turning is None:
+        return "it has ended"
+    if isinstance(turning.event, StepStarted):
+        return f"it goes on at line {turning.event.place}: {one_line(turning.event.text)}"
+    return sentence(turning.event)
+
+
+def place_words(place: Place | None) -> str:
+    """A step, as people find it."""
+    if place is None:
+        return "before the first step"
+    return f"{place.stage}, line {place.name}: {one_line(place.text)}"
+
+
+def search_words(search: Search) -> str:
+    """How many places a search tried."""
+    return counted(search.places, "place") + (", all of them" if search.exhausted else "")
+
+
+def stop_words(stop: Stop) -> str:
+    """How a guarded motion ended."""
+    if stop.guard is None or stop.value is None:
+        return "was not stopped"
+    unit = _UNITS.get(stop.guard)
+    told = "" if unit is None else f" at {stop.value / UNITS[unit].size:.1f} {unit}"
+    return f"was stopped by {stop.guard.value}{told}"
+
+
+def correction_words(found: Correction) -> str:
+    """What was found, and where."""
+    turned = "" if found.yaw is None else f", turned {found.yaw / DEGREE:.1f} deg"
+    return f"{inches(found.at)}{turned}"
