@@ -52,6 +52,8 @@ class Comparison:
     """The second."""
     conditions: tuple[Condition, ...]
     """In what they depended on, all that differs."""
+    thinned: bool
+    """A trace holds some of its servo periods only: what was sensed in them is not compared."""
     first: First | None
     """The first thing that was recorded otherwise; None: nothing was."""
     parted: Parting | None
@@ -92,6 +94,7 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
         a=_compared(a),
         b=_compared(b),
         conditions=conditions(a.trace.head, b.trace.head),
+        thinned=runs.thinned,
         first=first_difference(runs),
         parted=parting(runs),
         searches=searches(runs),
@@ -128,6 +131,7 @@ def as_json(found: Comparison) -> dict[str, Any]:
         "a": found.a,
         "b": found.b,
         "conditions": found.conditions,
+        "thinned": found.thinned,
         "first": None if first is None else _first(first),
         "parted": None if parted is None else _parted(parted),
         "searches": found.searches,

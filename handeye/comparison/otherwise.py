@@ -8,15 +8,13 @@ from typing import Final
 import msgspec
 
 from handeye.arm.model import ArmModel
-from handeye.comparison.stretches import Stretch, Told
+from handeye.comparison.stretches import OF_A_PERIOD, Stretch, Told
 from handeye.events import AnyEvent, OperatorAnswered, StepFinished
-from handeye.trace.channels import FRAMES, HAND, JOINTS
+from handeye.trace.channels import FRAMES, JOINTS
 from handeye.trace.quantities import Differing, differing, differing_events
 
 _CLOCKS: Final = 2000
 """ns by which times since a step began may differ by rounding."""
-_OF_A_PERIOD: Final = (JOINTS, HAND, FRAMES)
-"""Channels of what is recorded of each servo period."""
 EVENT: Final = ("event",)
 """The quantity that differs where another kind of thing happened next."""
 
@@ -45,7 +43,7 @@ def otherwise(a: Stretch, b: Stretch, arm: ArmModel | None) -> Otherwise | None:
         found = _differing(one, other, arm)
         if found is not None:
             next = (_next(a.told, number), _next(b.told, number)) if found.quantity == EVENT else (None, None)
-            beside = period > 0 and any(topic in _OF_A_PERIOD for topic in topics)
+            beside = period > 0 and any(topic in OF_A_PERIOD for topic in topics)
             return Otherwise(differing=found, period=period if beside else None, next=next)
     return None
 
@@ -91,6 +89,6 @@ def _kind(told: Told | None) -> str | None:
 def _next(told: Sequence[Told], number: int) -> AnyEvent | None:
     """The event that comes next; None: a servo period comes first."""
     for each in told[number:]:
-        if each.event is not None or each.message.topic in _OF_A_PERIOD:
+        if each.event is not None or each.message.topic in OF_A_PERIOD:
             return each.event
     return None

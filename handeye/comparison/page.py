@@ -9,7 +9,7 @@ from handeye.comparison.course import course
 from handeye.comparison.page_sections import sections
 from handeye.comparison.page_view import SIDES, moments, view
 from handeye.comparison.pairing import TwoRuns
-from handeye.comparison.wording import place_words, run_words
+from handeye.comparison.wording import THINNED, place_words, run_words, same_words
 from handeye.files import Kind
 from handeye.markup import Markup
 from handeye.plain_text import printable
@@ -51,12 +51,13 @@ def _header(found: Comparison) -> Markup:
         element("p", element("b", letter), " ", run_words(run), class_="name")
         for (letter, _), run in zip(SIDES, (found.a, found.b), strict=True)
     )
-    return element("header", element("div", element("h1", _title(found)), *runs), class_="compared")
+    thinned = [element("p", THINNED, class_="name")] if found.thinned else []
+    return element("header", element("div", element("h1", _title(found)), *runs, *thinned), class_="compared")
 
 
 def _title(found: Comparison) -> str:
     if found.same:
-        return "Both did the same, to the last bit."
+        return same_words(found).capitalize()
     if found.parted is None:
         return "Both went the same way."
     return f"Their ways part: {place_words(found.parted.place)}."

@@ -43,6 +43,11 @@ class TwoRuns:
     a: Recorded
     b: Recorded
 
+    @property
+    def thinned(self) -> bool:
+        """One of the traces holds some of its servo periods only, so that these cannot be compared."""
+        return self.a.trace.thinned or self.b.trace.thinned
+
     @cached_property
     def pairs(self) -> Sequence[Pair]:
         """Numbers of a step in each program, in the order of the texts; None: the other has none like it."""

@@ -5,10 +5,12 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted, StepStarted
-from handeye.trace.channels import EVENTS, FRAMES, LOG, MOMENTS, NEWER, SCENE
+from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MOMENTS, NEWER, SCENE
 from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace
 
+OF_A_PERIOD: Final = (JOINTS, HAND, FRAMES)
+"""Channels of what is recorded of each servo period."""
 _SAID_TWICE: Final = (LOG, SCENE)
 """Channels that say nothing of their own: sentences of events, and how bodies look."""
 
@@ -38,12 +40,13 @@ class Stretch:
         self.told += (Told(message, event, message.time - self.begin) for message, event in messages)
 
 
-def stretches(trace: Trace, *, version: int, unseen: int) -> Iterator[Stretch]:
+def stretches(trace: Trace, *, version: int, unseen: int, periods: bool = True) -> Iterator[Stretch]:
     """The stretches of a trace. The stage that a step begins, and where everything is then, belong to that step.
 
     Args:
         version: without the channels that this version of the format did not have.
         unseen: without what was recorded beside so many events, from the first on.
+        periods: with what was recorded of each servo period.
     """
     stretch = Stretch(None, trace.messages[0].time)
     waiting: list[tuple[RawMessage, AnyEvent | None]] = []
@@ -54,7 +57,7 @@ def stretches(trace: Trace, *, version: int, unseen: int) -> Iterator[Stretch]:
             continue
         event = next(events) if message.topic == EVENTS else None
         count += event is not None
-        if message.topic in MOMENTS and count < unseen:
+        if (message.topic in MOMENTS and count < unseen) or (message.topic in OF_A_PERIOD and not periods):
             continue
         if message.topic == FRAMES or isinstance(event, StageFinished | StageStarted):
             waiting.append((message, event))

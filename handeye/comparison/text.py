@@ -11,11 +11,13 @@ from handeye.comparison.first import First
 from handeye.comparison.parting import Parting
 from handeye.comparison.searched import Searches
 from handeye.comparison.wording import (
+    THINNED,
     correction_words,
     first_words,
     moment_words,
     place_words,
     run_words,
+    same_words,
     search_words,
     stop_words,
     turning_words,
@@ -30,9 +32,9 @@ _BOTH: Final = ("A", "B")
 def comparison_text(found: Comparison) -> list[str]:
     """A comparison as lines of text."""
     runs = [f"{letter}  {run_words(run)}" for letter, run in zip(_BOTH, (found.a, found.b), strict=True)]
-    lines = [*runs, *_conditions(found.conditions)]
+    lines = [*runs, *_conditions(found.conditions), *([THINNED] if found.thinned else [])]
     if found.first is None:
-        return [*lines, "", "Nothing was recorded otherwise: both did the same, to the last bit."]
+        return [*lines, "", f"Nothing was recorded otherwise: {same_words(found)}"]
     sections = (
         _first(found.first),
         _parted(found.parted),

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final
 
-from handeye.comparison.comparison import Compared
+from handeye.comparison.comparison import Compared, Comparison
 from handeye.comparison.corrected import Correction
 from handeye.comparison.felt import Stop
 from handeye.comparison.first import First
@@ -28,6 +28,7 @@ _CAME_TO: Final[dict[Kind, str]] = {
     "paused": "it stands before its end",
     "broken off": "its trace was cut short",
 }
+THINNED: Final = "A trace is thinned: what happened is compared, not what was sensed in between."
 _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.FORCE: "oz",
     GuardKind.AGAINST: "oz",
@@ -35,6 +36,11 @@ _UNITS: Final[Mapping[GuardKind, str]] = {
     GuardKind.TORQUE: "oz in",
 }
 """Units in which people are told what a guard looked at."""
+
+
+def same_words(found: Comparison) -> str:
+    """How exactly two runs did the same."""
+    return "both did the same." if found.thinned else "both did the same, to the last bit."
 
 
 def run_words(run: Compared) -> str:

@@ -71,6 +71,8 @@ def _joints(trace: Trace) -> Table:
     ]
     gap = Column(name="gap", about="opening of the fingers by the sensor", unit="m", values=motion.gaps)
     about = "What the sensors told at the end of each servo period, and what was put out in it."
+    if trace.thinned:
+        about += " The trace is thinned: it holds some of the periods, not all."
     return Table(name="joints", about=about, columns=(*_under_way(trace, motion.times), *columns, gap))
 
 

@@ -18,6 +18,7 @@ from handeye.see.recorded import Recorded
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS
 from handeye.trace.reading import read_trace
 from handeye.trace.records import RawMessage
+from handeye.trace.thinned_file import write_thinned
 
 LATE = 5_000_000_000
 """ns"""
@@ -116,3 +117,14 @@ def test_a_line_that_nobody_comes_to_makes_no_difference(tmp_path: Path) -> None
     assert found.same
     assert found.parted is None
     assert [condition.what for condition in found.conditions] == ["plan"]
+
+
+def test_a_thinned_trace_is_compared_by_what_happened(run: Recorded, tmp_path: Path) -> None:
+    write_thinned(run.trace, tmp_path / "thin.mcap")
+    thin = Recorded(trace=read_trace(tmp_path / "thin.mcap"))
+    assert len(thin.trace.times) < len(run.trace.times)
+    for found in (comparison(run, thin), comparison(thin, run), comparison(thin, thin)):
+        assert found.same
+        assert found.thinned
+        assert "A trace is thinned: what happened is compared" in str(found)
+    assert not comparison(run, run).thinned
