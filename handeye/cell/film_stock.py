@@ -83,7 +83,7 @@ def _grain(height: int, width: int) -> Array:
 FILMS: Final[Mapping[str, FilmStock]] = {
     "colour": FilmStock(
         lighting=Lighting(
-            lamp=(0.76, 0.69, 0.59), gloss=0.8, sky=(0.44, 0.47, 0.52), everywhere=(0.29, 0.295, 0.31),
+            lamp=(0.76, 0.69, 0.59), gloss=0.55, sky=(0.44, 0.47, 0.52), everywhere=(0.29, 0.295, 0.31),
             stand=(0.9, -0.95, 0.9), radius=0.12,
         ),
         developed=_colour,

@@ -12,7 +12,7 @@ from player_bytes import Unpacked
 from handeye.see.player.scene import lowest, scene_bytes
 from handeye.see.player.surfaces import Surface, surface
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.tasks.water_pump.scene import build
+from handeye.tasks.water_pump.scene import dressed
 
 SCENE = """
 <mujoco>
@@ -160,12 +160,12 @@ def test_a_grain_is_a_grey_picture_and_its_tint_is_in_the_colour() -> None:
 @cache
 def pump() -> bytes:
     """The scene of the pump."""
-    return scene_bytes(build(PumpWorld.nominal()))
+    return scene_bytes(dressed(PumpWorld.nominal()))
 
 
 @pytest.mark.slow
 def test_equal_scenes_give_equal_bytes_of_which_a_page_can_carry_many() -> None:
-    assert pump() == scene_bytes(build(PumpWorld.nominal()))
+    assert pump() == scene_bytes(dressed(PumpWorld.nominal()))
     assert len(pump()) < 250_000
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from player_bytes import SeenTracks
 from recordings import record
 
+from handeye.see.player import shown_poses
 from handeye.see.player.tracks import tracks_bytes
 from handeye.trace.messages import Poses
 from handeye.trace.reading import read_trace
@@ -102,6 +103,15 @@ def test_a_body_that_comes_back_is_where_it_came_back() -> None:
 def test_a_body_that_is_never_there_has_no_track() -> None:
     seen = SeenTracks.of(made({"carrier": np.full((20, 7), np.nan, dtype=np.float32)}))
     assert seen.pose("carrier", 10) is None
+
+
+@pytest.mark.slow
+def test_what_no_run_moves_is_shown_as_drawn_but_the_hands_of_the_clock(trace: Trace) -> None:
+    shown = shown_poses(trace)
+    assert {"teletype", "second_hand"} <= shown.keys() - trace.poses.keys()
+    assert np.ptp(shown["teletype"], axis=0).max() == 0
+    turned = 2 * np.arccos(np.abs(np.sum(shown["second_hand"][0, 3:] * shown["second_hand"][60, 3:])))
+    assert turned == pytest.approx(2 * np.pi * (trace.times[60] - trace.times[0]) / 60, rel=1e-3)
 
 
 def test_the_clock_is_that_of_the_trace_where_the_run_waited_too() -> None:
