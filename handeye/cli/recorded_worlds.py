@@ -28,7 +28,8 @@ def in_world_of(path: Path, plan: Plan, *, judged: bool) -> Setup:
         InvalidInput: there is no such run, or its world cannot be built here for this plan.
     """
     begun = _beginning(path)
-    _check_drawn_here(path, begun)
+    _check_drawing(path, begun)
+    _check_parts(path, begun)
     _check_faults(path, begun, plan)
     camera = _CAMERAS.get(begun.camera.method, "auto")
     return Setup(plan=plan, world=begun.world, camera=camera, task=begun.task, judged=judged)
@@ -50,14 +51,18 @@ def _events(path: Path) -> tuple[AnyEvent, ...]:
     return read_trace(file, lenient=is_cut_short(file)).events
 
 
-def _check_drawn_here(path: Path, begun: RunStarted) -> None:
-    """Raises InvalidInput if this handeye draws another world, or code that it does not have belongs to the run."""
+def _check_drawing(path: Path, begun: RunStarted) -> None:
+    """Raises InvalidInput if this handeye draws another world from the seed of a run."""
     world = begun.world
     if world.drawing != DRAWING:
         raise InvalidInput(
             f"the world of {path} was drawn by another handeye: seed {world.seed} gives another world here "
             f"(drawing {world.drawing} there, {DRAWING} here)"
         )
+
+
+def _check_parts(path: Path, begun: RunStarted) -> None:
+    """Raises InvalidInput if code of its caller, which is not here, had a part in how a run went."""
     own = [part for part in begun.own_parts if part != "referee"]
     if own:
         raise InvalidInput(

@@ -14,6 +14,7 @@ from handeye.comparison.parting import Parting, Turning, parting
 from handeye.comparison.place import Place
 from handeye.comparison.searched import Searches, searches
 from handeye.errors import InvalidInput
+from handeye.events import StepStarted
 from handeye.see.facts.outcome import Kind, outcome
 from handeye.see.recorded import Recorded
 from handeye.trace.stats import StageFigures, statistics
@@ -82,13 +83,11 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
     """Compare two runs.
 
     Raises:
-        InvalidInput: a run is of a system that carries out no plans, or a message of its trace cannot be understood.
+        InvalidInput: a run is of a system that carries out no plans, or a message of its trace cannot be understood or
+            tells of a step that there is not.
     """
     for run in (a, b):
-        if run.trace.head.system != "program":
-            raise InvalidInput(
-                f"{run.trace.name} is a run of the system {run.trace.head.system}; only runs of plans are compared"
-            )
+        _check(run)
     runs = TwoRuns(a, b)
     return Comparison(
         a=_compared(a),
@@ -102,6 +101,16 @@ def comparison(a: Recorded, b: Recorded) -> Comparison:
         corrections=corrections(runs),
         stages=_stages(a, b),
     )
+
+
+def _check(run: Recorded) -> None:
+    """Raises InvalidInput if a run carried out no plan, or steps that its plan does not have."""
+    name, system = run.trace.name, run.trace.head.system
+    if system != "program":
+        raise InvalidInput(f"{name} is a run of the system {system}; only runs of plans are compared")
+    steps = len(run.program.steps)
+    if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
+        raise InvalidInput(f"{name} tells of steps that its plan lacks")
 
 
 def _compared(run: Recorded) -> Compared:

@@ -4,9 +4,12 @@ from collections.abc import Iterator
 from typing import Final
 
 from handeye.events import RunStarted
+from handeye.faults import Fault
 from handeye.record import Record
+from handeye.see.facts.again import written
+from handeye.tasks import known
+from handeye.tasks.interface import Task
 from handeye.trace.sentences import renderer_name
-from handeye.variation import WorldSpec
 
 _NONE: Final = "none"
 _DRAWN: Final = "as drawn"
@@ -36,21 +39,24 @@ def _conditions(begun: RunStarted) -> Iterator[tuple[str, str]]:
     yield "program", begun.program
     yield "plan", begun.plan
     yield "arm", f"{begun.arm} {begun.arm_digest}"
-    yield from _world(begun.world)
+    yield from _world(begun)
     yield "camera", renderer_name(begun.camera)
     yield from ((f"own {part}", name) for part, name in begun.own_parts.items())
     yield from ((f"version of {name}", version) for name, version in begun.versions.items())
 
 
-def _world(world: WorldSpec) -> Iterator[tuple[str, str]]:
+def _world(begun: RunStarted) -> Iterator[tuple[str, str]]:
+    world, task = begun.world, known(begun.task)
+    quantities = {} if task is None else task.variation(world.seed).quantities
     yield "drawing of the world", f"{world.drawing}"
     yield "seed", f"{world.seed}"
     yield "level", world.level
     yield "switched off", ", ".join(world.overrides.without) or _NONE
-    yield from ((name, f"{value!r}") for name, value in world.overrides.set.items())
-    yield from ((f"fault {fault.name}", _fault(fault.value, fault.stage)) for fault in world.faults)
+    yield from ((name, written(quantities.get(name), value)) for name, value in world.overrides.set.items())
+    yield from ((f"fault {fault.name}", _fault(task, world.seed, fault)) for fault in world.faults)
 
 
-def _fault(value: float | None, stage: int | None) -> str:
-    said = "there" if value is None else f"{value!r}"
-    return said if stage is None else f"{said} from stage {stage} on"
+def _fault(task: Task | None, seed: int, fault: Fault) -> str:
+    """A fault as it would be typed, where its task is known."""
+    catalogue = None if task is None else task.faults(seed)
+    return str(fault) if catalogue is None or fault.name not in catalogue.kinds else catalogue.told(fault)

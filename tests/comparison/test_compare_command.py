@@ -10,7 +10,7 @@ import pytest
 from compared_runs import block_start, kept
 from conftest import Command
 from recordings import EVENTS, Recording, record
-from report_pages import recorded
+from report_pages import changed, recorded
 from told_runs import saved, told
 
 from handeye.comparison.comparison import Comparison, comparison
@@ -19,7 +19,8 @@ from handeye.comparison.corrected import corrections
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.text import comparison_text
 from handeye.errors import InvalidInput
-from handeye.events import Event, GuardTripped
+from handeye.events import Event, GuardTripped, StepStarted
+from handeye.faults import Fault
 from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
 from handeye.variation import WorldSpec
@@ -94,6 +95,21 @@ def test_a_run_of_another_system_is_refused(tmp_path: Path) -> None:
         comparison(run, other)
 
 
+def test_a_run_with_a_step_that_its_plan_lacks_is_refused(tmp_path: Path) -> None:
+    def astray(event: Event) -> Event:
+        return msgspec.structs.replace(event, step=99) if isinstance(event, StepStarted) else event
+
+    run = recorded(tmp_path / "a.mcap")
+    with pytest.raises(InvalidInput, match=r"a\.mcap tells of steps that its plan lacks$"):
+        comparison(run, changed(run, astray))
+
+
+def test_a_fault_is_told_as_it_would_be_typed(tmp_path: Path) -> None:
+    broken = WorldSpec(seed=7, faults=(Fault(name="force.off_zero.z", value=20.0, stage=2),))
+    (found,) = conditions_of(recorded(tmp_path / "a.mcap"), world=broken)
+    assert (found.what, found.a, found.b) == ("fault force.off_zero.z", "none", "force.off_zero.z=20N@2")
+
+
 def test_a_message_that_is_none_is_refused(tmp_path: Path) -> None:
     run = recorded(tmp_path / "a.mcap")
     broken = tuple(
@@ -144,7 +160,7 @@ def missed(tmp_path_factory: pytest.TempPathFactory) -> Comparison:
 @pytest.mark.slow
 def test_people_are_told_what_differed_first_and_where_the_ways_part(missed: Comparison) -> None:
     text = "\n".join(comparison_text(missed))
-    assert "block.x: as drawn in A, 0.05 in B\n\nRecorded otherwise first: reach, line 3: OPEN 2.4\n" in text
+    assert "block.x: as drawn in A, 0.05m in B\n\nRecorded otherwise first: reach, line 3: OPEN 2.4\n" in text
     assert (
         "\nTheir ways part: grasp, line 10: CLOSE .8\n"
         "  A: it goes on at line 11: CHANGE [0 0 1] .2\n"

@@ -126,6 +126,20 @@ def step_of(run: Recorded, row: int) -> Place:
     return place_of(run, begun[-1])
 
 
+def test_two_seeds_of_one_plan_differ_in_where_the_block_stands(folder: Path, base: Recorded) -> None:
+    other = kept(folder / "seed", block_start(seed=1))
+    found = comparison(base, other)
+    (condition,) = found.conditions
+    assert (condition.what, condition.a, condition.b) == ("seed", "0", "1")
+    first = first_of(found)
+    assert (first.differing.name, first.differing.unit, first.place) == (
+        "body.block.place.x",
+        "m",
+        step_of(base, 0),
+    )
+    assert [first.differing.a, first.differing.b] == [run.trace.poses["block"][0, 0] for run in (base, other)]
+
+
 # -- one bit of the noise ------------------------------------------------------------------------------------------
 
 
