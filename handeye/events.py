@@ -202,8 +202,18 @@ class PartInspected(Event, frozen=True, kw_only=True):
     """Why it is not as it should be."""
 
 
+class CameraStarted(Event, frozen=True, kw_only=True):
+    """The camera's mechanism set about something: `lens`, `aim` or `focus`, which takes it this long (s).
+
+    It begins when what it does already is done; the arm goes on.
+    """
+
+    action: str
+    seconds: float
+
+
 class CameraBusy(Event, frozen=True, kw_only=True):
-    """The camera's mechanism needed this long (s)."""
+    """The arm stood still for the camera this long (s): `wait` for its mechanism, or `digitise` for a picture."""
 
     action: str
     seconds: float
@@ -255,7 +265,7 @@ AnyEvent = (
     RunStarted | FrictionMeasured | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted
     | GuardFaint | GuardTripped
     | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
-    | PictureTaken | PartSeen | PartInspected | CameraBusy | OperatorCalled | OperatorAnswered
+    | PictureTaken | PartSeen | PartInspected | CameraStarted | CameraBusy | OperatorCalled | OperatorAnswered
     | ExperimentMade | PanicStopped | WentBack | RunFinished
 )  # fmt: skip
 

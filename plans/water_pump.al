@@ -4,9 +4,9 @@
 ; Inches, ounces, degrees. Positions are taught, in the file beside this one.
 
         STAGE   "find the base"
-        PARK
-        LENS    25
+        LENS    25              ;the camera's mechanism is slow: meanwhile the arm
         AIM     BASE
+        PARK                    ;goes out of its sight
         LOOK    WIDE
         GENERAL BASE WIDE
         LENS    50
@@ -62,6 +62,7 @@ LB:     MOVE    B
         CHANGE  [0 1 0] 1.2 .5  ;and once more, where that has dragged it off
         OPEN    1.85
         CHANGE  [0 0 1] 2
+        AIM     PUMP            ;for the gasket: meanwhile the pins go in
 
         STAGE   "insert the aligning pins"
         OPEN    1
@@ -124,8 +125,7 @@ L2:     MOVE    T2              ;GO TO THE HOLE
 
         STAGE   "put on the gasket"
         PARK
-        AIM     PUMP
-        LOOK    BEFORE
+        LOOK    BEFORE          ;the camera was aimed while the pins went in
         OPEN    1.9
         MOVE    GUP
         STOP    [0 0 -25]

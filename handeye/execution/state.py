@@ -166,6 +166,8 @@ class ExecutionState(SystemState, kw_only=True):
     unable: str | None = None
     """Why the camera could not be calibrated."""
     lens: float = FIRST_LENS
+    camera_ready: float = 0.0
+    """When the camera's mechanism is, or was, ready for a picture, s by the cell's clock."""
     shots: dict[str, Shot] = msgspec.field(default_factory=dict)
     general: dict[str, GeneralLocation] = msgspec.field(default_factory=dict)
     found: dict[str, Found] = msgspec.field(default_factory=dict)

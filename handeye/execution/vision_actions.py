@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from handeye import errors
-from handeye.events import CameraBusy, PartInspected, PartSeen, PictureTaken
+from handeye.events import CameraBusy, CameraStarted, PartInspected, PartSeen, PictureTaken
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
 from handeye.planning.first_grasp import first_grasp
@@ -36,19 +36,19 @@ def _known(run: ExecutionContext) -> CameraModel:
 
 
 def lens(run: ExecutionContext, operation: Lens) -> Fault | None:
-    """Turn the lens turret."""
-    _wait(run, "lens", _tv(run).lens(operation.focal_length))
+    """Let the lens turret turn."""
+    _start(run, "lens", _tv(run).lens(operation.focal_length))
     run.state.lens = operation.focal_length
     return None
 
 
 def aim(run: ExecutionContext, operation: Aim) -> Fault | None:
-    """Point the camera at a part's face or at a hand position, and focus there."""
+    """Let the camera turn to a part's face or to a hand position, and focus there."""
     p_W = _target(run, operation.target)
     pan, tilt = _known(run).aim(p_W, run.state.lens)
-    _wait(run, "aim", _tv(run).aim(pan, tilt))
+    _start(run, "aim", _tv(run).aim(pan, tilt))
     distance = math.dist(_known(run).mount, p_W)
-    _wait(run, "focus", _tv(run).focus(distance))
+    _start(run, "focus", _tv(run).focus(distance))
     return None
 
 
@@ -68,7 +68,8 @@ def _middle(X_WP: Pose, x: float, y: float) -> Array:
 
 
 def look(run: ExecutionContext, operation: Look) -> Fault | None:
-    """Take a picture."""
+    """Take a picture, once the camera's mechanism is ready."""
+    _wait(run, "wait", run.state.camera_ready - run.time)
     picture, seconds = _tv(run).digitise(hold_target=operation.hold_target)
     _wait(run, "digitise", seconds)
     dead = _dead(run, operation.picture, picture)
@@ -92,12 +93,22 @@ def _dead(run: ExecutionContext, name: str, picture: Picture) -> PictureBlank | 
     return None
 
 
-def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
-    """Brakes on while the camera's mechanism is busy."""
+def _start(run: ExecutionContext, action: str, seconds: float) -> None:
+    """Note when the camera's mechanism will be ready, which does one thing after another while the arm goes on."""
     if seconds <= 0:
         return
+    run.state.camera_ready = max(run.state.camera_ready, run.time) + seconds
+    run.emit(CameraStarted(time=run.time, action=action, seconds=round(seconds, 6)))
+
+
+def _wait(run: ExecutionContext, action: str, seconds: float) -> None:
+    """Brakes on while the arm waits for the camera, in whole servo periods and not less."""
+    period = run.drive.period
+    periods = math.ceil(round(seconds / period, 6))
+    if periods <= 0:
+        return
     begun = run.time
-    run.drive.brake(seconds)
+    run.drive.brake(periods * period)
     run.emit(CameraBusy(time=run.time, action=action, seconds=round(run.time - begun, 6)))
 
 

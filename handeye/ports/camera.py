@@ -36,8 +36,8 @@ class Renderer(Record, frozen=True, kw_only=True):
 class TvCamera(ABC):
     """The television camera on its pan/tilt mount with a two-lens turret.
 
-    `lens`, `aim` and `focus` start a slow mechanical action; they return the time it takes, and the executor
-    lets that much time pass (brakes on) before it takes a picture.
+    `lens`, `aim` and `focus` start a slow mechanical action; they return the time it takes. The mechanism does
+    one thing after another, while the arm may move; the executor takes no picture before it is ready.
     """
 
     @abstractmethod

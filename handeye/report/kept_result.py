@@ -58,8 +58,8 @@ def _bring_up_to_date(result: dict[str, Any]) -> tuple[str, ...]:
 
 def _retimed(timing: dict[str, Any]) -> tuple[str, ...]:
     """Times in the fields of today; the names of those that are not known."""
-    if "friction_s" not in timing:
-        timing["friction_s"] = None
+    for newer in ("friction_s", "overlapped_s"):
+        timing.setdefault(newer, None)
     if "total_s" not in timing:
         return ()
     del timing["total_s"]  # it added seconds of the host to those of the cell

@@ -105,6 +105,8 @@ def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[tuple[str, float, fl
     yield "working phase, without vision", t.working_s, worked
     yield "  manipulation", t.manipulation_s, then.get("manipulation")
     yield "  lens change, aim and focus", t.lens_s, then.get("lens")
+    if t.overlapped_s:
+        yield "    and while the arm moved", t.overlapped_s, None
     yield "vision (processor)", t.vision_cpu_s, then.get("vision")
 
 

@@ -14,7 +14,7 @@ Status = Literal["done", "under way", "skipped", "stopped", "not reached"]
 
 
 class Stage(Record, frozen=True, kw_only=True):
-    """A stage of the program; `arm_s` is simulated seconds without those of the camera's mechanism."""
+    """A stage of the program; `arm_s` is simulated seconds without those in which the arm waited for the camera."""
 
     name: str
     status: Status
@@ -35,9 +35,12 @@ class Timing(Record, frozen=True, kw_only=True):
     """Simulated: the camera was calibrated, before the working phase. None, here and below: an older handeye did
     not record it."""
     manipulation_s: float
-    """Simulated: the working phase without the camera's mechanism."""
+    """Simulated: the working phase but for the time in which the arm waited for the camera."""
     lens_s: float
-    """Simulated: lens change, aim and focus."""
+    """Simulated: the arm waited for lens change, aim, focus and pictures."""
+    overlapped_s: float | None
+    """Simulated: besides, the camera's mechanism was busy while the arm went on. None: an older handeye, which let it
+    wait."""
     working_s: float
     """Simulated: the working phase, which is manipulation and lens."""
     planning_cpu_s: float

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from handeye.events import (
     AnyEvent,
     CameraBusy,
+    CameraStarted,
     ExperimentMade,
     FrictionMeasured,
     GuardFaint,
@@ -113,6 +114,7 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
         calibration_s=round(begun - friction, 3),
         manipulation_s=round(clock - begun - lens, 3),
         lens_s=round(lens, 3),
+        overlapped_s=round(overlapped(events, clock), 3),
         working_s=round(clock - begun, 3),
         planning_cpu_s=host.planning_cpu_s,
         vision_cpu_s=host.vision_cpu_s,
@@ -121,6 +123,18 @@ def timing(events: Sequence[AnyEvent], clock: float, host: HostSeconds) -> Timin
         real_time_factor=round(covered / host.run_wall_s, 3) if host.run_wall_s > 0 else 0.0,
         host_from_step=host.from_step,
     )
+
+
+def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
+    """How long (s) the camera's mechanism had been busy by the cell's clock (s) while the arm did not wait for it."""
+    ready = busy = 0.0
+    for event in events:
+        if isinstance(event, CameraStarted):
+            ready = max(ready, event.time) + event.seconds
+            busy += event.seconds
+        elif isinstance(event, CameraBusy) and event.action == "wait":
+            busy -= event.seconds
+    return max(busy - max(ready - clock, 0.0), 0.0)
 
 
 def _camera(runner: Runner) -> CameraReport:

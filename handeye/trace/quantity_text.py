@@ -14,7 +14,8 @@ _SHOWN_IN: Final[Mapping[str, str]] = {
 _DECIMALS: Final = 3
 _EVENTS: Final[Mapping[str, str]] = {
     "Adjusted": "goal that was moved",
-    "CameraBusy": "camera's work",
+    "CameraBusy": "wait for the camera",
+    "CameraStarted": "camera's mechanism",
     "ErrorRaised": "error",
     "ErrorTested": "test of an error",
     "GuardFaint": "guard that is hard to feel",

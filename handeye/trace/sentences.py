@@ -38,11 +38,12 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
 """Events that a person would log, and how much they matter."""
 
 _CAMERA: Final = {
-    "lens": "turned its lenses",
-    "aim": "was aimed",
-    "focus": "was focused",
-    "digitise": "digitised the picture",
+    "lens": "turns its lenses",
+    "aim": "turns to its aim",
+    "focus": "is focused",
 }
+_WAITING: Final = {"digitise": "the picture"}
+"""For what the arm waits if not for the camera's mechanism."""
 _CHOICES: Final = {
     "proceed": "to proceed",
     "retry": "to retry the stage",
@@ -117,8 +118,10 @@ def sentence(event: Event) -> str:
             return _seen(event)
         case happened.PartInspected():
             return f"{event.part}: {inspection_sentence(event.cause)}"
+        case happened.CameraStarted():
+            return f"the camera {_CAMERA.get(event.action, event.action)}, in {event.seconds:.1f} s"
         case happened.CameraBusy():
-            return f"the camera {_CAMERA.get(event.action, event.action)}: {event.seconds:g} s"
+            return f"the arm waits for {_WAITING.get(event.action, 'the camera')}: {event.seconds:.1f} s"
         case happened.OperatorCalled():
             number = "" if event.error is None else f" (error {event.error})"
             called = call_sentence(event.message, event.error, event.cause)

@@ -38,15 +38,6 @@ def test_pictures_that_show_no_gasket_raise_an_error() -> None:
     assert run.go().errors == [GASKET_WRONG]
 
 
-def test_time_passes_with_brakes_set_while_the_lens_turret_turns() -> None:
-    run = fake_run("OPEN 2\nLENS 50")
-    run.executor.step()
-    before = run.cell.clock.now
-    run.go()
-    assert run.cell.clock.now - before == pytest.approx(1.0)
-    assert run.cell.arm.braked
-
-
 def test_a_circle_in_which_no_time_passes_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(executor, "IDLE_LIMIT", 3)
     run = fake_run("L: WHERE\nJUMP L").go()

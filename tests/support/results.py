@@ -23,7 +23,7 @@ def result(
         error=None if completed else 32, message=message, stages=(), referee=checks or {}, program=program,
         task="water_pump", seed=0, world=WorldSpec(seed=0), versions={},
         timing=Timing(
-            friction_s=friction, calibration_s=calibration, manipulation_s=0, lens_s=0, working_s=0,
+            friction_s=friction, calibration_s=calibration, manipulation_s=0, lens_s=0, overlapped_s=0, working_s=0,
             planning_cpu_s=planning,
             vision_cpu_s=0, run_cpu_s=1, run_wall_s=1, real_time_factor=factor, host_from_step=from_step,
         ),

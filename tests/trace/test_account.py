@@ -55,7 +55,7 @@ def test_an_account_of_a_stage() -> None:
         "",
         "FIND THE HOLE: done in 2.0 s, 0.5 s of it for the camera",
         "     0.00    12  LOOK    WIDE",
-        "                    the camera digitised the picture: 0.5 s",
+        "                    the arm waits for the picture: 0.5 s",
         "                    picture WIDE, 25 mm lens",
         "     0.50    14  CHANGE  [0 0 -1] 0.6",
         "                    error 23: the motion ended without meeting the force it was to stop on",

@@ -9,6 +9,7 @@ from handeye.see.recorded import Recorded
 SENSED: Final = (
     happened.Adjusted,
     happened.CameraBusy,
+    happened.CameraStarted,
     happened.ErrorRaised,
     happened.ErrorTested,
     happened.ExperimentMade,

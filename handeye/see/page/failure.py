@@ -3,7 +3,15 @@
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from handeye.events import CameraBusy, ErrorRaised, ErrorTested, OperatorCalled, PanicStopped, PictureTaken
+from handeye.events import (
+    CameraBusy,
+    CameraStarted,
+    ErrorRaised,
+    ErrorTested,
+    OperatorCalled,
+    PanicStopped,
+    PictureTaken,
+)
 from handeye.markup import Markup
 from handeye.plain_text import counted
 from handeye.program.cause_text import call_sentence
@@ -18,7 +26,7 @@ from handeye.see.recorded import Recorded
 from handeye.trace.sentences import sentence
 from handeye.units import INCH
 
-_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, PictureTaken)
+_UNTOLD: Final = (OperatorCalled, PanicStopped, ErrorTested, CameraBusy, CameraStarted, PictureTaken)
 """Events that are no word of the senses, or the reason itself."""
 _SAID: Final = 4
 """Last sentences of the senses that are told."""
