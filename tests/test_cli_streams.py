@@ -51,7 +51,7 @@ CHEAP = {
     "trace export csv": "trace export csv ✓ -o ✓",
     "trace export parquet": "trace export parquet ✓ -o ✓",
     "trace verify": "trace verify run/events.jsonl",
-    "trace thin": "trace thin run -o ✓.mcap",
+    "trace thin": "trace thin ✓ -o ✓.mcap",
     "world": "world --set part_mass=5%",
     "render": "render -o ✓.jpg",
     "export mjcf": "export mjcf ✓ -o ✓",
