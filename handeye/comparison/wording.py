@@ -63,7 +63,7 @@ def first_words(first: First) -> tuple[str, ...]:
 
 
 def _next(event: AnyEvent | None) -> str:
-    return "no event yet" if event is None else sentence(event)
+    return "no event there" if event is None else sentence(event)
 
 
 def turning_words(turning: Turning | None) -> str:
