@@ -30,9 +30,8 @@ _LIGHT: Final = ((np.arange(256) / 255) ** GAMMA).astype(np.float32)
 """Light of a point of the screen by its value."""
 _PLASTIC: Final = np.array([0.7548776662466927, 0.5698402909980532])
 """Steps of an even sequence in a square, from the root of x^3 = x + 1."""
-
-
 Told = Callable[[int, int], None]
+"""Is called with the number of each exposure before it is made, from 1 on, and with how many there are."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +44,7 @@ class Exposing:
     def __post_init__(self) -> None:
         """Raises InvalidInput if there is no such film, or so many exposures cannot be."""
         if self.film not in FILMS:
-            raise InvalidInput(f"there is no film {quoted(str(self.film))}; there are {', '.join(FILMS)}")
+            raise InvalidInput(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
         if not whole or not 1 <= self.exposures <= MOST:
             raise InvalidInput(f"{self.exposures} exposures cannot be made; there are 1 to {MOST}")
@@ -60,7 +59,7 @@ def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposing
     if not (fine or film is not None or exposures is not None):
         return None
     return Exposing(
-        film="colour" if film is None else film, exposures=USUAL if exposures is None else exposures
+        film="colour" if film is None else str(film), exposures=USUAL if exposures is None else exposures
     )
 
 
@@ -96,7 +95,6 @@ def fine_photograph(
 
     Args:
         view: a camera of the scene, or from nearby.
-        told: is called with the number of each exposure before it is made, and with how many there are.
 
     Raises:
         InvalidInput: no such camera, the size cannot be, or no OpenGL on this machine.

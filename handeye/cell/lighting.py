@@ -10,8 +10,8 @@ import numpy as np
 from handeye.pose import Array
 
 Colour = tuple[float, float, float]
-_AWAY: Final = 3.0
-"""Distance of the sky from the middle of the scene, m."""
+_AWAY: Final = 2.0
+"""Distance of the sky from the middle of the scene, over its size."""
 _GRAZING: Final = 0.2
 """Least height of a point of the sky, over its distance."""
 
@@ -43,7 +43,7 @@ class Lighting:
         middle = np.array(model.stat.center)
         scene.nlight = 2
         self._lamp(scene.lights[0], middle, model.stat.extent, lamp)
-        self._sky(scene.lights[1], middle, sky)
+        self._sky(scene.lights[1], middle, model.stat.extent, sky)
 
     def _lamp(self, light: mujoco.MjvLight, middle: Array, extent: float, at: Array) -> None:
         stand = middle + extent * np.array(self.stand)
@@ -55,13 +55,13 @@ class Lighting:
         light.specular[:] = self.gloss * np.array(self.lamp)
         _place(light, 0, place, middle - place)
 
-    def _sky(self, light: mujoco.MjvLight, middle: Array, at: Array) -> None:
+    def _sky(self, light: mujoco.MjvLight, middle: Array, extent: float, at: Array) -> None:
         high = math.sqrt(max(_GRAZING**2, 1.0 - float(at @ at)))
         towards = _unit(np.array([*at, high]))
         light.type = mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
         light.diffuse[:], light.ambient[:] = self.sky, 0.0
         light.specular[:] = self.gloss * np.array(self.sky)
-        _place(light, 1, middle + _AWAY * towards, -towards)
+        _place(light, 1, middle + _AWAY * extent * towards, -towards)
 
 
 def _place(light: mujoco.MjvLight, number: int, place: Array, way: Array) -> None:

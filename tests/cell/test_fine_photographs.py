@@ -191,6 +191,7 @@ def test_every_exposure_has_a_point_of_its_own_on_lens_lamp_and_sky() -> None:
         ({"fine": False, "film": None, "exposures": None}, None),
         ({"fine": True, "film": None, "exposures": None}, Exposing(exposures=24, film="colour")),
         ({"fine": False, "film": "1973", "exposures": None}, Exposing(exposures=24, film="1973")),
+        ({"fine": True, "film": 1973, "exposures": None}, Exposing(exposures=24, film="1973")),
         ({"fine": False, "film": None, "exposures": 3}, Exposing(exposures=3, film="colour")),
     ],
 )
