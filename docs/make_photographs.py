@@ -1,4 +1,4 @@
-"""Makes the photographs of docs/photographs.md anew from a recorded run.
+"""Makes the photographs of docs/photographs.md anew from a recorded run; docs/make_pictures.py makes them too.
 
 handeye assemble --seed 15 --camera gl --out DIR
 python docs/make_photographs.py DIR
@@ -32,9 +32,8 @@ TAKEN: Final[dict[str, tuple[float, str, dict[str, Any]]]] = {
 """When, by which camera, and how."""
 
 
-def main(run: Path) -> None:
+def make(trace: "handeye.Trace") -> None:
     """All of them."""
-    trace = handeye.open(run)
     for name, (at, camera, how) in TAKEN.items():
         picture = trace.frame(trace.head.time + at, camera, width=WIDTH, height=HEIGHT, **how)
         bgr = np.ascontiguousarray(picture[:, :, ::-1])
@@ -42,4 +41,4 @@ def main(run: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    make(handeye.open(sys.argv[1]))

@@ -15,6 +15,8 @@ import cv2
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
+import make_photographs  # noqa: E402
+
 import handeye  # noqa: E402
 from handeye.inspection.drawing import flow_svg  # noqa: E402
 from handeye.inspection.flow import flow  # noqa: E402
@@ -60,6 +62,7 @@ def make(run: Path) -> None:
     photographed("pump.png", trace, "pump")
     kept("base_found.png", run / "pictures" / "close_up.png", SEEN)
     kept("gasket_checked.png", run / "pictures" / "after.png", SEEN)
+    make_photographs.make(trace)
     filmed("assembly.webp", trace)
     drawn("pins.svg", PINS)
 
