@@ -199,8 +199,8 @@ class Trace:
         from handeye.cell.posed import posed
 
         how = exposing(fine=fine, film=film, exposures=exposures)
-        moment = self.at(time)
-        model, data = posed(self.scene, moment.poses, moment.time)
+        scene, moment = self.scene, self.at(time)
+        model, data = posed(scene, moment.poses, moment.time)
         return photographed(model, data, camera=camera, width=width, height=height, how=how)
 
     def video(

@@ -18,10 +18,8 @@ import numpy as np
 import pytest
 from chromium import Browser, Page
 from numpy.typing import NDArray
-from short_runs import begin, through
+from short_runs import begin, traced
 
-from handeye.runs.folder import TRACE, open_new
-from handeye.runs.runner import Runner
 from handeye.see.player import scene_bytes, script, shown_poses, tracks_bytes
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
@@ -57,12 +55,7 @@ def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     told = os.environ.get("HANDEYE_CHECK_TRACE")
     if told is not None:
         return read_trace(Path(told))
-    start, path = begin(), tmp_path_factory.mktemp("short") / "run"
-    folder = open_new(path, start)
-    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
-    through(runner).finish()
-    folder.close()
-    return read_trace(path / TRACE)
+    return traced(begin(), tmp_path_factory.mktemp("short") / "run")
 
 
 @pytest.fixture(scope="module")

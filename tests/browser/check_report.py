@@ -1,7 +1,7 @@
 """The report of a run in a browser: it fits, fetches nothing, answers keys and addresses, and tells the truth.
 
-Not collected with the tests, for it needs a Chromium: `python3 run.py test browser`. `HANDEYE_CHECK_TRACE` names a
-trace to look at instead of that of a short run.
+Not collected with the tests, for it needs a Chromium: `python3 run.py test browser`. A short run is looked at, and the
+run of `report --demo`; `HANDEYE_CHECK_TRACE` names a trace, or the folder of a run, to be looked at instead.
 """
 
 import os
@@ -12,35 +12,59 @@ import numpy as np
 import pytest
 from chromium import Browser, Page
 from report_pages import renamed
-from short_runs import begin, through
+from short_runs import begin, traced
 
-from handeye.runs.folder import TRACE, open_new
-from handeye.runs.runner import Runner
+from handeye import resources
+from handeye.cli.reports import read_recorded
 from handeye.see.animation import animation
 from handeye.see.page.document import report_page
 from handeye.see.photographs import album
 from handeye.see.player import shown_poses
 from handeye.see.recorded import Recorded
-from handeye.trace.reading import read_trace
 
 EVIL = "</script><img src=x onerror=alert(1)>"
 PLACE, TURN = 3e-4, np.radians(0.3)
 """How far a body may be from where it was: m, rad."""
 LIT = "document.querySelector('#script .on')?.id"
+POSES = "Object.fromEntries(view.player.names.map(name => [name, view.player.pose(name, {seconds})]))"
+CONTRASTS = """
+(() => {
+  const parts = text => {
+    const [, kind, inner] = /^(rgba?|color)\\((?:srgb )?([^)]*)\\)$/.exec(text);
+    const [r, g, b, a = 1] = inner.split(/[ ,/]+/).map(Number);
+    return kind === "color" ? [r, g, b, a] : [r / 255, g / 255, b / 255, a];
+  };
+  const over = ([r, g, b, a], under) => [r, g, b].map((c, k) => a * c + (1 - a) * under[k]);
+  const ground = node => {
+    if (!node) return [1, 1, 1];
+    const [r, g, b, a] = parts(getComputedStyle(node).backgroundColor);
+    return a === 1 ? [r, g, b] : over([r, g, b, a], ground(node.parentElement));
+  };
+  const light = colour => colour.map(c => (c <= .04045 ? c / 12.92 : ((c + .055) / 1.055) ** 2.4))
+    .reduce((sum, c, k) => sum + c * [.2126, .7152, .0722][k], 0);
+  const found = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walk.nextNode()) {
+    const node = walk.currentNode.parentElement;
+    if (!walk.currentNode.data.trim() || !node.checkVisibility({ visibilityProperty: true })) continue;
+    const style = getComputedStyle(node), under = ground(node);
+    const ink = over(parts(node instanceof SVGElement ? style.fill : style.color), under);
+    const [low, high] = [light(ink), light(under)].sort((a, b) => a - b);
+    found.push([(high + .05) / (low + .05), walk.currentNode.data.trim().slice(0, 40)]);
+  }
+  return found.sort((a, b) => a[0] - b[0]).slice(0, 3);
+})()
+"""
+"""The words that stand out least from what is under them, and how much."""
+CONTROLS = {"button", "slider", "combobox", "checkbox", "link", "DisclosureTriangle"}
+TOLD = os.environ.get("HANDEYE_CHECK_TRACE")
 
 
-@pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
-    """A run in which the arm takes a pin out of its holder."""
-    told = os.environ.get("HANDEYE_CHECK_TRACE")
-    if told is not None:
-        return Recorded(trace=read_trace(Path(told)))
-    start, path = begin(), tmp_path_factory.mktemp("short") / "run"
-    folder = open_new(path, start)
-    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
-    through(runner).finish()
-    folder.close()
-    return Recorded(trace=read_trace(path / TRACE))
+@pytest.fixture(scope="module", params=["short", "demo"] if TOLD is None else [TOLD])
+def run(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Recorded:
+    """A run in which the arm takes a pin out of its holder, or a whole one."""
+    if request.param != "short":
+        return read_recorded(resources.demo() if request.param == "demo" else Path(request.param))
+    return Recorded(trace=traced(begin(), tmp_path_factory.mktemp("short") / "run"))
 
 
 def written(run: Recorded, folder: Path) -> Path:
@@ -87,6 +111,26 @@ def test_it_fits_the_window_and_asks_for_nothing(
     page.ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert (page.errors, page.requests) == ([], [file.as_uri()])
+    ((least, words), *_) = page.evaluate(CONTRASTS)
+    assert least >= 4.5, words
+
+
+def test_it_is_less_than_three_megabytes(file: Path) -> None:
+    assert file.stat().st_size < 3_000_000
+
+
+def test_every_control_has_a_role_and_a_name(page: Page) -> None:
+    page.ask("Accessibility.enable")
+    nodes = page.ask("Accessibility.getFullAXTree")["nodes"]
+    controls = [node for node in nodes if not node["ignored"] and node["role"]["value"] in CONTROLS]
+    assert {node["role"]["value"] for node in controls} >= {"button", "slider", "combobox", "link"}
+    assert [node["role"]["value"] for node in controls if not node["name"]["value"].strip()] == []
+
+
+def test_every_control_that_is_no_link_has_a_key(page: Page) -> None:
+    keyless = "node => !node.getAttribute('aria-keyshortcuts')"
+    controls = "[...document.querySelectorAll('button, input, select')]"
+    assert page.evaluate(f"{controls}.filter({keyless}).map(node => node.outerHTML)") == []
 
 
 def test_the_line_that_is_lit_is_the_one_under_way(run: Recorded, page: Page) -> None:
@@ -101,9 +145,7 @@ def test_every_body_is_where_it_was(run: Recorded, page: Page) -> None:
     rows, shown = np.linspace(0, len(run.trace.times) - 1, 20).astype(int), shown_poses(run.trace)
     for row in rows:
         seconds = run.seconds(run.trace.times[row])
-        told = page.evaluate(
-            f"(p => Object.fromEntries(p.names.map(n => [n, p.pose(n, {seconds})])))(view.player)"
-        )
+        told = page.evaluate(POSES.format(seconds=seconds))
         for name, pose in told.items():
             true = shown[name][row]
             if true[2] > -1.0:
@@ -114,8 +156,21 @@ def test_every_body_is_where_it_was(run: Recorded, page: Page) -> None:
                 assert pose is None, (name, row)
 
 
+def test_what_becomes_another_body_goes_as_that_one_comes(run: Recorded, page: Page) -> None:
+    """A screw in its thread is another body, which is hidden before."""
+    for name, poses in run.trace.poses.items():
+        there = poses[:, 2] > -1.0
+        for row in np.flatnonzero(there[1:] != there[:-1]):
+            shown = [
+                page.evaluate(f"view.player.pose('{name}', {run.seconds(run.trace.times[at])})") is not None
+                for at in (row, row + 1)
+            ]
+            assert shown == [there[row], there[row + 1]], (name, row)
+
+
 def test_keys_play_and_go_by_steps_and_stages(run: Recorded, page: Page) -> None:
-    second = run.seconds(run.trace.stages[1].begin)
+    begins = (run.seconds(stage.begin) for stage in run.trace.stages)
+    second = next(begin for begin in begins if begin > run.begins + 0.01)
     sought(page, run.begins)
     page.key("ArrowRight", shift=True)
     assert float(page.evaluate("document.getElementById('time').value")) == pytest.approx(second, abs=0.01)
@@ -163,4 +218,5 @@ def test_without_scripts_everything_but_the_view_is_there(
     page.ask("Page.navigate", url=file.as_uri())
     page.wait("document.querySelectorAll('#record').length")
     assert page.evaluate("document.getElementById('controls').hidden")
-    assert page.evaluate("document.querySelectorAll('#strip img').length") == len(run.trace.stages)
+    recorded = [stage for stage in run.trace.stages if run.seconds(stage.end) > run.begins]
+    assert page.evaluate("document.querySelectorAll('#strip img').length") == len(recorded)

@@ -2,12 +2,10 @@
 
 import pytest
 from report_pages import no_photographs, page_of, tree
-from short_runs import plan_of, through
+from short_runs import FEEL, plan_of, traced
 
 from handeye.events import GuardTripped
 from handeye.program.guards import GuardKind
-from handeye.runs.folder import TRACE, open_new
-from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.see import player
@@ -15,35 +13,18 @@ from handeye.see.animation import animation
 from handeye.see.facts.felt import GuardedMotion, guarded_motions
 from handeye.see.page.document import report_page
 from handeye.see.recorded import Recorded
-from handeye.trace.reading import read_trace
 from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 
-SCRIPT = """
-TRANS   ABOVE [25 38 .5 90 90 0]
-        STAGE   "feel"
-        MOVE    ABOVE
-        STOP    [0 0 -40]
-        CHANGE  [0 0 -1] 1 .5   ;stops on the table
-        STOP    [0 0 40]
-        CHANGE  [0 0 1] .2      ;meets nothing
-        SKIPE   23
-        OPEN    1
-"""
 HALF_A_NEWTON = 0.5
 
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
     """A run that feels for the table, and then for nothing."""
-    start = Checkpoint(setup=Setup(plan=plan_of(SCRIPT), world=WorldSpec(seed=0), camera="ray"))
-    path = tmp_path_factory.mktemp("felt") / "run"
-    folder = open_new(path, start)
-    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
-    through(runner).finish()
-    folder.close()
-    return Recorded(trace=read_trace(path / TRACE))
+    start = Checkpoint(setup=Setup(plan=plan_of(FEEL), world=WorldSpec(seed=0), camera="ray"))
+    return Recorded(trace=traced(start, tmp_path_factory.mktemp("felt") / "run"))
 
 
 @pytest.fixture(scope="module")

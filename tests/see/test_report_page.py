@@ -99,6 +99,13 @@ def test_every_picture_and_drawing_says_what_it_shows_or_that_it_adds_nothing(pa
     assert all(told)
 
 
+def test_every_figure_that_leads_somewhere_has_a_name(page: Node) -> None:
+    """A link does not get its name from a figure in it."""
+    links = [link for link in page.all("a") if link.all("figure")]
+    assert links
+    assert [link.text for link in links if not link.attributes.get("aria-label")] == []
+
+
 def test_the_figures_lead_to_moments_of_the_run(run: Recorded, page: Node) -> None:
     moments = [float((node.attributes["href"] or "")[3:]) for node in page.all("a")]
     assert moments

@@ -1,6 +1,8 @@
 """Short programs as plans, and runs of them: no pictures, so that no camera has to be calibrated."""
 
+from collections.abc import Callable
 from functools import cache
+from pathlib import Path
 
 from handeye.al import compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
@@ -9,10 +11,13 @@ from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
 from handeye.program.taught import load_taught
 from handeye.resources import plans
+from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.source import Source
+from handeye.trace.reading import read_trace
+from handeye.trace.trace import Trace
 from handeye.variation import WorldSpec
 
 GRASP = """
@@ -34,6 +39,19 @@ AGAIN:  STOP    [0 0 -50]
 DONE:   OPEN    1
 """
 """Takes a pin out of its holder and meets no resistance in the air: error 23, tested."""
+
+FEEL = """
+TRANS   ABOVE [25 38 .5 90 90 0]
+        STAGE   "feel"
+        MOVE    ABOVE
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] 1 .5   ;stops on the table
+        STOP    [0 0 40]
+        CHANGE  [0 0 1] .2      ;meets nothing
+        SKIPE   23
+        OPEN    1
+"""
+"""Feels for the table, and then for nothing."""
 
 
 @cache
@@ -57,6 +75,16 @@ def through(runner: Runner) -> Runner:
     while not runner.ended:
         runner.step()
     return runner
+
+
+def traced(start: Checkpoint, path: Path, *, prepare: Callable[[Runner], None] = lambda _: None) -> Trace:
+    """The trace of a run, carried out and kept in a folder; `prepare` does something to it before."""
+    folder = open_new(path, start)
+    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
+    prepare(runner)
+    through(runner).finish()
+    folder.close()
+    return read_trace(path / TRACE)
 
 
 def history(events: list[AnyEvent]) -> bytes:

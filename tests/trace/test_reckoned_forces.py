@@ -4,33 +4,23 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from short_runs import plan_of, through
+from short_runs import FEEL, plan_of, traced
 
 from handeye.errors import InvalidInput
-from handeye.runs.folder import TRACE, open_new
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.trace.channels import HAND
 from handeye.trace.forces import Forces
-from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 from handeye.variation import Overrides, WorldSpec
 
 pytestmark = pytest.mark.slow
 
-SCRIPT = """
-TRANS   ABOVE [25 38 .5 90 90 0]
+SCRIPT = f"""
 TRANS   PIVOT [30 38 .5 90 90 0]
-        STAGE   "feel"
-        MOVE    ABOVE
-        STOP    [0 0 -40]
-        CHANGE  [0 0 -1] 1 .5   ;stops on the table
-        STOP    [0 0 40]
-        CHANGE  [0 0 1] .2      ;meets nothing
-        SKIPE   23
-        OPEN    1
+{FEEL}
         FREE    1 X
         CHANGE  [0 0 1] .1      ;gives way, without a guard
         STOP    40
@@ -45,14 +35,12 @@ def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     """The trace of a run that feels in every way, with an arm that knows nothing of itself, as in older traces."""
     world = WorldSpec(seed=0, overrides=Overrides(without=("arm",)))
     start = Checkpoint(setup=Setup(plan=plan_of(SCRIPT), world=world, camera="ray"))
-    path = tmp_path_factory.mktemp("felt") / "run"
-    folder = open_new(path, start)
-    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
-    drive = context_of(runner.system).state.drive
-    drive.friction, drive.links = np.zeros_like(drive.friction), None
-    through(runner).finish()
-    folder.close()
-    return read_trace(path / TRACE)
+
+    def forget(runner: Runner) -> None:
+        drive = context_of(runner.system).state.drive
+        drive.friction, drive.links = np.zeros_like(drive.friction), None
+
+    return traced(start, tmp_path_factory.mktemp("felt") / "run", prepare=forget)
 
 
 @pytest.fixture(scope="module")

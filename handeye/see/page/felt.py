@@ -65,7 +65,8 @@ def _figure(motion: GuardedMotion) -> Markup:
     statement = element("code", one_line(motion.step.text))
     caption = element("figcaption", when, place, " ", statement, element("span", _said(motion)))
     figure = element("figure", _drawn(motion), caption)
-    return to_moment(float(moment), figure, class_="moment")
+    label = f"line {motion.step.place}, {exact_clock(float(moment))}: {_said(motion)}"
+    return to_moment(float(moment), figure, class_="moment", aria_label=label)
 
 
 def _said(motion: GuardedMotion) -> str:

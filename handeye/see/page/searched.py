@@ -31,7 +31,11 @@ def _search(search: Search) -> Markup:
     told = f"{tried} tried, from {exact_clock(search.times[0]) if search.times else 'the first'}: {came}"
     caption = element("figcaption", element("b", search.step.place), " ", element("span", told))
     figure = element("figure", _spiral(search, told), caption)
-    return to_moment(search.times[-1], figure, class_="moment") if search.times else figure
+    if not search.times:
+        return figure
+    return to_moment(
+        search.times[-1], figure, class_="moment", aria_label=f"line {search.step.place}: {told}"
+    )
 
 
 def _spiral(search: Search, told: str) -> Markup:
