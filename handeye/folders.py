@@ -26,7 +26,7 @@ class FolderKind:
 
 
 class Taken(InvalidInput):
-    """A folder of the kind is there, and may not be replaced."""
+    """A folder or file of the kind is there, and may not be replaced."""
 
 
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:

@@ -77,6 +77,12 @@ def test_it_is_made_from_python_too(kept: Path) -> None:
     assert (made.path, made.bytes) == (Path("it.webp"), Path("it.webp").stat().st_size)
 
 
+def test_python_is_told_its_own_word_for_replacing_one(kept: Path) -> None:
+    Path("it.webp").touch()
+    with pytest.raises(InvalidInput, match=r"^it\.webp is there already; overwrite=True replaces it$"):
+        handeye.open(kept).video("it.webp")
+
+
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
     [
@@ -104,6 +110,7 @@ REFUSALS = {
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
     ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",
+    ("-o", "it.webm", "--size", "65x48"): "a WebM video of 65 x 48 cannot be made; both sides must be even",
     ("-o", "it.gif"): "it.gif: a GIF would be seven times as large, in 256 colours",
     ("-o", "nowhere/it.webp"): "nowhere/it.webp cannot be written: No such file or directory",
 }
@@ -129,15 +136,43 @@ def test_a_file_of_somebody_is_left_alone(command: Command, kept: Path) -> None:
     )
 
 
+def test_a_run_that_takes_the_place_of_another_takes_its_video_away(
+    command: Command, planned: Planned, kept: Path
+) -> None:
+    assert command("video", "kept", *SMALL)[0] == 0
+    assert command("run", planned("OPEN 1"), "--camera", "ray", "--out", "kept", "--overwrite")[0] == 0
+    assert not (kept / "video.webp").exists()
+
+
 def test_a_run_that_goes_on_loses_the_video_of_what_it_was(command: Command, planned: Planned) -> None:
     plan = planned('STAGE "one"\nOPEN 1\nSTAGE "two"\nOPEN 2')
     assert command("run", plan, "--camera", "ray", "--out", "kept", "--to", "one")[0] == 0
     assert command("video", "kept", *SMALL)[0] == 0
     assert refused(command, "kept", "-o", "it.webp", "--from", "two") == (
-        "kept/trace.mcap does not come to stage `two`; it has `one`"
+        "kept/trace.mcap does not show stage `two`, but `one`"
     )
     assert command("resume", "kept")[0] == 0
     assert not Path("kept/video.webp").exists()
+
+
+def test_a_folder_without_a_run(command: Command) -> None:
+    Path("empty").mkdir()
+    assert refused(command, "empty") == "empty holds no run"
+
+
+def test_what_there_is_not(command: Command) -> None:
+    assert refused(command, "nowhere") == "nowhere: there is no such file"
+
+
+def test_a_run_taken_up_from_a_checkpoint_shows_what_was_recorded(command: Command, planned: Planned) -> None:
+    plan = planned('STAGE "one"\nOPEN 1\nSTAGE "two"\nOPEN 2')
+    ray = ("--camera", "ray")
+    assert command("run", plan, *ray, "--checkpoints", "kept", "--to", "one")[0] == 0
+    assert command("run", plan, *ray, "--checkpoints", "kept", "--from", "two", "--out", "it")[0] == 0
+    assert command("video", "it", *SMALL)[0] == 0
+    assert refused(command, "it", "--from", "one", "-o", "one.webp") == (
+        "it/trace.mcap does not show stage `one`, but `two`"
+    )
 
 
 def test_an_event_list_does_not_say_where_things_were(command: Command) -> None:

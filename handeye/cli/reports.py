@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import App, Parameter
 
 from handeye.cli.common import note, say
-from handeye.cli.trace_files import TraceFile, trace_file
+from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -107,10 +107,6 @@ def read_recorded(run: Path) -> "Recorded":
     from handeye.report.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
 
-    file = trace_file(run)
-    if file.suffix == ".jsonl":
-        raise InvalidInput(
-            f"{file} is an event list, which does not say where things were; take the trace.mcap"
-        )
+    file = motion_file(run)
     cut = is_cut_short(file)
     return recorded_run(run, read_trace(file, lenient=cut), whole=not cut)

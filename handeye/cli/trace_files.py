@@ -32,3 +32,19 @@ def trace_file(path: Path) -> Path:
     if (path / PLAN).exists() and not (path / EVENTS).exists():
         raise InvalidInput(f"the run in {path} has not begun")
     return path / EVENTS
+
+
+def motion_file(path: Path) -> Path:
+    """The same, where it must say where things were.
+
+    Raises:
+        InvalidInput: there is no run, it has not begun, or there is only its event list.
+    """
+    file = trace_file(path)
+    if not file.exists():
+        raise InvalidInput(f"{path} holds no run" if path.is_dir() else f"{path}: there is no such file")
+    if file.suffix == ".jsonl":
+        raise InvalidInput(
+            f"{file} is an event list, which does not say where things were; take the trace.mcap"
+        )
+    return file

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import note, notes, say
-from handeye.cli.trace_files import TraceFile, trace_file
+from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 
@@ -106,11 +106,7 @@ def _trace(run: Path) -> "Trace":
     """
     from handeye.trace.reading import is_cut_short, read_trace
 
-    file = trace_file(run)
-    if file.suffix == ".jsonl":
-        raise InvalidInput(
-            f"{file} is an event list, which does not say where things were; take the trace.mcap"
-        )
+    file = motion_file(run)
     cut = is_cut_short(file)
     if cut and file.suffix != ".part":
         note(f"{file} was cut short; this is a video of what it holds")

@@ -235,6 +235,7 @@ class Trace:
                 speed; or it cannot be written there.
         """
         from handeye.door.arguments import given_file
+        from handeye.folders import Taken
         from handeye.video.making import make_video
         from handeye.video.wanted import Wanted
 
@@ -243,7 +244,10 @@ class Trace:
             captions=captions,
         )  # fmt: skip
         file = given_file(path, "a video is written to a file that ends in .webp or .webm")
-        return make_video(self, file, wanted, overwrite=overwrite)
+        try:
+            return make_video(self, file, wanted, overwrite=overwrite)
+        except Taken:
+            raise InvalidInput(f"{file} is there already; overwrite=True replaces it") from None
 
     @cached_property
     def scene(self) -> Any:

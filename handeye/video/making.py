@@ -12,7 +12,9 @@ from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import posed
 from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
+from handeye.folders import Taken
 from handeye.see.facts.scene import check_scene
+from handeye.see.facts.seen import SeenPicture
 from handeye.see.recorded import Recorded
 from handeye.trace.trace import Trace
 from handeye.video.captions import captioned
@@ -50,13 +52,14 @@ def make_video(
         overwrite: a video that is there may be replaced.
 
     Raises:
+        Taken: a video is there, and may not be replaced.
         InvalidInput: there can be no such video, it cannot be written there, the run is of another scene, or there
             is no OpenGL here.
     """
     form = format_of(path)
     check_place(path, form.kind)
     if path.exists() and not overwrite:
-        raise InvalidInput(f"{path} is there already; --overwrite replaces it")
+        raise Taken(f"{path} is there already; --overwrite replaces it")
     check_scene(Recorded(trace=trace))
     board = storyboard(trace, wanted)
     form.check(len(board.frames), wanted.width, wanted.height)
@@ -81,5 +84,16 @@ def _said(drawn: Photograph, frame: Frame) -> Photograph:
     """A frame with what is said over it."""
     if frame.caption is None:
         return drawn
-    picture = None if frame.looked_at is None else annotate(frame.looked_at.picture, (), scale=1)
-    return captioned(drawn, frame.caption, picture)
+    return captioned(drawn, frame.caption, None if frame.looked_at is None else _marked(frame.looked_at))
+
+
+def _marked(seen: SeenPicture) -> Photograph:
+    """A picture that the program took, with what it found in it.
+
+    Raises:
+        InvalidInput: that is so far outside that it cannot be drawn.
+    """
+    try:
+        return annotate(seen.picture, seen.marks, scale=1)[:, :, ::-1]
+    except ValueError:
+        raise InvalidInput(f"the findings in picture {seen.name} cannot be drawn") from None

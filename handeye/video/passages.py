@@ -10,7 +10,8 @@ import numpy as np
 from handeye.errors import InvalidInput
 from handeye.events import CameraBusy
 from handeye.pose import Array
-from handeye.trace.pictures import TakenPicture
+from handeye.see.facts.seen import SeenPicture, seen_pictures
+from handeye.see.recorded import Recorded
 from handeye.trace.trace import Trace
 
 PATIENCE: Final = 1.0
@@ -35,7 +36,7 @@ class Passage:
     end: float
     stage: int
     """Counted through the stages as they were carried out; -1 before the first."""
-    looked_at: TakenPicture | None = None
+    looked_at: SeenPicture | None = None
     """The picture that is shown while the run stands still."""
 
 
@@ -48,7 +49,7 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
     Raises:
         InvalidInput: there is no motion in that time.
     """
-    pictures = {picture.time: picture for picture in trace.pictures} if looks else {}
+    pictures = _pictures(trace) if looks else {}
     edges = sorted({*pictures, *(stage.begin for stage in trace.stages)})
     found: list[Passage] = []
     for begin, end in _pieces(_without_waits(trace, span), edges):
@@ -59,6 +60,12 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
     if not found:
         raise InvalidInput(f"{trace.name} has no motion in what the video is to show")
     return tuple(found)
+
+
+def _pictures(trace: Trace) -> dict[float, SeenPicture]:
+    """The pictures that were taken, by the clock."""
+    clocks = {trace.elapsed(picture.time): picture.time for picture in trace.pictures}
+    return {clocks[picture.time]: picture for picture in seen_pictures(Recorded(trace=trace))}
 
 
 def _without_waits(trace: Trace, span: Span) -> Iterator[Span]:

@@ -11,8 +11,8 @@ from handeye.errors import InvalidInput
 from handeye.planfile.store import decode
 from handeye.pose import Array
 from handeye.program.stage_names import stage_index
+from handeye.see.facts.seen import SeenPicture
 from handeye.see.page.figures import clock
-from handeye.trace.pictures import TakenPicture
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace
 from handeye.video.captions import Caption
@@ -33,7 +33,7 @@ class Frame:
     """s, on the cell's clock"""
     view: View
     caption: Caption | None
-    looked_at: TakenPicture | None
+    looked_at: SeenPicture | None
     """The picture that is shown in a corner."""
 
 
@@ -97,22 +97,23 @@ def _span(trace: Trace, wanted: Wanted) -> Span:
     if first is not None and last is not None and last < first:
         raise InvalidInput(f"stage {quoted(program[last])} comes before {quoted(program[first])}")
     if first is not None:
-        begin = max(begin, _carried_out(trace, program[first])[0].begin)
+        begin = max(begin, _recorded(trace, program[first])[0].begin)
     if last is not None:
-        end = min(end, _carried_out(trace, program[last])[-1].end)
+        end = min(end, _recorded(trace, program[last])[-1].end)
     return begin, end
 
 
-def _carried_out(trace: Trace, name: str) -> list[Stage]:
-    """A stage each time that it was carried out.
+def _recorded(trace: Trace, name: str) -> list[Stage]:
+    """A stage each time that it was carried out, and its motions recorded.
 
     Raises:
         InvalidInput: it was not.
     """
-    found = [stage for stage in trace.stages if stage.name == name]
+    stages = [stage for stage in trace.stages if stage.end > trace.begins]
+    found = [stage for stage in stages if stage.name == name]
     if not found:
-        there = ", ".join(quoted(stage) for stage in dict.fromkeys(stage.name for stage in trace.stages))
-        raise InvalidInput(f"{trace.name} does not come to stage {quoted(name)}; it has {there or 'none'}")
+        there = ", ".join(map(quoted, dict.fromkeys(stage.name for stage in stages)))
+        raise InvalidInput(f"{trace.name} does not show stage {quoted(name)}, but {there or 'none'}")
     return found
 
 
@@ -144,9 +145,10 @@ def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:
 def _caption(trace: Trace, program: tuple[str, ...], passage: Passage, time: float) -> Caption:
     stage = trace.stages[passage.stage] if passage.stage >= 0 else None
     name = "" if stage is None else stage.name
+    shown = visible(name)
     number = program.index(name) + 1 if name in program else 0
     stopped = stage is not None and stage.status in (BROKEN_OFF, "stopped") and time >= stage.end - SHOWN
-    words = f"{number}  {visible(name)}" if name else ""
+    words = f"{number}  {shown}" if number else shown
     return Caption(
         words=f"{words}: stopped" if stopped else words,
         clock=clock(trace.elapsed(time)),

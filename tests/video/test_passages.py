@@ -60,6 +60,12 @@ def test_the_run_stands_still_where_a_picture_was_taken(trace: Trace) -> None:
     assert (still.begin, still.stage) == (still.end, 1)
 
 
+@pytest.mark.parametrize("begun", [1 / 3, 9.7, 161.933333 % 10])
+def test_a_picture_taken_as_a_stage_ends_is_of_that_stage(trace: Trace, begun: float) -> None:
+    shown = passages(replace(trace, head=started(begun)), trace.covers, looks=True)
+    assert [passage.stage for passage in shown if passage.looked_at] == [1]
+
+
 def test_where_nothing_was_recorded_there_is_nothing_to_show(trace: Trace) -> None:
     with pytest.raises(InvalidInput, match=r"^.*short\.mcap has no motion in what the video is to show$"):
         passages(trace, (10.5, 10.5), looks=False)
