@@ -106,7 +106,7 @@ REFUSALS = {
     ("--speed", "nan"): "a video is some times as fast as the run, and not nan times",
     ("--speed", "2", "--seconds", "2"): "a video has a length or a speed; the other follows",
     ("--speed", "1e-9"): "at 1e-09 times the speed of the run the video would take ",
-    ("--camera", "nowhere"): "no camera nowhere; there are orbit, follow, tv, studio, pump, belt",
+    ("--camera", "nowhere"): "no camera nowhere; there are orbit, follow, tv, studio, pump, work, belt",
     ("--from", "shutt"): "there is no stage `shutt`; did you mean `shut`?",
     ("--to", "3"): "there is no stage 3; the program has stages 1 to 2",
     ("--from", "shut", "--to", "open"): "stage `open` comes before `shut`",

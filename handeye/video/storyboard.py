@@ -16,7 +16,7 @@ from handeye.see.page.figures import clock
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace
 from handeye.video.captions import Caption
-from handeye.video.formats import RATE
+from handeye.video.frames import RATE
 from handeye.video.passages import Passage, Span, at_speed, passage_at, passages, within
 from handeye.video.views import View, views
 from handeye.video.wanted import LONGEST, SECONDS, Wanted

@@ -10,7 +10,10 @@ import pytest
 
 from handeye.cell.photograph import Photograph
 from handeye.errors import InvalidInput
-from handeye.video.formats import RATE, format_of, webm, webp
+from handeye.video.formats import format_of
+from handeye.video.frames import RATE
+from handeye.video.webm import webm
+from handeye.video.webp import settled, webp
 
 LEVELS = (40, 90, 140, 190)
 
@@ -29,6 +32,22 @@ def test_a_webp_shows_each_frame_and_the_last_one_longer() -> None:
     assert durations.tolist() == [83, 84, 83, 583]
     assert [int(frame[..., 2].mean()) for frame in animation.frames] == pytest.approx(LEVELS, abs=3)
     assert animation.loop_count == 0
+
+
+def test_what_changes_slowly_is_seen_to_change() -> None:
+    slow = [np.full((48, 64, 3), level, dtype=np.uint8) for level in range(60, 180, 2)]
+    _, animation = cv2.imdecodeanimation(np.frombuffer(webp(iter(slow), held=0), np.uint8))
+    last = animation.frames[-1][..., :3].astype(int)
+    assert np.abs(last - slow[-1]).max() < 10
+
+
+def test_what_hardly_changes_is_left_as_it_is() -> None:
+    still = np.full((20, 20, 3), 100, dtype=np.uint8)
+    noisy, moved = still + np.uint8(4), still.copy()
+    moved[9, 17] = 200
+    shown = list(settled(iter([still, noisy, moved])))
+    assert [np.array_equal(frame, still) for frame in shown[:2]] == [True, True]
+    assert np.array_equal(shown[2], moved)
 
 
 def test_a_webm_has_a_frame_for_each_period(tmp_path: Path) -> None:
