@@ -320,8 +320,8 @@ D1:     MOVE    DUP
         RESTORE DRV
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the guides guide it
-        CHANGE  [0 0 -1] .8     ;into the rack until it stands
-        TRAVEL  .4 .65          ;on the guides it would stand higher
+        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
+        TRAVEL  2 2.25          ;on the guides it would stand higher
         SKIPN   8
         AOJ     D1
         LOAD    0
@@ -609,8 +609,8 @@ D2:     MOVE    DUP
         RESTORE DRV
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the guides guide it
-        CHANGE  [0 0 -1] .8     ;into the rack until it stands
-        TRAVEL  .4 .65          ;on the guides it would stand higher
+        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
+        TRAVEL  2 2.25          ;on the guides it would stand higher
         SKIPN   8
         AOJ     D2
         LOAD    0
