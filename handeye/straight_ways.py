@@ -1,11 +1,15 @@
 """Rows of a recording that are enough: all others lie nearly on the straight ways between them."""
 
 from collections.abc import Callable, Sequence
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from handeye.pose import Array
+
+_LEAST: Final = 1e-9
+"""Halfway between a quaternion and its opposite, after a whole turn, is none: far off, and no division by zero."""
 
 Rows = NDArray[np.int64]
 Off = Callable[[Rows, Rows, Rows], Array]
@@ -70,7 +74,7 @@ def off_poses(poses: Array, at: Array, *, place: float, turn: float) -> Off:
         there = poses[first]
         there += share[:, None] * (poses[last] - there)
         size = np.sqrt(np.einsum("ij,ij->i", there[:, 3:], there[:, 3:]))
-        there[:, 3:] /= size[:, None]
+        there[:, 3:] /= np.maximum(size, _LEAST)[:, None]
         there -= poses[row]
         there *= there
         away, turned = there[:, :3].sum(axis=1), 4 * there[:, 3:].sum(axis=1)

@@ -33,6 +33,14 @@ def test_a_pose_may_be_off_by_so_much_and_turned_by_so_much(
     assert needed_rows(off_poses(poses, np.arange(3.0), place=place, turn=turn), [0, 2]).tolist() == kept
 
 
+def test_a_whole_turn_is_not_taken_for_standing_still() -> None:
+    quarter = np.sqrt(0.5)
+    turning = [(1, 0), (quarter, quarter), (0, 1), (-quarter, quarter), (-1, 0)]
+    poses = np.array([[0, 0, 0, w, 0, 0, z] for w, z in turning], dtype=float)
+    kept = needed_rows(off_poses(poses, np.arange(5.0), place=1.0, turn=0.1), [0, 4])
+    assert kept.tolist() == [0, 2, 4]
+
+
 def test_a_quaternion_and_its_opposite_are_one_rotation() -> None:
     poses = np.array([[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, -1, 0, 0, 0]], dtype=float)
     assert smooth(poses)[1].tolist() == poses[0].tolist()

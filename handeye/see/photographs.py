@@ -82,13 +82,20 @@ def album(run: Recorded) -> Album:
 
 def _leading(run: Recorded, outcome: Outcome) -> Photograph:
     """The photograph that leads: the finished work, or the moment at which the run failed."""
-    done = outcome.kind in ("right", "wrong", "ended")
+    shows = "The end of the run" if outcome.ended else "The hand at the last moment"
+    wanted = _Wanted(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
+    (taken,) = _taken(run, [wanted], LARGE)
+    left = run.end if outcome.ended else None
+    return taken if taken.webp is not None or left is None else _left(left, taken)
+
+
+def _leading_view(run: Recorded, outcome: Outcome) -> str | Near:
+    """The work, where the referee looked at it too; else all of the cell; of a run that did not end the hand."""
+    if not outcome.ended:
+        return _at_hand(run, outcome.time)
     task = known(run.trace.head.task)
-    closest = _ROOM if task is None or not task.photographs else task.photographs[-1]
-    view = closest if done else _at_hand(run, outcome.time)
-    shows = "The end of the run" if done else "The hand at the last moment"
-    (taken,) = _taken(run, [_Wanted(time=outcome.time, view=view, shows=shows)], LARGE)
-    return taken if taken.webp is not None or not done or run.end is None else _left(run.end, taken)
+    judged = outcome.kind in ("right", "wrong")
+    return task.photographs[-1] if judged and task is not None and task.photographs else _ROOM
 
 
 def _left(picture: bytes, missing: Photograph) -> Photograph:

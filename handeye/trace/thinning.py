@@ -26,6 +26,8 @@ FELT: Final = {
     GuardKind.TOUCH: 0.5,
 }
 """How far what a guard looks at may be off what it was: N, N m, or switches."""
+APART: Final = 10.0
+"""How far two periods may be apart, s, whatever stands still: the second hand of a clock goes on."""
 _NOWHERE: Final = np.array([0, 0, -1e3, 1, 0, 0, 0], dtype=np.float64)
 """Where a body is that is not there: far from where any is."""
 
@@ -42,7 +44,8 @@ def kept_periods(trace: Trace) -> Rows:
         found: Array = np.maximum.reduce([each(first, row, last) for each in offs])
         return found
 
-    return needed_rows(off, np.unique([0, len(times) - 1, *_watching(forces)]))
+    now_and_then = np.searchsorted(times, np.arange(times[0], times[-1], APART))
+    return needed_rows(off, np.unique([*now_and_then, len(times) - 1, *_watching(forces)]))
 
 
 def _bodies(times: Array, poses: dict[str, Poses]) -> Iterator[Off]:

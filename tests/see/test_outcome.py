@@ -117,3 +117,9 @@ def test_the_panic_button_is_told_where_it_was_hit(run: Recorded) -> None:
     head = tree(page_of(ending(run, [STARTED, happened.PanicStopped(time=12.0)]))).all("header")[0]
     assert head.all("h1")[0].text == "The panic button was hit in “open”."
     assert reasons(head)[0].startswith("A person stopped the run, not the program.")
+
+
+def test_figures_of_which_there_are_none_are_not_told(run: Recorded) -> None:
+    (figures,) = tree(page_of(run)).all("header")[0].all("dl")
+    assert "0" not in [figure.text for figure in figures.all("dd")]
+    assert tree(page_of(ending(run, DONE))).all("header")[0].all("dl") == []

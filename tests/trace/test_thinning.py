@@ -78,6 +78,14 @@ def test_where_a_guard_begins_and_ends_and_most_is_felt_is_kept(whole: Trace, th
         assert before.value[span].max() == after.value[kept].max()
 
 
+def test_periods_are_not_far_apart_however_still_all_stands(
+    whole: Trace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(thinning, "APART", 0.1)
+    write_thinned(whole, tmp_path / "thin.mcap")
+    assert np.diff(read_trace(tmp_path / "thin.mcap").times).max() < 2 * thinning.APART
+
+
 def test_the_same_trace_is_thinned_to_the_same_bytes(whole: Trace, tmp_path: Path) -> None:
     files = [tmp_path / "a.mcap", tmp_path / "b.mcap"]
     for file in files:

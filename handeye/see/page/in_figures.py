@@ -9,10 +9,12 @@ from handeye.see.page.elements import element
 from handeye.see.recorded import Recorded
 
 
-def in_figures(run: Recorded) -> Markup:
-    """The figures as a list."""
-    rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in _figures(run))
-    return element("dl", *rows, class_="in-figures")
+def in_figures(run: Recorded) -> Iterator[Markup]:
+    """The figures as a list; of what there was none, nothing is said."""
+    told = [(count, what) for count, what in _figures(run) if count]
+    rows = (element("div", element("dd", str(count)), element("dt", what)) for count, what in told)
+    if told:
+        yield element("dl", *rows, class_="in-figures")
 
 
 def _figures(run: Recorded) -> Iterator[tuple[int, str]]:

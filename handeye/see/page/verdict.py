@@ -40,7 +40,7 @@ def _said(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Iterator[Mar
     if outcome.ended:
         yield element("p", *_course(run), class_="reason" if outcome.good else None)
         yield from _judged(run, outcome)
-        yield in_figures(run)
+        yield from in_figures(run)
     else:
         yield from where(run, outcome, told)
     yield from _unseen(run)

@@ -19,7 +19,7 @@ _KEYS: Final = (
     ("← →", "a step"),
     ("shift ← →", "a stage"),
     ("[ ]", "slower, faster"),
-    ("1 – 5", "views"),
+    ("1 2 …", "views"),
 )
 
 
@@ -93,7 +93,7 @@ def _stage(run: Recorded, number: int, stage: Stage) -> Markup:
 def widths(run: Recorded) -> str:
     """Rules of style that make the stages as wide as they are long."""
     return "".join(
-        f"#stages .s{number}{{flex-grow:{max(stage.end - stage.begin, 0.1):.2f}}}"
+        f"#stages .s{number}{{flex-grow:{100 * max(stage.end - stage.begin, 0.1):.0f}}}"
         for number, stage in enumerate(run.trace.stages, 1)
     )
 
