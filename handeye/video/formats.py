@@ -73,6 +73,6 @@ FORMATS: Final = {
 REFUSED: Final = {
     (".gif",): "a GIF would be seven times as large, in 256 colours",
     (".png", ".apng"): "an animated PNG would be twenty times as large",
-    (".mp4", ".m4v", ".mov", ".avi", ".mkv"): "what OpenCV could write there, no browser plays",
+    (".mp4", ".m4v", ".mov"): "every browser would play H.264 there, which OpenCV does not write",
 }
 """Why files with these endings are not made."""

@@ -81,7 +81,11 @@ def test_a_file_is_known_by_how_it_begins() -> None:
     [
         ("it.gif", "it.gif: a GIF would be seven times as large, in 256 colours; make a .webp or a .webm"),
         ("it.APNG", "it.APNG: an animated PNG would be twenty times as large; make a .webp or a .webm"),
-        ("it.mp4", "it.mp4: what OpenCV could write there, no browser plays; make a .webp or a .webm"),
+        (
+            "it.mp4",
+            "it.mp4: every browser would play H.264 there, which OpenCV does not write; make a .webp or a .webm",
+        ),
+        ("it.mkv", "it.mkv: the name of a video ends in .webp or .webm"),
         ("it", "it: the name of a video ends in .webp or .webm"),
     ],
 )
