@@ -1,9 +1,10 @@
-"""Makes the photographs of docs/photographs.md anew from a recorded run; docs/make_pictures.py makes them too.
+"""Makes the photographs of docs/photographs.md anew from a recorded run, as docs/make_pictures.py makes all pictures.
 
 handeye assemble --seed 15 --camera gl --out DIR
 python docs/make_photographs.py DIR
 """
 
+import re
 import sys
 from pathlib import Path
 from typing import Any, Final
@@ -15,29 +16,40 @@ ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 import handeye  # noqa: E402
+from handeye.events import StepStarted  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"
+PAGE = ROOT / "docs" / "photographs.md"
 WIDTH, HEIGHT = 800, 600
 QUALITY = 90
-DRIVING, END = 288.0, 427.4
-"""Seconds since the run began: a screw is driven; all is done."""
-TAKEN: Final[dict[str, tuple[float, str, dict[str, Any]]]] = {
-    "studio_plain": (DRIVING, "studio", {}),
-    "studio_fine": (DRIVING, "studio", {"fine": True}),
-    "pump_plain": (END, "pump", {}),
-    "pump_fine": (END, "pump", {"fine": True}),
-    "work_fine": (DRIVING, "work", {"fine": True}),
-    "work_1973": (DRIVING, "work", {"film": "1973"}),
+SECOND, AFTER = 2, 0.8
+"""Number of the TOOL that drives the second screw, from 0, and s from its beginning on."""
+DRIVING: Final[dict[str, tuple[str, dict[str, Any]]]] = {
+    "studio_plain": ("studio", {}),
+    "studio_fine": ("studio", {"fine": True}),
+    "work_fine": ("work", {"fine": True}),
+    "work_1973": ("work", {"film": "1973"}),
 }
-"""When, by which camera, and how."""
+"""Names of those while a screw is driven: by which camera, and how."""
+DONE: Final[dict[str, tuple[str, dict[str, Any]]]] = {
+    "pump_plain": ("pump", {}),
+    "pump_fine": ("pump", {"fine": True}),
+}
+"""Names of those of the end."""
 
 
 def make(trace: "handeye.Trace") -> None:
-    """All of them."""
-    for name, (at, camera, how) in TAKEN.items():
-        picture = trace.frame(trace.head.time + at, camera, width=WIDTH, height=HEIGHT, **how)
-        bgr = np.ascontiguousarray(picture[:, :, ::-1])
-        cv2.imwrite(str(PICTURES / f"{name}.webp"), bgr, [cv2.IMWRITE_WEBP_QUALITY, QUALITY])
+    """All of them; the page then names the moment at which the screw is driven."""
+    started = [event for event in trace.events if isinstance(event, StepStarted)]
+    tools = [event.time for event in started if event.text.startswith("TOOL")]
+    moment = round(trace.elapsed(tools[SECOND] + AFTER), 1)
+    for time, taken in ((trace.head.time + moment, DRIVING), (trace.covers[1], DONE)):
+        for name, (camera, how) in taken.items():
+            picture = trace.frame(time, camera, width=WIDTH, height=HEIGHT, **how)
+            bgr = np.ascontiguousarray(picture[:, :, ::-1])
+            cv2.imwrite(str(PICTURES / f"{name}.webp"), bgr, [cv2.IMWRITE_WEBP_QUALITY, QUALITY])
+    page = PAGE.read_text(encoding="utf-8")
+    PAGE.write_text(re.sub(r"(--at|head\.time \+) [\d.]+", rf"\1 {moment}", page), encoding="utf-8")
 
 
 if __name__ == "__main__":
