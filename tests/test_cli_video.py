@@ -1,5 +1,6 @@
 """`handeye video`: a film of a run, or one sentence on why there is none."""
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -9,10 +10,13 @@ import numpy as np
 import pytest
 from conftest import Command
 from recordings import BODIES, record
+from short_runs import begin, through
 
 import handeye
 from handeye.cell.photograph import Near
 from handeye.errors import InvalidInput
+from handeye.runs.folder import open_new
+from handeye.runs.runner import Runner
 from handeye.trace import channels, mcap_writer
 from handeye.video import making
 
@@ -37,12 +41,23 @@ def no_opengl_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(making, "Photographer", FakePhotographer)
 
 
-@pytest.fixture
-def kept(command: Command, planned: Planned) -> Path:
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run of two stages."""
-    plan = planned('STAGE "open"\nOPEN 1\nSTAGE "shut"\nOPEN 2')
-    assert command("run", plan, "--camera", "ray", "--out", "kept")[0] == 0
-    return Path("kept")
+    start, path = (
+        begin('STAGE "open"\nOPEN 1\nSTAGE "shut"\nOPEN 2'),
+        tmp_path_factory.mktemp("video") / "run",
+    )
+    folder = open_new(path, start)
+    through(Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])).finish()
+    folder.close()
+    return path
+
+
+@pytest.fixture
+def kept(command: Command, recorded: Path) -> Path:
+    """A copy of it, in the folder that commands are given in."""
+    return Path(shutil.copytree(recorded, "kept"))
 
 
 SMALL = ("--size", "64x48", "--seconds", "1")
