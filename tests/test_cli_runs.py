@@ -109,6 +109,7 @@ def test_from_and_to_bound_a_run(command: Command, planned: Planned) -> None:
     [
         (("--stage", "onze"), "onze"),
         (("--stage", "feel", "--to", "feel"), "--stage excludes --from and --to"),
+        (("--live",), "--live goes with --step"),
         (("--until", "99"), "99"),
         (("--break", "NOWHERE"), "NOWHERE"),
         (("--stage", ""), "there is no stage"),

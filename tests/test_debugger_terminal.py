@@ -82,6 +82,17 @@ def test_no_bar_stands_between_the_answers(stepping: Terminal) -> None:
     assert answers[3].endswith("the program has ended: `back` goes back from here, `quit` leaves")
 
 
+def test_what_is_typed_while_the_run_goes_is_heard_then_and_not_later(stepping: Terminal) -> None:
+    refused, paused = stepping.say("stage\nback"), stepping.say("back 2\nstep")
+    assert "`back` was not carried out: while the run goes" in refused
+    assert "2 steps done" in refused
+    assert "2 steps undone" in paused
+    stepping.until(PROMPT)
+    paused = stepping.say("continue\npause")
+    assert "the run pauses behind this step" in paused
+    assert paused.endswith("paused as asked")
+
+
 def test_a_wrong_command_at_a_terminal_is_no_failure(stepping: Terminal) -> None:
     stepping.say("stpe")
     left = stepping.say("exit", end=None)

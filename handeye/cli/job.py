@@ -5,17 +5,19 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Final
 
 from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
-from handeye.cli.prompt import typed_lines
+from handeye.cli.prompt import PipedLines, typed_already, typed_lines
 from handeye.cli.reports import write_report
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import MOST
+from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
 from handeye.errors import InvalidInput
@@ -66,6 +68,8 @@ class Job:
     """Save a checkpoint where it pauses, if it has no folder."""
     step: bool = False
     """Ask before every step."""
+    live: bool = False
+    """Tell each line as it begins, and hear what is said while the run goes."""
     on_stop: str | None = None
     json: bool = False
     report: bool = False
@@ -188,15 +192,27 @@ class _Work:
         )
         names = [name for settable in runner.system.settables().values() for name in settable.names]
         words = [*(command.name for command in COMMANDS), *TOPICS, *runner.listing.labels, *names]
-        lines = typed_lines("handeye> ", self._waiting, lambda: words)
+        lines, live = self._lines(words)
         if self.folder is None and self.job.checkpoints is None:
             note("nothing is kept without --out FOLDER; `checkpoint FILE` keeps a state")
         most = MOST if screen.is_terminal else None
         try:
-            write = put_line if self.job.json else say
-            return interact(stepper, lines, write, json=self.job.json, prompt=sys.stdin.isatty(), most=most)
+            write, prompt = put_line if self.job.json else say, sys.stdin.isatty()
+            return interact(stepper, lines, write, json=self.job.json, prompt=prompt, most=most, live=live)
         finally:
             self.refused = stepper.refused
+
+    def _lines(self, words: list[str]) -> tuple[Iterator[str], Live | None]:
+        """Lines to be carried out, and the way to those who look on while the run goes, if there is one."""
+        put = partial(screen.print, end="", markup=False, soft_wrap=True)
+        if sys.stdin.isatty():
+            lines = typed_lines("handeye> ", self._waiting, lambda: words)
+            watched = self.job.live or (screen.is_terminal and not self.job.json)
+            return lines, Live(typed=typed_already, put=put, width=screen.width) if watched else None
+        if not self.job.live:
+            return typed_lines("", self._waiting, lambda: words), None
+        piped = PipedLines(sys.stdin.fileno())
+        return piped.wait(self._waiting), Live(typed=piped.come, put=put, width=screen.width)
 
     @contextmanager
     def _waiting(self) -> Iterator[None]:

@@ -1,8 +1,12 @@
 """Lines that a person types, with history and completion, or that are piped in."""
 
+import os
+import select
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager
+from queue import Empty, SimpleQueue
+from threading import Thread
 from types import ModuleType
 
 editing: ModuleType | None
@@ -44,6 +48,54 @@ def typed_lines(
         if not line and not terminal:
             return
         yield line.rstrip("\r\n")
+
+
+def typed_already() -> str | None:
+    """A line that somebody has typed at the terminal while nobody asked; None: there is none, or no way to tell."""
+    if sys.platform == "win32":
+        return None
+    if not select.select([sys.stdin], [], [], 0)[0]:
+        return None
+    return sys.stdin.readline().rstrip("\r\n") or None
+
+
+class PipedLines:
+    """The lines of a file as they come: waited for, or taken only if they are there."""
+
+    def __init__(self, file: int) -> None:
+        """Read a file, by its descriptor."""
+        self._lines = SimpleQueue[str | None]()
+        Thread(target=self._read, args=(file,), daemon=True).start()
+
+    def wait(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
+        """All lines that nobody has taken; `aside` is entered while one is waited for."""
+        while True:
+            with aside():
+                line = self._lines.get()
+            if line is None:
+                return
+            yield line
+
+    def come(self) -> str | None:
+        """Take a line that is there; None: there is none."""
+        try:
+            line = self._lines.get_nowait()
+        except Empty:
+            return None
+        if line is None:
+            self._lines.put(None)  # the end stays the end
+        return line
+
+    def _read(self, file: int) -> None:
+        """Without the buffer of `sys.stdin`, whose lock an interpreter that ends would wait for."""
+        rest = b""
+        while more := os.read(file, 65536):
+            *lines, rest = (rest + more).split(b"\n")
+            for line in lines:
+                self._lines.put(line.decode(errors="replace").rstrip("\r"))
+        if rest:
+            self._lines.put(rest.decode(errors="replace"))
+        self._lines.put(None)
 
 
 def _edit(words: Callable[[], Iterable[str]]) -> None:

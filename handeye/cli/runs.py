@@ -31,6 +31,13 @@ Break = Annotated[
     ),
 ]  # fmt: skip
 Step = Annotated[bool, Parameter(help="Step by commands; without a terminal they come from standard input.")]
+Live = Annotated[
+    bool,
+    Parameter(
+        help="With --step: tell each line as it begins, and hear `pause` and `pace` while the run goes, as on a "
+        "terminal. Give the next command when the last is answered."
+    ),
+]
 Overwrite = Annotated[bool, Parameter(help="Replace the run in the folder of --out.")]
 OnStop = Annotated[
     str | None,
@@ -115,6 +122,7 @@ def run(
     until: Until = None,
     breaks: Break = None,
     step: Step = False,
+    live: Live = False,
     checkpoints: Annotated[
         Path | None,
         Parameter(
@@ -137,6 +145,7 @@ def run(
     from handeye.runs.setup import Setup
     from handeye.runs.snapshot import Checkpoint
 
+    _check_live(live, step)
     plan = read_plan(file)
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage excludes --from and --to")
@@ -168,6 +177,7 @@ def run(
             breaks=breaks or (),
             halfway=not step and bool(breaks or until),
             step=step,
+            live=live,
             on_stop=on_stop,
             json=json,
             referee=judge,
@@ -193,6 +203,7 @@ def resume(
     until: Until = None,
     breaks: Break = None,
     step: Step = False,
+    live: Live = False,
     on_stop: OnStop = None,
 ) -> int:
     """Resume an interrupted run.
@@ -213,6 +224,7 @@ def resume(
     from handeye.runs.folder import CHECKPOINTS, PLAN, open_again
     from handeye.runs.systems import listing_of
 
+    _check_live(live, step)
     folder = None
     if path.name == CHECKPOINTS and (path.parent / PLAN).is_file():
         path = path.parent
@@ -246,11 +258,18 @@ def resume(
             breaks=breaks or (),
             halfway=not step and bool(breaks or until),
             step=step,
+            live=live,
             on_stop=on_stop,
             json=json,
             referee=wanted,
         )
     )
+
+
+def _check_live(live: bool, step: bool) -> None:
+    """Raises InvalidInput if nobody is there to look on."""
+    if live and not step:
+        raise InvalidInput("--live goes with --step: it tells a run that is stepped as it goes")
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:

@@ -23,6 +23,8 @@ class Command(Generic[Act]):
     """Another word for it."""
     repeats: bool = False
     """An empty line after it says it again."""
+    meanwhile: bool = False
+    """It can be said while the run goes, too."""
 
     @property
     def name(self) -> str:

@@ -84,6 +84,14 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         help="continue to a place, or to a breakpoint before it",
     ),
     Command(
+        usage="pause", group=_GOING, act=acts.pause, meanwhile=True,
+        help="while the run goes on: pause behind the step under way",
+    ),
+    Command(
+        usage="pace [1x|4x|free]", group=_GOING, act=acts.pace, meanwhile=True,
+        help="go as fast as the clock, 4 times as fast, or as fast as it goes",
+    ),
+    Command(
         usage="back [N]", short="b", group=_BACK, act=acts.back,
         help="undo the last step, or the last N: restores arm, parts and program",
     ),
@@ -133,6 +141,8 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
     Command(usage="help [COMMAND]", short="h", group=_LEAVING, act=_help, help="show this, or the help of one command"),
 )  # fmt: skip
 
+MEANWHILE: Final = " and ".join(f"`{command.name}`" for command in COMMANDS if command.meanwhile)
+"""What can be said while the run goes, in words."""
 _SHORT: Final = {
     "?": "help",
     "exit": "quit",

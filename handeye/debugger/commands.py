@@ -9,6 +9,7 @@ from msgspec import UNSET
 
 from handeye.debugger import experiments
 from handeye.debugger.breakpoints import breakpoint
+from handeye.debugger.pace import factor
 from handeye.debugger.reply import Break, CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.source_places import named_place, text_of
@@ -53,6 +54,19 @@ def go_on(hands: DebugSession, _: str) -> CommandResult:
 def until(hands: DebugSession, rest: str) -> CommandResult:
     """Go on to a place."""
     return _told(hands, hands.go([breakpoint(rest, hands.program)]))
+
+
+def pause(hands: DebugSession, _: str) -> CommandResult:
+    """Ask a run that goes on to pause."""
+    hands.ask_pause()
+    return CommandResult(said="the run pauses behind this step")
+
+
+def pace(hands: DebugSession, rest: str) -> CommandResult:
+    """Set how fast the run goes, or tell it."""
+    if rest:
+        hands.pace.factor = factor(rest)
+    return CommandResult(said=f"the run goes {hands.pace}")
 
 
 def _told(hands: DebugSession, pause: Pause) -> CommandResult:

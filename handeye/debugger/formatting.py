@@ -78,10 +78,11 @@ def summary_lines(did: Sequence[StepSummary], most: int | None = None) -> list[s
     """Tell what was done, as lines of text; of a long way the last `most`."""
     left_out = 0 if most is None else max(0, len(did) - most)
     head = [f"      … {left_out} lines before these" if left_out else ""][: left_out and 1]
-    return head + [_told(step) for step in did[left_out:]]
+    return head + [told_row(step) for step in did[left_out:]]
 
 
-def _told(step: StepSummary) -> str:
+def told_row(step: StepSummary) -> str:
+    """A step that was done, or something between two steps, as a line of text."""
     if step.line is None:
         return f"      — {step.text}"
     return f"{line_name(step.line, step.file):>5} {step.text:{STATEMENT}} {step.outcome}".rstrip()
@@ -97,7 +98,7 @@ def shown_lines(shown: Shown) -> list[str]:
         value = getattr(shown, field)
         if value is UNSET:
             continue
-        told = ["none"] if value is None or value == {} else tell(value)
+        told = [_NOTHING.get(field, "none")] if value is None or value == {} else tell(value)
         lines += [f"{title if i == 0 else '':10}{line}" for i, line in enumerate(told)]
     return lines
 
@@ -116,7 +117,7 @@ def _hand(hand: HandView) -> list[str]:
 
 
 def _force(force: Sequence[float]) -> list[str]:
-    return [f"the hand presses with {_vector(force, 1)} oz, as last estimated"]
+    return [f"the hand presses with {_vector(force, 1)} oz"]
 
 
 def _switches(switches: tuple[bool, bool]) -> list[str]:
@@ -162,6 +163,8 @@ def _positions(positions: dict[str, PositionView]) -> list[str]:
     return lines
 
 
+_NOTHING: Final = {"force_oz": "not estimated here: no guard has just stopped the hand"}
+"""What is said of a field in which there is nothing."""
 _TITLES: Final[dict[str, tuple[str, Callable[[Any], list[str]]]]] = {
     "time_s": ("time", lambda seconds: [f"{seconds:.2f} s"]),
     "joints": ("joints", _joints),

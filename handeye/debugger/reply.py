@@ -33,6 +33,19 @@ class CommandResult(Record, frozen=True, kw_only=True):
     """File that was written."""
 
 
+class UnderWay(Record, frozen=True, kw_only=True):
+    """A step that begins; names are those of `Reply`."""
+
+    position: int
+    time: float
+    stage: str
+    stage_number: int
+    step: int
+    line: int
+    text: str
+    script: str = ""
+
+
 class Reply(CommandResult, frozen=True, kw_only=True):
     """The answer to a command: where the run now stands, and what came of the command."""
 

@@ -1,17 +1,20 @@
 """A run in somebody's hands: the runner, the breaks that are set, and where states are kept."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Final
+from typing import Final, Literal
 
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.listing import SourceLine, excerpt
+from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
 from handeye.errors import InvalidInput
 from handeye.events import StepStarted
 from handeye.execution.servo import Halted
 from handeye.runs.advance import Pause, advance, ended
+from handeye.runs.observer import Observer
 from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -50,6 +53,14 @@ class DebugSession:
         self.breaks: dict[int, AnyStop] = {}
         """By their numbers, which are never used twice."""
         self.over = False
+        self.pace = Pace()
+        self.face = Observer()
+        """Tells those who look on what the run does while it goes on."""
+        self.ear = Observer()
+        """Hears what they say while it goes on, or back."""
+        self.going: Literal["on", "back"] | None = None
+        """The way in which the run goes; None: it pauses."""
+        self._pause_asked = False
         self._set = 0
         self._begun = tuple(runner.events)
 
@@ -91,14 +102,40 @@ class DebugSession:
         refusal = self.at_its_end()
         if refusal is not None:
             raise InvalidInput(refusal)
+        wanted = [*self.stops, *self.breaks.values(), *stops]
         try:
-            pause = advance(self.runner, [*self.stops, *self.breaks.values(), *stops], steps)
+            with self._attended("on", self.pace, self.face, self.ear):
+                pause = advance(self.runner, wanted, steps, lambda: self._pause_asked)
         except BaseException:  # whatever broke it off: Ctrl-C, or code of a caller
             self.runner.undo()
             raise
         if pause.kind == "panic":
             self.runner.undo()
         return pause
+
+    def ask_pause(self) -> None:
+        """Ask a run that goes on to pause behind the step under way.
+
+        Raises:
+            InvalidInput: it does not go on.
+        """
+        if self.going is None:
+            raise InvalidInput("the run pauses already")
+        if self.going == "back":
+            raise InvalidInput("the run goes back, and pauses where that ends")
+        self._pause_asked = True
+
+    @contextmanager
+    def _attended(self, going: Literal["on", "back"], *observers: Observer) -> Iterator[None]:
+        """While the run goes: with these looking on."""
+        self.going = going
+        self.runner.observers += observers
+        try:
+            yield
+        finally:
+            for observer in observers:
+                self.runner.observers.remove(observer)
+            self.going, self._pause_asked = None, False
 
     @property
     def pause(self) -> Pause:
@@ -126,7 +163,8 @@ class DebugSession:
                 again on the way there.
         """
         try:
-            self.runner.back_to(position, self.kept)
+            with self._attended("back", self.ear):
+                self.runner.back_to(position, self.kept)
         except Halted:
             self.runner.undo()
             done = self.runner.position

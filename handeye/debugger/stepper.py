@@ -4,12 +4,15 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
-from handeye.debugger.command_table import find
+import msgspec
+
+from handeye.debugger.command_table import MEANWHILE, find
 from handeye.debugger.formatting import as_json, as_text
+from handeye.debugger.live import Ear, Live, LiveJson, LiveText
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.session import DebugSession
 from handeye.debugger.step_summary import step_summaries
-from handeye.errors import HandeyeError
+from handeye.errors import HandeyeError, InvalidInput
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -72,6 +75,21 @@ class Stepper:
             return self._reply(line, CommandResult(), happened, error=str(error))
         return self._reply(line, told, happened)
 
+    def meanwhile(self, line: str) -> Reply:
+        """Answer a line that is said while the run goes: refused, unless it is one that can be said then."""
+        line, happened = line.strip(), len(self.hands.runner.events)
+        try:
+            command, rest = find(line)
+            if not command.meanwhile:
+                raise InvalidInput(
+                    f"`{command.name}` was not carried out: while the run goes, only {MEANWHILE} can be said"
+                )
+            told = command.act(self.hands, rest)
+        except HandeyeError as error:
+            self.refused = True
+            return self._reply(line, CommandResult(), happened, error=str(error))
+        return self._reply(line, told, happened)
+
     def standing(self) -> Reply:
         """Reply before the first command: where the run pauses."""
         runner = self.hands.runner
@@ -110,6 +128,7 @@ def interact(
     json: bool = False,
     prompt: bool = False,
     most: int | None = None,
+    live: Live | None = None,
 ) -> Pause:
     """Carry out a command a line until somebody leaves; the end of the lines is taken for `quit`.
 
@@ -118,11 +137,13 @@ def interact(
         json: answer each command with one JSON object on one line, and say nothing else.
         prompt: somebody is asked for each line: an empty one says again what last made the run go.
         most: steps that are told of a long way; None: all.
+        live: tell each line as it begins, and hear what is said while the run goes.
 
     Returns:
         Why the run pauses.
     """
     face = as_json if json else partial(as_text, most=most)
+    told = None if live is None else _attend(stepper, live, write, json=json, echoed=prompt)
     if not json:
         write(face(stepper.standing()))
     while not stepper.over:
@@ -131,8 +152,34 @@ def interact(
             if not prompt or stepper.repeated is None:
                 continue
             line = stepper.repeated
+        if told is not None:
+            told.begin()
         reply = stepper.do(line)
-        write(face(reply))
+        if told is not None:
+            told.end()
+        write(face(reply if told is None else msgspec.structs.replace(reply, did=())))
         if reply.pause is not None and reply.pause.kind == "panic" and not prompt:
             return reply.pause  # nobody is there to say whether the next line still holds
     return stepper.pause
+
+
+def _attend(
+    stepper: Stepper, live: Live, write: Callable[[str], None], *, json: bool, echoed: bool
+) -> LiveText | None:
+    """Let those who look on see and say something while the run goes; the text in which it is told to them."""
+    runner, text = stepper.hands.runner, None
+    if json:
+        stepper.hands.face = LiveJson(runner, write)
+    else:
+        stepper.hands.face = text = LiveText(runner, write, live.put, live.width)
+
+    def answer(line: str) -> None:
+        reply = stepper.meanwhile(line)
+        if text is None:
+            write(as_json(reply))
+        else:
+            text.leave_line(ended=echoed)
+            write(reply.error or reply.said or "")
+
+    stepper.hands.ear = Ear(live.typed, answer)
+    return text

@@ -77,8 +77,8 @@ class Shown(Record, frozen=True, kw_only=True):
     time_s: float | UnsetType = UNSET
     joints: tuple[JointView, ...] | UnsetType = UNSET
     hand: HandView | UnsetType = UNSET
-    force_oz: Vector3 | UnsetType = UNSET
-    """Force that the hand exerts on the world, as estimated when it was last asked for, in W."""
+    force_oz: Vector3 | UnsetType | None = UNSET
+    """Force that the hand exerts on the world, in W; None: the program does not estimate it here."""
     gap_in: float | UnsetType = UNSET
     switches: tuple[bool, bool] | UnsetType = UNSET
     """Of the fingers on the +y and the -y side of the hand."""

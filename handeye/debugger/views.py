@@ -22,7 +22,7 @@ from handeye.debugger.view_records import (
 )
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.events import PictureTaken
+from handeye.events import GuardTripped, PictureTaken
 from handeye.files import write_whole
 from handeye.pose import Array, Pose, hand_angles, yaw
 from handeye.program.cause_text import error_sentence
@@ -95,7 +95,11 @@ def _hand(runner: Runner) -> HandView:
     return HandView(at_in=_inches(X_WT[:3, 3]), angles_deg=_three(np.array(hand_angles(X_WT)) / DEGREE))
 
 
-def _force(runner: Runner) -> Vector3:
+def _force(runner: Runner) -> Vector3 | None:
+    """The force on which a guard has stopped the hand; it is old as soon as a servo period has passed."""
+    tripped = next((event for event in reversed(runner.events) if isinstance(event, GuardTripped)), None)
+    if tripped is None or tripped.time != runner.time:
+        return None
     return _three(-context_of(runner.system).drive.state.wrench[:3] / OUNCE_FORCE)
 
 

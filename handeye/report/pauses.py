@@ -37,6 +37,8 @@ def stop_name(stop: AnyStop) -> str:
             return f"error {stop.number}"
         case stops.AfterSteps():
             return counted(stop.count, "step")
+        case stops.Asked():
+            return "when asked"
         case stops.ByHand():
             return "by hand"
         case stops.BrokenOff():
@@ -53,6 +55,8 @@ def _met(stop: AnyStop) -> str:
             return f"breakpoint on {stop_name(stop)}: {ERRORS[stop.number]}"
         case stops.AfterSteps():
             return f"{stop_name(stop)} done"
+        case stops.Asked():
+            return "paused as asked"
         case stops.ByHand():
             return "left by the user"
         case stops.BrokenOff():

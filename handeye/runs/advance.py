@@ -1,6 +1,6 @@
 """Going on, step after step, until a run pauses; states worth keeping are handed to the observers."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 from handeye.execution.servo import Halted
@@ -8,7 +8,7 @@ from handeye.program.causes import Cause
 from handeye.record import Record
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
-from handeye.runs.stops import AfterSteps, AnyStop
+from handeye.runs.stops import AfterSteps, AnyStop, Asked
 
 
 class Pause(Record, frozen=True, kw_only=True):
@@ -32,8 +32,17 @@ class Pause(Record, frozen=True, kw_only=True):
     """The panic button was hit on the way back in time."""
 
 
-def advance(runner: Runner, stops: Sequence[AnyStop] = (), steps: int | None = None) -> Pause:
-    """Do `steps` steps, or all that are left, but at least one before a stop condition counts."""
+def advance(
+    runner: Runner,
+    stops: Sequence[AnyStop] = (),
+    steps: int | None = None,
+    asked: Callable[[], bool] = lambda: False,
+) -> Pause:
+    """Do `steps` steps, or all that are left, but at least one before a stop condition counts.
+
+    Args:
+        asked: tells behind each step whether somebody wants the run to pause there.
+    """
     done = 0
     while not runner.ended:
         if runner.between_stages:
@@ -47,6 +56,9 @@ def advance(runner: Runner, stops: Sequence[AnyStop] = (), steps: int | None = N
         pause = None if runner.ended else paused_before(runner, stops, done)
         if pause is not None:
             return pause
+        if not runner.ended and asked():
+            keep(runner, runner.history[-1])
+            return Pause(kind="break", done=done, next=runner.at, met=Asked())
     return ended(runner, done)
 
 

@@ -92,6 +92,10 @@ class AfterSteps(StopCondition, frozen=True, kw_only=True):
     count: int
 
 
+class Asked(StopCondition, frozen=True, kw_only=True):
+    """Pause because somebody asked for it while the run went on."""
+
+
 class ByHand(StopCondition, frozen=True, kw_only=True):
     """Pause because somebody left the run as it was."""
 
@@ -112,6 +116,7 @@ AnyStop = (
     | OnError
     | AfterStage
     | AfterSteps
+    | Asked
     | ByHand
     | BrokenOff
 )

@@ -14,6 +14,8 @@ from stepper_bench import AIR, before_pins, reset
 
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import as_text
+from handeye.debugger.live import Ear
+from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
@@ -21,6 +23,7 @@ from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
     ExperimentMade,
+    GuardTripped,
     OperatorAnswered,
     PictureTaken,
     Restored,
@@ -28,6 +31,7 @@ from handeye.events import (
 from handeye.execution.state import Found, Shot
 from handeye.files import write_whole
 from handeye.pose import hand, hand_angles
+from handeye.program.guards import GuardKind
 from handeye.report.pauses import pause_sentence, stop_name
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.runs.checkpoint_store import CheckpointStore
@@ -37,7 +41,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AtLabel, ByHand
 from handeye.tasks.water_pump.eye import DRAWING
-from handeye.units import INCH
+from handeye.units import INCH, OUNCE_FORCE
 from handeye.vision.base import GeneralLocation
 from handeye.vision.blob import BoundingBox
 
@@ -99,6 +103,15 @@ def test_stepping_from_standard_input_gives_the_events_of_a_run_through(
 ) -> None:
     lines_of(stepper, *["step"] * 11)
     assert history(runner.events) == whole
+
+
+def test_pauses_and_a_pace_change_no_event(stepper: Stepper, runner: Runner, whole: bytes) -> None:
+    slept: list[float] = []
+    stepper.hands.pace = Pace(4.0, clock=lambda: sum(slept), sleep=slept.append)
+    stepper.hands.ear = Ear(lambda: None if stepper.hands._pause_asked else "pause", stepper.meanwhile)
+    assert [stepper.do("c").position for _ in range(11)] == [*range(1, 12)]
+    assert history(runner.events) == whole
+    assert sum(slept) == pytest.approx(runner.elapsed / 4, rel=0.2)
 
 
 def test_the_pin_insertion_with_breaks_and_ten_times_back_gives_the_events_of_a_run_through(
@@ -251,6 +264,22 @@ def test_measured_parts_are_shown_beside_their_plan(say: Say, runner: Runner) ->
     part = say("show parts")[0].show.parts["BASE"]
     assert part.difference.at_in == pytest.approx((0.1, 0, 0))
     assert part.measured.at_in[0] == pytest.approx(part.planned.at_in[0] + 0.1)
+
+
+def test_force_is_shown_where_a_guard_has_just_stopped_the_hand_and_nowhere_else(
+    say: Say, runner: Runner
+) -> None:
+    say("until 13")
+    shown = say("show force")[0]
+    assert shown.show.force_oz is None
+    assert (
+        as_text(shown).splitlines()[-1] == "force     not estimated here: no guard has just stopped the hand"
+    )
+    context_of(runner.system).state.drive.wrench = np.array((0, 0, -8.0, 0, 0, 0))
+    runner.events.append(GuardTripped(time=runner.time, guard=GuardKind.FORCE, value=8.0, limit=7.0))
+    assert say("show force")[0].show.force_oz == pytest.approx((0, 0, 8 / OUNCE_FORCE), abs=1e-3)
+    assert say("s", "show force")[-1].show.force_oz is not None
+    assert say("until 18", "show force")[-1].show.force_oz is None
 
 
 def test_the_last_picture_is_written_to_a_file_that_is_told(say: Say, runner: Runner, tmp_path: Path) -> None:
@@ -527,6 +556,8 @@ def test_a_step_that_cannot_be_written_down_is_undone_and_can_be_done_again(
         ("step 0", "step takes a number from 1 up, not `0`"),
         ("step -1", "step takes a number from 1 up, not `-1`"),
         ("stage 2", "`stage` takes nothing after it; `2` is too much"),
+        ("pause", "the run pauses already"),
+        ("pace 0", "pace takes `1x`, `4x`, another number from 0.25x to 100x, or `free`, not `0`"),
         ("until", "give an error (error:23), a line, a label, an instruction or a stage"),
         ("until L7", "the program has no label, instruction or stage `L7`; did you mean `L1`?"),
         ("back", "this is the beginning of the run"),

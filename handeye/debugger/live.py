@@ -1,0 +1,133 @@
+"""A run while it goes: its lines are told as they begin, and what people say meanwhile is answered at once."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import msgspec
+
+from handeye.debugger.formatting import told_row
+from handeye.debugger.reply import UnderWay
+from handeye.debugger.step_summary import StepSummary, step_summaries
+from handeye.events import AnyEvent, StepStarted
+from handeye.execution.servo_period import ServoPeriod
+from handeye.plain_text import one_line
+from handeye.runs.observer import Observer
+from handeye.runs.runner import Runner
+
+_BENEATH: Final = 8
+"""Columns that an outcome is set in by, where it has a line of its own."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Live:
+    """The way to those who look on while a run goes."""
+
+    typed: Callable[[], str | None]
+    """A line that they have typed already; None: there is none."""
+    put: Callable[[str], None]
+    """Puts out a piece of a line."""
+    width: int
+    """Columns that a line has room for."""
+
+
+@dataclass(slots=True, eq=False)
+class Ear(Observer):
+    """Hears lines while a run goes, at every servo period and step."""
+
+    typed: Callable[[], str | None]
+    answer: Callable[[str], None]
+
+    def tick(self, period: ServoPeriod) -> None:
+        self._hear()
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, StepStarted):
+            self._hear()
+
+    def _hear(self) -> None:
+        while (line := self.typed()) is not None:
+            if line.strip():
+                self.answer(line)
+
+
+@dataclass(slots=True, eq=False)
+class LiveJson(Observer):
+    """Tells each step as it begins, as a JSON object on one line."""
+
+    runner: Runner
+    write: Callable[[str], None]
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, StepStarted):
+            self.write(msgspec.json.encode({"under_way": under_way(self.runner, event)}).decode())
+
+
+@dataclass(slots=True, eq=False)
+class LiveText(Observer):
+    """Tells each line as it begins, and what came of it when the next begins, on the same line where there is room."""
+
+    runner: Runner
+    write: Callable[[str], None]
+    """Puts out a line, without its end."""
+    put: Callable[[str], None]
+    """Puts out a piece of a line."""
+    width: int
+    told: int = 0
+    """Events that have been told."""
+    _open: str = ""
+    """What stands on a line that has not ended."""
+
+    def begin(self) -> None:
+        """Tell what happens from now on."""
+        self.told = len(self.runner.events)
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, StepStarted):
+            happened = len(self.runner.events) - 1
+            self._tell(self.runner.events[self.told : happened])
+            self.told = happened
+            begun = StepSummary(line=event.line, file=event.file, text=one_line(event.text), outcome="")
+            self._open = told_row(begun)
+            self.put(self._open)
+
+    def leave_line(self, *, ended: bool = False) -> None:
+        """End a line that is open, so that something else can be said; `ended`: somebody's typing has ended it."""
+        if self._open and not ended:
+            self.put("\n")
+        self._open = ""
+
+    def end(self) -> None:
+        """Tell what is left to be told; a step that was undone leaves its line as it is."""
+        self._tell(self.runner.events[self.told :])
+        self.leave_line()
+        self.begin()
+
+    def _tell(self, events: list[AnyEvent]) -> None:
+        """Tell whole steps."""
+        for summary in step_summaries(events, self.runner.listing):
+            row = told_row(summary)
+            outcome = row.removeprefix(self._open)
+            if self._open and len(row) <= self.width:
+                self.put(outcome)
+                outcome = ""
+            elif self._open:
+                outcome = f"{'':{_BENEATH}}{outcome.strip()}"
+            self.leave_line()
+            if outcome:
+                self.write(outcome)
+
+
+def under_way(runner: Runner, event: StepStarted) -> UnderWay:
+    """The step that an event begins."""
+    stage = runner.listing.steps[event.step].stage
+    return UnderWay(
+        position=runner.position,
+        time=runner.elapsed,
+        stage=runner.stages[stage],
+        stage_number=stage + 1,
+        step=event.step,
+        line=event.line,
+        text=event.text,
+        script=event.file,
+    )

@@ -1,0 +1,69 @@
+"""Pace: how fast a run goes beside the clock of those who look on. This computer waits; the run knows nothing of it."""
+
+import re
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final
+
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.execution.servo_period import ServoPeriod
+from handeye.runs.observer import Observer
+
+FREE: Final = "free"
+"""The word for as fast as it goes."""
+SLOWEST: Final = 0.25
+FASTEST: Final = 100.0
+_LATE: Final = 0.1
+"""s by which a run may be late and still catch up; one that is later, as after a picture, goes on from there."""
+
+
+@dataclass(slots=True, eq=False)
+class Pace(Observer):
+    """Keeps a run from going faster than so many times the clock of this computer."""
+
+    factor: float | None = None
+    """Simulated seconds in one of the clock; None: as fast as it goes."""
+    clock: Callable[[], float] = time.monotonic
+    sleep: Callable[[float], None] = time.sleep
+    _kept: tuple[float, float, float] | None = field(default=None, init=False)
+    """The factor that is kept, and since when: by the clock and by that of the cell, s."""
+
+    def __str__(self) -> str:
+        if self.factor is None:
+            return "as fast as it goes"
+        return "as fast as the clock" if self.factor == 1 else f"{self.factor:g} times as fast as the clock"
+
+    def tick(self, period: ServoPeriod) -> None:
+        if self.factor is None:
+            self._kept = None
+        else:
+            self._keep(self.factor, period.sensed.time)
+
+    def _keep(self, factor: float, time: float) -> None:
+        """Wait until a time of the cell has come."""
+        if self._kept is None or self._kept[0] != factor or time < self._kept[2]:
+            self._kept = factor, self.clock(), time
+        _, since, begun = self._kept
+        early = since + (time - begun) / factor - self.clock()
+        if early > 0:
+            self.sleep(early)
+        elif early < -_LATE:
+            self._kept = None
+
+
+def factor(text: str) -> float | None:
+    """Read a pace: `1x`, `4x`, `.5x`, or `free`, which is None.
+
+    Raises:
+        InvalidInput: it is none.
+    """
+    if text.casefold() == FREE:
+        return None
+    number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
+    if number is None or not SLOWEST <= float(number[1]) <= FASTEST:
+        raise InvalidInput(
+            f"pace takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, not {quoted(text)}"
+        )
+    return float(number[1])
