@@ -1,4 +1,5 @@
-"""Makes every picture of the README and of docs/ anew, but for `pipeline.svg`, which people draw.
+"""Makes every picture of the README and of docs/ anew, but for `pipeline.svg`, which people draw, and
+`report.webp`, which `make_report_picture.py` makes by a browser.
 
 python docs/make_pictures.py [DIR]
 
