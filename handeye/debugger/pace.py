@@ -43,14 +43,15 @@ class Pace(Observer):
 
     def _keep(self, factor: float, time: float) -> None:
         """Wait until a time of the cell has come."""
+        now = self.clock()
         if self._kept is None or self._kept[0] != factor or time < self._kept[2]:
-            self._kept = factor, self.clock(), time
+            self._kept = factor, now, time
         _, since, begun = self._kept
-        early = since + (time - begun) / factor - self.clock()
+        early = since + (time - begun) / factor - now
         if early > 0:
             self.sleep(early)
         elif early < -_LATE:
-            self._kept = None
+            self._kept = factor, now, time
 
 
 def factor(text: str) -> float | None:
