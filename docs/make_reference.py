@@ -33,6 +33,7 @@ GROUPS: Final = {
     "Plans": {
         "handeye.plan": "door.plans.plan",
         "handeye.Plan": "door.plans.Plan",
+        "FlowDrawing": "door.flow.FlowDrawing",
         "InspectedStage": "inspection.inspection.InspectedStage",
         "InspectedStep": "inspection.inspection.InspectedStep",
         "handeye.Diagnostic": "door.diagnostic.Diagnostic",
@@ -67,6 +68,7 @@ GROUPS: Final = {
         "Motion": "trace.motion.Motion",
         "Forces": "trace.forces.Forces",
         "Moment": "trace.replay.Moment",
+        "Table": "trace.table.Table",
         "Video": "video.making.Video",
         "handeye.compare": "door.comparing.compare",
         "handeye.Comparison": "comparison.comparison.Comparison",
@@ -91,7 +93,9 @@ GROUPS: Final = {
 
 def reference() -> str:
     """All names with what is said of them."""
-    out = [f"`handeye.scripts`: {sentence(PACKAGE['door.provided.scripts'])}", ""]
+    out = []
+    for name in ("scripts", "demo"):
+        out += [*paragraph(f"`handeye.{name}`: {sentence(PACKAGE[f'door.provided.{name}'])}"), ""]
     for group, names in GROUPS.items():
         out += [f"## {group}", ""]
         for name, place in names.items():

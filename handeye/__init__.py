@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from handeye.door.diagnostic import Diagnostic, ScriptError
     from handeye.door.opening import open
     from handeye.door.plans import Plan, plan
-    from handeye.door.provided import scripts
+    from handeye.door.provided import demo, scripts
     from handeye.door.run import Run
     from handeye.door.state import State
     from handeye.door.worlds import World
@@ -51,6 +51,7 @@ __all__ = [
     "at_most",
     "begin",
     "compare",
+    "demo",
     "open",
     "plan",
     "scripts",
@@ -77,6 +78,7 @@ _HOMES = {
     "at_most": "handeye.judge.finding",
     "begin": "handeye.door.begin",
     "compare": "handeye.door.comparing",
+    "demo": "handeye.door.provided",
     "open": "handeye.door.opening",
     "plan": "handeye.door.plans",
     "scripts": "handeye.door.provided",

@@ -17,7 +17,12 @@ ROOT = Path(__file__).parent.parent
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PROJECT = PYPROJECT["project"]
 DEPENDENCIES = [Requirement(text) for text in PROJECT["dependencies"]]
-EXTRAS = [Requirement(text) for texts in PROJECT["optional-dependencies"].values() for text in texts]
+EXTRAS = [
+    Requirement(text)
+    for extra, texts in PROJECT["optional-dependencies"].items()
+    if extra != "notebooks"  # which runs the notebooks, and is imported by none of the package
+    for text in texts
+]
 BUILDING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["build"]]
 TESTING = [Requirement(text) for text in PYPROJECT["dependency-groups"]["dev"]]
 PACKAGE_OF = {"cv2": "opencv-python-headless", "google": "protobuf"}
@@ -57,8 +62,8 @@ def test_the_package_is_built_with_what_is_locked() -> None:
     assert set(PYPROJECT["build-system"]["requires"]) <= set(map(str, BUILDING))
 
 
-PEERS = {"roboticstoolbox"}
-"""What is measured beside handeye where somebody has it, and told as not measured elsewhere."""
+PEERS = {"pandas", "roboticstoolbox"}
+"""What handeye hands tables to, or is measured beside, where somebody has it; elsewhere it says so."""
 
 
 @pytest.mark.slow

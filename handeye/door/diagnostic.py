@@ -78,3 +78,7 @@ class ScriptError(InvalidInput):
     def __init__(self, found: Iterable[Diagnostic]) -> None:
         self.diagnostics = tuple(found)
         super().__init__("\n\n".join(map(str, self.diagnostics)))
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows: the mistakes with their places, and not where in handeye they were found."""
+        return str(self).splitlines()

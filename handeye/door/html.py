@@ -45,9 +45,27 @@ def bar(share: float) -> Markup:
     )
 
 
-def picture(png: bytes, what: str) -> Markup:
+def picture(webp: bytes, what: str) -> Markup:
     """A picture with words for those who cannot see it."""
-    return Markup(f'<img alt="{escape(what)}" src="data:image/png;base64,{b64encode(png).decode()}">')
+    data = b64encode(webp).decode()
+    return Markup(f'<img alt="{escape(what)}" src="data:image/webp;base64,{data}" style="max-width:480px">')
+
+
+def svg(drawing: str, what: str) -> Markup:
+    """A drawing with words for those who cannot see it; its style reaches nothing else on the page."""
+    data = b64encode(drawing.encode()).decode()
+    return Markup(f'<img alt="{escape(what)}" src="data:image/svg+xml;base64,{data}" style="max-width:100%">')
+
+
+def sandbox(file: bytes, what: str, height: int) -> Markup:
+    """A page of its own within the page: its scripts run, and reach neither the notebook nor its kernel.
+
+    An address that holds the page, and not `srcdoc`: there, links to moments would lead to the notebook's own address.
+    """
+    return Markup(
+        f'<iframe title="{escape(what)}" sandbox="allow-scripts" width="100%" height="{height}" '
+        f'style="border:1px solid #ccc" src="data:text/html;base64,{b64encode(file).decode()}"></iframe>'
+    )
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[Content]]) -> Markup:

@@ -3,13 +3,14 @@
 from collections.abc import Sequence
 
 from handeye.door.diagnostic import Diagnostic
-from handeye.door.html import bar, frame, heading, page, table
+from handeye.door.flow import FlowDrawing
+from handeye.door.html import bar, frame, heading, page, svg, table
 from handeye.inspection.inspection import Inspection
 from handeye.plain_text import counted
 
 
-def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic]) -> str:
-    """The stages of a plan with the time that each takes, and what is doubtful about its script."""
+def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic], flow: FlowDrawing | None) -> str:
+    """The stages of a plan with the time that each takes, what is doubtful about its script, and its flow."""
     longest = max((stage.seconds for stage in found.stages), default=0.0) or 1.0
     steps = sum(len(stage.steps) for stage in found.stages)
     said = (
@@ -21,4 +22,5 @@ def plan_page(found: Inspection, diagnostics: Sequence[Diagnostic]) -> str:
         for each in found.stages
     ]
     shown = table(("", "stage", "steps", "motion, s", ""), rows)
-    return page(heading(said), shown, *(frame(str(each)) for each in diagnostics))
+    drawn = () if flow is None else (svg(flow.svg, flow.about),)
+    return page(heading(said), shown, *(frame(str(each)) for each in diagnostics), *drawn)

@@ -4,11 +4,13 @@ import os
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Final
 
 from handeye import tasks
 from handeye.diagnostics import has_errors
-from handeye.door.arguments import given_file
+from handeye.door.arguments import given_file, given_place
 from handeye.door.diagnostic import Diagnostic, ScriptError
+from handeye.door.flow import FlowDrawing, flow_drawing
 from handeye.door.plan_page import plan_page
 from handeye.errors import InvalidInput
 from handeye.files import read_whole
@@ -16,10 +18,13 @@ from handeye.inspection.inspection import InspectedStage, InspectedStep, Inspect
 from handeye.plain_text import counted
 from handeye.planfile import plan as planfile
 from handeye.planfile.store import decode, plan_digest, write_plan
+from handeye.program.stage_names import stage_index
 from handeye.program.taught import Taught, load_taught, read_taught
 from handeye.runs.scripts import plan_script, plan_text
 from handeye.source import Source
 
+DRAWN: Final = 30
+"""Steps of a plan up to which a notebook shows its flow with it; of a longer one it shows `flow(stage)`."""
 FileName = str | os.PathLike[str]
 
 
@@ -27,7 +32,7 @@ FileName = str | os.PathLike[str]
 class Plan:
     """A script compiled, and the motions that one arm makes of it. Two plans are equal if they do the same.
 
-    In a notebook it shows its stages, how long they take, and what is doubtful about the script.
+    In a notebook it shows its stages, how long they take, what is doubtful about the script, and if short its flow.
 
     >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nOPEN 2\\n')
     >>> plan
@@ -79,6 +84,22 @@ class Plan:
         write_plan(file, self.record)
         return file
 
+    def flow(self, stage: str | int | None = None) -> FlowDrawing:
+        """Draw its steps, and the ways from one to the next: by themselves, and (red) on an error.
+
+        Args:
+            stage: one stage alone: its number from 1, its name, or a piece of it that no other name has.
+
+        Raises:
+            InvalidInput: there is no such stage.
+
+        >>> handeye.plan("OPEN 1\\nOPEN 2\\n").flow()
+        <FlowDrawing flow of script: 2 steps>
+        """
+        if stage is None:
+            return flow_drawing(self.record)
+        return flow_drawing(self.record, stage_index(given_place(stage), self.record.program.stages) + 1)
+
     @cached_property
     def _laid_open(self) -> Inspection:
         return inspection(self.record)
@@ -91,7 +112,8 @@ class Plan:
         return f"<Plan {self.name}: {', '.join(counted(len(these), each) for each, these in counts.items())}>"
 
     def _repr_html_(self) -> str:
-        return plan_page(self._laid_open, self.diagnostics)
+        small = 0 < len(self.steps) <= DRAWN
+        return plan_page(self._laid_open, self.diagnostics, self.flow() if small else None)
 
 
 Planned = Plan | planfile.Plan

@@ -29,7 +29,7 @@ from handeye.plain_text import counted
 from handeye.report.finishing import finished, outcome
 from handeye.report.judging import Referee
 from handeye.report.pauses import pause_sentence
-from handeye.report.pictures import annotated_png
+from handeye.report.pictures import annotated_webp
 from handeye.report.result import Result
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
@@ -378,8 +378,8 @@ class Run:
 
     def _repr_html_(self) -> str:
         name = last_picture(self._runner)
-        png = None if name is None else annotated_png(context_of(self._runner.system), name)
-        return run_page(self.result, self.state, name, png)
+        webp = None if name is None else annotated_webp(context_of(self._runner.system), name)
+        return run_page(self.result, self.state, name, webp)
 
 
 def reason(pause: Pause) -> str:

@@ -4,8 +4,8 @@ from typing import Final
 
 from handeye.door.html import heading, inked, line, page, picture, table
 from handeye.door.state import State
-from handeye.markup import Markup
-from handeye.report.page import told_faults, verdict
+from handeye.markup import Markup, markup
+from handeye.report.page import cell_times, clock, period, told_faults, verdict
 from handeye.report.result import Check, Result
 
 _INKS: Final = {
@@ -18,9 +18,11 @@ _INKS: Final = {
 """Colours of the states of a stage."""
 
 
-def run_page(result: Result, state: State, name: str | None, png: bytes | None) -> str:
-    """A run: where it stands or what came of it, its stages, the referee's findings, and its last picture."""
+def run_page(result: Result, state: State, name: str | None, webp: bytes | None) -> str:
+    """A run: where it stands or what came of it, its stages, times, the referee's findings, and its last picture."""
     pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
+    if not result.paused:
+        pieces.append(_times(result))
     if result.referee:
         pieces.append(_findings(result))
     pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
@@ -32,8 +34,8 @@ def run_page(result: Result, state: State, name: str | None, png: bytes | None) 
     pieces += [
         line(inked(f"{part}: the caller's own, {code}", "doubtful")) for part, code in own_parts(result)
     ]
-    if name is not None and png is not None:
-        pieces += [line(f"last picture: {name}"), picture(png, f"picture {name}")]
+    if name is not None and webp is not None:
+        pieces += [line(f"last picture: {name}"), picture(webp, f"picture {name}")]
     return page(*pieces)
 
 
@@ -61,6 +63,25 @@ def _stages(result: Result) -> Markup:
         for number, each in enumerate(result.stages, 1)
     ]
     return table(("", "stage", "status", "arm time, s"), rows)
+
+
+def _times(result: Result) -> Markup:
+    """What passed on the cell's clock, the same each time; beside what did in its day, if somebody timed it."""
+    then = period(result)
+    years = () if then is None else (str(then.year),)
+    rows = cell_times(result.timing, {} if then is None else then.times)
+    cells = ((_indented(name), *map(_clock, seconds[: 1 + len(years)])) for name, *seconds in rows)
+    return table(("on the cell's clock", "this run", *years), cells)
+
+
+def _indented(name: str) -> Markup:
+    """A name with its place under another kept."""
+    words = name.lstrip()
+    return Markup("&emsp;" * ((len(name) - len(words)) // 2) + markup(words))
+
+
+def _clock(seconds: float | None) -> str:
+    return "" if seconds is None else clock(seconds)
 
 
 def _mark(check: Check) -> Markup:

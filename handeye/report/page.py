@@ -12,6 +12,8 @@ from handeye.report.result import Check, Result, Timing
 from handeye.tasks import known
 from handeye.tasks.interface import Period, Words
 
+TimingRow = tuple[str, float, float | None]
+"""Name, seconds here, and seconds of its day; None: nobody told."""
 _NEUTRAL = Words(done="The referee found everything right.", product="the work")
 """Of a task that only the program knew that began the run."""
 _MARK = {
@@ -93,10 +95,16 @@ def timing(result: Result) -> Table:
     return table
 
 
-def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[tuple[str, float, float | None]]:
-    """Name, seconds here, and those of its day, if there are any; the one sum is of simulated seconds."""
+def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[TimingRow]:
+    """What the computer takes, and around it what passes on the cell's clock."""
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
+    yield from cell_times(t, then)
+    yield "vision (processor)", t.vision_cpu_s, then.get("vision")
+
+
+def cell_times(t: Timing, then: Mapping[str, float]) -> Iterator[TimingRow]:
+    """Name, seconds on the cell's clock, and those of its day, if there are any; the one sum is of both parts."""
     if t.friction_s:
         yield "friction of the joints", t.friction_s, None
     if t.calibration_s:
@@ -107,7 +115,6 @@ def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[tuple[str, float, fl
     yield "  lens change, aim and focus", t.lens_s, then.get("lens")
     if t.overlapped_s:
         yield "    and while the arm moved", t.overlapped_s, None
-    yield "vision (processor)", t.vision_cpu_s, then.get("vision")
 
 
 def period(result: Result) -> Period | None:

@@ -1,8 +1,11 @@
 """The pictures that a run leaves: those the program took, with what it found in them, and the end."""
 
 from pathlib import Path
+from typing import Final
 
 import cv2
+import numpy as np
+from numpy.typing import NDArray
 
 from handeye.cell.photograph import photograph_png
 from handeye.cell.posed import as_it_stands
@@ -14,6 +17,10 @@ from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.vision.drawing import annotate
 
+_WIDE: Final = 480
+"""Points of a small picture, from left to right."""
+_QUALITY: Final = 70
+
 
 def annotated_png(run: ExecutionContext, name: str) -> bytes:
     """A picture the program took, with what it found in it, as a PNG file.
@@ -21,14 +28,31 @@ def annotated_png(run: ExecutionContext, name: str) -> bytes:
     Raises:
         InvalidInput: what it found is so far outside that it cannot be drawn.
     """
-    found = run.state.found.get(name, Found())
-    try:
-        image = annotate(run.state.shots[name].picture, found.marks())
-    except ValueError:
-        raise InvalidInput(f"the findings in picture {name} cannot be drawn") from None
-    done, data = cv2.imencode(".png", image)
+    done, data = cv2.imencode(".png", _annotated(run, name))
     assert done
     return data.tobytes()
+
+
+def annotated_webp(run: ExecutionContext, name: str) -> bytes:
+    """The same as a small WebP file, for pages.
+
+    Raises:
+        InvalidInput: as `annotated_png`.
+    """
+    image = _annotated(run, name)
+    high = round(_WIDE * image.shape[0] / image.shape[1])
+    small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)
+    done, data = cv2.imencode(".webp", small, [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
+    assert done
+    return data.tobytes()
+
+
+def _annotated(run: ExecutionContext, name: str) -> NDArray[np.uint8]:
+    found = run.state.found.get(name, Found())
+    try:
+        return annotate(run.state.shots[name].picture, found.marks())
+    except ValueError:
+        raise InvalidInput(f"the findings in picture {name} cannot be drawn") from None
 
 
 def keep_pictures(folder: Path, runner: Runner) -> None:

@@ -80,6 +80,12 @@ def album(run: Recorded) -> Album:
     return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
 
 
+def no_album(run: Recorded, why: str) -> Album:
+    """An album without a photograph, where somebody wants none: it says why, once."""
+    leading = _none(_Wanted(time=outcome(run).time, view=_ROOM, shows="The run"), LARGE, why)
+    return Album(leading=leading, stages=())
+
+
 def _leading(run: Recorded, outcome: Outcome) -> Photograph:
     """The photograph that leads: the finished work, or the moment at which the run failed."""
     shows = "The end of the run" if outcome.ended else "The hand at the last moment"

@@ -11,7 +11,8 @@ import numpy as np
 from handeye.extras import MissingExtra
 from handeye.folders import FolderKind, check_folder, write_folder
 from handeye.plain_text import printable
-from handeye.trace.tables import Column, Table, tables
+from handeye.trace.table import Column, Table
+from handeye.trace.tables import tables
 from handeye.trace.trace import Trace
 
 Format = Literal["csv", "parquet"]

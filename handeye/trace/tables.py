@@ -1,50 +1,35 @@
 """A trace as tables for programs that analyse data: joints and forces by servo periods, and what happened."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from handeye.arm.model import ArmModel
+from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, StageStarted, StepStarted
 from handeye.pose import Array
 from handeye.tasks import known
 from handeye.trace.resuming import event_data
 from handeye.trace.sentences import sentence
 from handeye.trace.steps import CLOCKS
+from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
 
-Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
 NO_STEP: Final = -1
 """Number in the place of a step where none was under way."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Column:
-    """A column of a table."""
+def table(trace: Trace, name: str) -> Table:
+    """One of the tables of a run, by its name.
 
-    name: str
-    about: str
-    unit: str = ""
-    """SI; empty: none."""
-    values: Values
-    """One for each row; NaN or an empty text: there is none."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Table:
-    """A table of a run."""
-
-    name: str
-    about: str
-    columns: tuple[Column, ...]
-
-    @property
-    def rows(self) -> int:
-        """How many there are."""
-        return len(self.columns[0].values)
+    Raises:
+        InvalidInput: there is none such; or as `tables`.
+    """
+    if name not in _TABLES:
+        raise InvalidInput(f"there is no table {name!r}; there are {', '.join(_TABLES)}")
+    return _TABLES[name](trace)
 
 
 def tables(trace: Trace) -> tuple[Table, ...]:
@@ -53,7 +38,7 @@ def tables(trace: Trace) -> tuple[Table, ...]:
     Raises:
         InvalidInput: a message is not what its channel says; or there are no forces, and the arm is not known here.
     """
-    return _joints(trace), _forces(trace), _events(trace)
+    return tuple(make(trace) for make in _TABLES.values())
 
 
 def _joints(trace: Trace) -> Table:
@@ -127,6 +112,13 @@ def _events(trace: Trace) -> Table:
         Column(name="data", about="all of it, as JSON", values=tuple(event_data(e).decode() for e in events)),
     )
     return Table(name="events", about="Everything that happened and was not undone.", columns=columns)
+
+
+_TABLES: Final[Mapping[str, Callable[[Trace], Table]]] = {
+    "joints": _joints,
+    "forces": _forces,
+    "events": _events,
+}
 
 
 # -- when, and in which step -------------------------------------------------------------------------------------

@@ -33,6 +33,7 @@ from handeye.trace.stages import Stage, stages
 from handeye.trace.steps import done_steps
 
 if TYPE_CHECKING:
+    from handeye.trace.table import Table
     from handeye.video.making import Video
 
 SHOWN: Final = 0.01
@@ -47,7 +48,7 @@ class Trace:
     Times are those of the cell's clock, as in the events, s. It runs while the camera is calibrated too, before the
     program begins: `elapsed` gives the time from there, which people see, and `State.time` is. There are n
     servo periods, sixty a second, and m joints. Reading raises `InvalidInput` if a message is not what its channel
-    says.
+    says. In a notebook it shows its report, in which one walks round the arm; `frame` gives a picture.
     """
 
     name: str
@@ -265,6 +266,25 @@ class Trace:
     def _replay(self) -> Replay:
         motion, pictures = self.motion, self.pictures
         return self._read(lambda messages: Replay(motion, messages, self.events, pictures))
+
+    # -- showing -----------------------------------------------------------------------------------------
+
+    def table(self, name: str = "events") -> "Table":
+        """One of its tables: `joints` and `forces` by servo periods, or `events`: what happened, when, in which line.
+
+        A notebook shows it; `["time"]` is a column, `to_pandas()` a DataFrame.
+
+        Raises:
+            InvalidInput: there is no such table, or a message is not what its channel says.
+        """
+        from handeye.trace.tables import table
+
+        return table(self, name)
+
+    def _repr_html_(self) -> str:
+        from handeye.door.player import player
+
+        return player(self)
 
     # -- what it can be used for -------------------------------------------------------------------------
 

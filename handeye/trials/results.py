@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final, overload
 
+import numpy as np
+
 from handeye.door.arguments import given_count
 from handeye.door.html import heading, inked, page, table
 from handeye.door.parts import limits_of, parts_of, referee_of
@@ -12,9 +14,10 @@ from handeye.door.plans import FileName, Planned, plan
 from handeye.door.worlds import World
 from handeye.errors import InvalidInput
 from handeye.report.judging import Limits, Referee
-from handeye.report.result import Result
+from handeye.report.result import Check, Result
 from handeye.runs.scripts import default_script
 from handeye.touch.spiral import SearchPattern
+from handeye.trace.table import Column, Table
 from handeye.trials.assembly import run_plan
 from handeye.trials.seeds import assemble_many
 from handeye.variation import WorldSpec, checked_seed
@@ -60,6 +63,20 @@ class Results(Sequence[Result]):
         ]
         return page(table(("world", "verdict", "working phase, s", ""), rows), heading(self._count()))
 
+    def table(self) -> Table:
+        """All of it as a table, a row a world: verdict, times, and the value of each finding of the referee."""
+        findings = {name: each for result in self.each for name, each in result.referee.items()}
+        columns = (
+            Column(name="seed", about="of the world", values=np.array([each.seed for each in self.each])),
+            _words("world", "what it was drawn by", (str(each.world) for each in self.each)),
+            _words("verdict", "assembled, stopped or not right", (_verdict(each)[0] for each in self.each)),
+            _words("why", "what is the matter with it", map(why, self.each)),
+            _seconds("working", (each.timing.working_s for each in self.each)),
+            _seconds("lens", (each.timing.lens_s for each in self.each)),
+            *(_found(name, check, self.each) for name, check in findings.items()),
+        )
+        return Table(name="results", about=self._count(), columns=columns)
+
     def _count(self) -> str:
         return f"{self.assembled} of {len(self)} assembled"
 
@@ -96,6 +113,19 @@ def why(result: Result) -> str:
     wrong = [each.told for each in result.referee.values() if each.refuses]
     more = len(wrong) - _TOLD
     return "; ".join(wrong if more < 2 else [*wrong[:_TOLD], f"and {more} more"])
+
+
+def _words(name: str, about: str, values: Iterable[str]) -> Column:
+    return Column(name=name, about=about, values=tuple(values))
+
+
+def _seconds(name: str, values: Iterable[float]) -> Column:
+    return Column(name=f"{name}_s", about=f"the timing table's {name}", unit="s", values=np.array([*values]))
+
+
+def _found(name: str, check: Check, results: Iterable[Result]) -> Column:
+    values = [each.referee[name].value if name in each.referee else np.nan for each in results]
+    return Column(name=name, about=check.subject, unit=check.unit, values=np.array(values, dtype=float))
 
 
 def _verdict(result: Result) -> tuple[str, str]:

@@ -1,11 +1,13 @@
 """A script becomes a plan that shows itself; its mistakes are values."""
 
+from base64 import b64encode
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import handeye
+from handeye.door.plans import DRAWN
 from handeye.errors import InvalidInput
 
 SCRIPT = 'STAGE "go & see"\nOPEN 1\nMOVE P\nSTAGE "shut"\nCLOSE .5\n'
@@ -80,6 +82,32 @@ def test_the_page_of_a_plan_escapes_what_a_script_says(tmp_path: Path) -> None:
 def test_the_page_of_a_plan_has_a_row_a_stage_and_its_warnings(plan: handeye.Plan) -> None:
     assert plan._repr_html_().count("<tr>") == 3
     assert "warning[" in handeye.plan("OPEN 1\nJUMP L\nCLOSE 0\nL: OPEN 2\n")._repr_html_()
+
+
+def test_the_flow_of_a_plan_or_of_a_stage_is_a_drawing(plan: handeye.Plan) -> None:
+    assert "MOVE P" in plan.flow().svg
+    assert "MOVE P" not in plan.flow("shut").svg
+    assert repr(plan.flow(2)) == "<FlowDrawing flow of script, shut: 1 step>"
+    with pytest.raises(InvalidInput, match=r"^there is no stage 3; the program has stages 1 to 2$"):
+        plan.flow(3)
+
+
+def test_a_drawing_is_a_picture_whose_style_reaches_nothing_else(plan: handeye.Plan) -> None:
+    page = plan.flow()._repr_html_()
+    assert "<style" not in page
+    assert 'alt="flow of script: 3 steps"' in page
+    assert b64encode(plan.flow().svg.encode()).decode() in page
+
+
+def test_a_short_plan_is_shown_with_its_flow_and_a_long_one_without(plan: handeye.Plan) -> None:
+    assert plan.flow()._repr_html_().splitlines()[1] in plan._repr_html_()
+    assert "<img" not in handeye.plan("OPEN 1\n" * (DRAWN + 1))._repr_html_()
+
+
+def test_a_notebook_shows_the_mistakes_of_a_script_and_no_traceback() -> None:
+    with pytest.raises(handeye.ScriptError) as caught:
+        handeye.plan("OPNE 3\n")
+    assert caught.value._render_traceback_() == str(caught.value).splitlines()
 
 
 @pytest.mark.parametrize("wrong", [None, 3, "", b"OPEN 1\n", ["OPEN 1"]])

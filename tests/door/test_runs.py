@@ -259,6 +259,13 @@ def test_a_run_shows_itself(kept: handeye.Run, run: handeye.Run) -> None:
     assert "screws_clamp" in page
 
 
+def test_the_page_of_a_run_has_the_times_of_the_cell_and_none_of_the_computer(kept: handeye.Run) -> None:
+    page = kept._repr_html_()
+    assert "working phase, without vision" in page
+    assert "processor" not in page
+    assert "1973" not in page  # another program than the one that was timed then
+
+
 def test_the_page_of_a_run_escapes_what_a_script_says() -> None:
     page = handeye.begin('STAGE "<script>x</script>"\nOPEN 1\n', camera="ray")._repr_html_()
     assert "&lt;script&gt;" in page

@@ -171,3 +171,11 @@ def test_what_was_broken_is_told_as_it_would_be_typed() -> None:
     assert "broken: gap_potentiometer.off=0.5in@2\n" in shown.get()
     state = cast("State", object())
     assert "broken: gap_potentiometer.off=0.5in@2" in run_page(broken, state, None, None)
+
+
+@pytest.mark.parametrize(("program", "compared"), [("water_pump", True), ("first", False)])
+def test_a_notebook_shows_the_times_of_1973_beside_the_pump_alone(program: str, compared: bool) -> None:
+    made = result(completed=True, assembled=None, program=program)
+    shown = run_page(made, cast("State", None), None, None)
+    assert ("1973" in shown, "5:30 min" in shown) == (compared, compared)
+    assert "processor" not in shown

@@ -5,16 +5,20 @@ import json
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from conftest import Command
 from recordings import EVENTS, record
 
+from handeye.door.table_page import LETTERS, SHOWN
+from handeye.errors import InvalidInput
 from handeye.trace.reading import read_trace
 from handeye.trace.sentences import sentence
+from handeye.trace.table import Column, Table
 from handeye.trace.table_files import csv_bytes
-from handeye.trace.tables import Table, tables
+from handeye.trace.tables import tables
 from handeye.trace.trace import Trace
 
 
@@ -136,3 +140,45 @@ def test_parquet_without_pyarrow_is_told_with_the_way_to_get_it(
     how = "`pip install pyarrow` brings it, and so does the extra `export` of handeye"
     assert (code, err) == (2, f"handeye: {needed}: {how}\n")
     assert not Path("told").exists()
+
+
+def test_a_trace_gives_a_table_by_its_name(trace: Trace, made: dict[str, Table]) -> None:
+    assert csv_bytes(trace.table()) == csv_bytes(made["events"])
+    assert trace.table("joints")["time"].tolist() == made["joints"]["time"].tolist()
+    with pytest.raises(InvalidInput, match=r"^there is no table 'event'; there are joints, forces, events$"):
+        trace.table("event")
+
+
+def test_a_slice_of_a_table_has_those_rows_of_every_column(made: dict[str, Table]) -> None:
+    part = made["events"][3:5]
+    assert (len(part), part["said"]) == (2, made["events"]["said"][3:5])
+    with pytest.raises(
+        InvalidInput, match=r"^there is no column 'tiem' in the table events; there are time, "
+    ):
+        part["tiem"]
+
+
+def test_a_table_becomes_a_data_frame_where_pandas_is(
+    made: dict[str, Table], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=dict))
+    assert made["events"].to_pandas()["said"] == made["events"]["said"]
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(InvalidInput, match=r"^to_pandas\(\) needs pandas, which is not installed"):
+        made["events"].to_pandas()
+
+
+def test_a_notebook_shows_the_first_rows_and_tells_how_many_more_there_are(made: dict[str, Table]) -> None:
+    page = made["joints"]._repr_html_()
+    assert page.count("<tr>") == 1 + SHOWN
+    assert f"… and {len(made['joints']) - SHOWN} more" in page
+    assert "more;" not in made["joints"][:SHOWN]._repr_html_()
+
+
+def test_the_texts_of_a_table_are_data() -> None:
+    evil = "<script>x</script>"
+    table = Table(name=evil, about=evil, columns=(Column(name=evil, about="", values=(evil, "a" * 500)),))
+    page = table._repr_html_()
+    assert "<script" not in page
+    assert page.count("&lt;script&gt;x") == 4
+    assert "a" * LETTERS not in page

@@ -61,3 +61,12 @@ def test_trials_have_what_is_taught_and_a_search_and_a_referee_of_their_own() ->
 def test_what_cannot_be_tried_is_told_in_one_sentence(words: dict[str, object], sentence: str) -> None:
     with pytest.raises(InvalidInput, match=sentence):
         handeye.trials.assemble_each(script="OPEN 1\n", **words)
+
+
+def test_the_table_of_results_has_a_row_a_world_and_a_column_a_finding(results: object) -> None:
+    table = results.table()
+    assert table["seed"].tolist() == [4, 1]
+    assert table["world"] == ("seed 4", "seed 1, level low")
+    assert table["verdict"] == ("not right", "not right")
+    assert table["screws"].tolist() == [0.0, 0.0]
+    assert {*results[0].referee} <= {column.name for column in table.columns}

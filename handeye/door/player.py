@@ -1,0 +1,33 @@
+"""The report of a trace within a notebook: one walks round the arm while the script goes by."""
+
+from typing import TYPE_CHECKING, Final
+
+from handeye.door.html import line, page, sandbox
+
+if TYPE_CHECKING:
+    from handeye.trace.trace import Trace
+
+HEIGHT: Final = 640
+"""Of its frame, pixels."""
+_WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(time) takes one."
+
+
+def player(trace: "Trace") -> str:
+    """The report in a frame of its own, with what it weighs.
+
+    Raises:
+        InvalidInput: the trace cannot be understood, or is of an older handeye.
+    """
+    from handeye.see.animation import animation
+    from handeye.see.facts.scene import check_scene
+    from handeye.see.page.document import report_page
+    from handeye.see.photographs import no_album
+    from handeye.see.recorded import Recorded
+
+    run = Recorded(trace=trace)
+    check_scene(run)
+    file = report_page(run, no_album(run, _WITHOUT), animation(run))
+    weighs = (
+        f"The report of {trace.head.program}, {trace.head.world}: {len(file) / 1e6:.1f} MB in this notebook."
+    )
+    return page(line(weighs), sandbox(file, f"report of {trace.head.program}", HEIGHT))

@@ -1,0 +1,84 @@
+"""A table: named columns with units, which shows itself, and becomes a DataFrame where somebody wants one."""
+
+from dataclasses import dataclass, replace
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.errors import InvalidInput
+from handeye.plain_text import counted
+
+Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Column:
+    """A column of a table."""
+
+    name: str
+    about: str
+    unit: str = ""
+    """SI; empty: none."""
+    values: Values
+    """One for each row; NaN or an empty text: there is none."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Table:
+    """A table; a column is an array, or a tuple of texts.
+
+    >>> events = handeye.open(handeye.demo).table("events")
+    >>> events["event"][0], len(events[10:20])
+    ('RunStarted', 10)
+    """
+
+    name: str
+    about: str
+    columns: tuple[Column, ...]
+
+    @property
+    def rows(self) -> int:
+        """How many there are."""
+        return len(self.columns[0].values)
+
+    def __len__(self) -> int:
+        return self.rows
+
+    @overload
+    def __getitem__(self, which: str) -> Values: ...
+    @overload
+    def __getitem__(self, which: slice) -> "Table": ...
+    def __getitem__(self, which: str | slice) -> "Values | Table":
+        if isinstance(which, slice):
+            return replace(self, columns=tuple(replace(c, values=c.values[which]) for c in self.columns))
+        found = {column.name: column.values for column in self.columns}
+        if which not in found:
+            raise InvalidInput(
+                f"there is no column {which!r} in the table {self.name}; there are {', '.join(found)}"
+            )
+        return found[which]
+
+    def to_pandas(self) -> Any:
+        """Make a DataFrame of it, a column of it each.
+
+        Raises:
+            InvalidInput: pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise InvalidInput(
+                "to_pandas() needs pandas, which is not installed: `pip install pandas`"
+            ) from None
+        return pandas.DataFrame({column.name: column.values for column in self.columns})
+
+    def __repr__(self) -> str:
+        return (
+            f"<Table {self.name}: {counted(self.rows, 'row')} of {', '.join(c.name for c in self.columns)}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from handeye.door.table_page import table_page
+
+        return table_page(self)

@@ -1,0 +1,83 @@
+"""The notebooks run from beginning to end, are what their scripts are, and keep to what they may use."""
+
+import ast
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import nbformat
+import pytest
+from nbformat import NotebookNode
+
+ROOT = Path(__file__).parent.parent
+SCRIPTS = sorted((ROOT / "notebooks").glob("*.py"))
+LARGEST = 1_500_000
+"""Bytes of all notebooks together."""
+DEFINES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.For, ast.While)
+
+each = pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+
+
+@pytest.fixture(scope="module")
+def maker() -> ModuleType:
+    """The program that makes the notebooks."""
+    spec = importlib.util.spec_from_file_location("make_notebooks", ROOT / "docs" / "make_notebooks.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def stored(script: Path) -> NotebookNode:
+    """The notebook beside a script."""
+    return nbformat.read(script.with_suffix(".ipynb"), as_version=4)
+
+
+def sources(notebook: NotebookNode) -> list[tuple[str, str, list[str]]]:
+    """What its cells are, without what they show."""
+    return [(cell.cell_type, cell.source, cell.metadata.get("tags", [])) for cell in notebook.cells]
+
+
+@pytest.mark.slow
+@pytest.mark.render
+@each
+def test_it_runs_from_beginning_to_end(maker: ModuleType, script: Path, tmp_path: Path) -> None:
+    made = maker.carried_out(maker.notebook(script), tmp_path)
+    shown = [output for cell in made.cells for output in cell.get("outputs", [])]
+    assert [
+        output.text for output in shown if output.output_type == "stream" and output.name == "stderr"
+    ] == []
+    assert {output.ename for output in shown if output.output_type == "error"} <= {"ScriptError"}
+
+
+@each
+def test_the_stored_notebook_is_that_of_its_script(maker: ModuleType, script: Path) -> None:
+    made, found = maker.notebook(script), stored(script)
+    assert sources(found) == sources(made), f"run: python docs/make_notebooks.py {script.stem}"
+
+
+@each
+def test_it_can_be_read_without_being_run(script: Path) -> None:
+    cells = [cell for cell in stored(script).cells if cell.cell_type == "code"]
+    assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
+    assert not any("execution" in cell.metadata for cell in cells)
+
+
+@each
+def test_it_begins_with_what_one_will_understand(script: Path) -> None:
+    first, *_ = stored(script).cells
+    assert first.cell_type == "markdown"
+    assert "At the end you will" in first.source
+
+
+@each
+def test_it_imports_handeye_and_draws_and_defines_nothing(script: Path) -> None:
+    tree = list(ast.walk(ast.parse(script.read_text(encoding="utf-8"))))
+    imported = {
+        name.name.split(".")[0] for node in tree if isinstance(node, ast.Import) for name in node.names
+    }
+    assert imported <= {"handeye", "matplotlib"}
+    assert not any(isinstance(node, (ast.ImportFrom, *DEFINES)) for node in tree)
+
+
+def test_what_they_show_is_small() -> None:
+    assert sum(script.with_suffix(".ipynb").stat().st_size for script in SCRIPTS) < LARGEST
