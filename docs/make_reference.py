@@ -77,6 +77,15 @@ GROUPS: Final = {
         "Parting": "comparison.parting.Parting",
         "Place": "comparison.place.Place",
     },
+    "Vision": {
+        "handeye.vision.Scan": "vision.scan.Scan",
+        "handeye.vision.beams": "vision.beam.beams",
+        "Edges": "vision.edge.Edges",
+        "handeye.vision.localise": "vision.blob.localise",
+        "BoundingBox": "vision.blob.BoundingBox",
+        "handeye.vision.characterise": "vision.characteriser.characterise",
+        "Blob": "vision.characteriser.Blob",
+    },
     "Tasks": {
         "handeye.Task": "tasks.interface.Task",
         "handeye.tasks.task": "tasks.task",
@@ -129,6 +138,8 @@ def happenings() -> Iterator[str]:
 
 TABLES: Final = {"Results": findings, "Runs": happenings}
 """What stands below the names of a group."""
+CONSTRUCTED: Final = {"handeye.World", "handeye.vision.Scan"}
+"""Classes of which people make objects."""
 HIDDEN: Final = {"attend", "reach", "of"}
 """Methods for handeye's own use."""
 
@@ -141,7 +152,7 @@ def described(name: str, place: str) -> Iterator[str]:
         yield from (*signature(name, named), *told(named))
         return
     yield from told(named)
-    if name == "handeye.World":  # the one class that people construct
+    if name in CONSTRUCTED:
         yield from (*signature(name, named.members["__init__"]), *told(named.members["__init__"]))
     yield from members(name.split(".")[-1], named)
 

@@ -12,7 +12,7 @@ Names are loaded when they are first used, so that the import itself costs next 
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from handeye import tasks, trials
+    from handeye import tasks, trials, vision
     from handeye.comparison.comparison import Comparison
     from handeye.door.begin import assemble, begin
     from handeye.door.comparing import compare
@@ -57,6 +57,7 @@ __all__ = [
     "scripts",
     "tasks",
     "trials",
+    "vision",
 ]
 
 _HOMES = {
@@ -84,7 +85,7 @@ _HOMES = {
     "scripts": "handeye.door.provided",
 }
 """The module that each name comes from."""
-_MODULES = ("tasks", "trials")
+_MODULES = ("tasks", "trials", "vision")
 
 if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
 

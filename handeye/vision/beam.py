@@ -6,7 +6,7 @@ A beam is done with when it has met its discontinuity: what it would have met fa
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from handeye.pose import Array
 from handeye.vision.edge import SPAN, Edges, Polarity
@@ -15,8 +15,8 @@ from handeye.vision.scan import Scan
 
 def beams(
     scan: Scan,
-    starts: Array,
-    directions: Array,
+    starts: ArrayLike,
+    directions: ArrayLike,
     polarity: Polarity,
     step: float,
     reach: float | Array,
@@ -35,8 +35,8 @@ def beams(
         wide: average over three points across, against noise.
         beyond: least intensity behind the discontinuity; those that lead to less are passed over.
     """
+    starts, directions = np.rint(starts), np.asarray(directions, dtype=float)
     scan.beams += len(starts)
-    starts = np.rint(starts)
     low, high = _run(scan, starts, directions, reach)
     k = np.arange(1 - SPAN, max(SPAN, int(high.max(initial=0))) + 1)
     usable = (k >= low[:, None]) & (k <= high[:, None])

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from handeye.pose import Array
 from handeye.vision.beam import beams
@@ -47,7 +47,7 @@ class BoundingBox(NamedTuple):
 
 def localise(
     scan: Scan,
-    window: Array,
+    window: ArrayLike,
     step: float,
     fits: Callable[[BoundingBox], bool] = lambda box: True,
     tries: int = 12,
@@ -63,6 +63,7 @@ def localise(
         fits: whether a box is what is looked for; a box that is not is not looked at again.
         tries: most boxes to grow.
     """
+    window = np.asarray(window, dtype=float)
     scan.limit(window)
     sides = _inwards(scan, window)
     border = np.vstack([starts[::COARSE] for starts, _ in sides])

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import handeye
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.vision.beam import beams
 from handeye.vision.blob import localise
@@ -197,3 +198,14 @@ def test_the_localiser_sees_nothing_outside_its_window():
     picture[120:180, 250:300] = 11
     window = np.array([[10, 10], [200, 10], [200, 245], [10, 245]], float)
     assert localise(Scan(picture), window, 3) is None
+
+
+def test_whoever_tries_them_may_write_points_as_lists():
+    scan = handeye.vision.Scan(ellipse(60, 40))
+    met = handeye.vision.beams(
+        scan, [(160, 120), (160, 120)], [(1, 0), (-1, 0)], handeye.vision.BRIGHTER, 4, 80
+    )
+    assert met.uv.mean(axis=0) == pytest.approx((160, 120), abs=1)
+    corners = [(20, 20), (310, 20), (310, 230), (20, 230)]
+    box = handeye.vision.localise(handeye.vision.Scan(ellipse(60, 40, 12, 3)), corners, 4)
+    assert (box.width, box.height) == pytest.approx((60, 40), abs=6)
