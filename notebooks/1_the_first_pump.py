@@ -95,7 +95,7 @@ hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]
 # In a notebook of your own write `trace` alone into a cell: it shows the report of the run in a frame of its own,
-# where you walk round the arm while the script goes by. It weighs megabytes, so that it is not kept in this file.
+# where you walk round the arm while the script goes by. It weighs a megabyte, so that it is not kept in this file.
 #
 # The hand has no sensor of force. The program works the force out from the torques of the motors, while it is in a
 # motion that is to feel something. Each spike is something that was met.

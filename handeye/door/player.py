@@ -2,7 +2,8 @@
 
 from typing import TYPE_CHECKING, Final
 
-from handeye.door.html import line, page, sandbox
+from handeye.door.html import inked, line, page, sandbox
+from handeye.errors import InvalidInput
 
 if TYPE_CHECKING:
     from handeye.trace.trace import Trace
@@ -13,7 +14,19 @@ _WITHOUT: Final = "A notebook shows the report without photographs; trace.frame(
 
 
 def player(trace: "Trace") -> str:
-    """The report in a frame of its own, with what it weighs.
+    """The report in a frame of its own, with what it weighs, or why there is none."""
+    try:
+        file = _report(trace)
+    except InvalidInput as fault:
+        return page(line(inked(str(fault), "doubtful")))
+    weighs = (
+        f"The report of {trace.head.program}, {trace.head.world}: {len(file) / 1e6:.1f} MB in this notebook."
+    )
+    return page(line(weighs), sandbox(file, f"report of {trace.head.program}", HEIGHT))
+
+
+def _report(trace: "Trace") -> bytes:
+    """The page of the report.
 
     Raises:
         InvalidInput: the trace cannot be understood, or is of an older handeye.
@@ -26,8 +39,4 @@ def player(trace: "Trace") -> str:
 
     run = Recorded(trace=trace)
     check_scene(run)
-    file = report_page(run, no_album(run, _WITHOUT), animation(run))
-    weighs = (
-        f"The report of {trace.head.program}, {trace.head.world}: {len(file) / 1e6:.1f} MB in this notebook."
-    )
-    return page(line(weighs), sandbox(file, f"report of {trace.head.program}", HEIGHT))
+    return report_page(run, no_album(run, _WITHOUT), animation(run))

@@ -8,6 +8,7 @@ from recordings import record
 from report_pages import Node, renamed, tree
 
 from handeye.door.player import player
+from handeye.errors import InvalidInput
 from handeye.see import animation
 from handeye.see.facts import scene
 from handeye.see.recorded import Recorded
@@ -57,3 +58,13 @@ def test_words_of_the_run_are_data(trace: Trace) -> None:
     page = player(renamed(Recorded(trace=trace), program=EVIL).trace)
     assert "<script" not in page
     assert page.count("<iframe") == page.count("</iframe>") == 1
+
+
+def test_a_trace_that_cannot_be_shown_says_why(trace: Trace, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: Recorded) -> None:
+        raise InvalidInput("recorded by <an older> handeye")
+
+    monkeypatch.setattr(scene, "check_scene", refuse)
+    page = trace._repr_html_()
+    assert "recorded by &lt;an older&gt; handeye" in page
+    assert "<iframe" not in page

@@ -12,8 +12,9 @@ import pytest
 from recordings import record
 
 from handeye.trace.reading import read_trace
+from handeye.trace.table import Table
 from handeye.trace.table_files import export_tables
-from handeye.trace.tables import Table, tables
+from handeye.trace.tables import tables
 
 NAMES = ("joints", "forces", "events")
 
@@ -63,3 +64,12 @@ def test_the_same_trace_gives_the_same_bytes(folder: Path) -> None:
     export_tables(again, lambda: read_trace(folder.parent / "a.mcap"), "parquet", overwrite=False)
     for name in NAMES:
         assert (again / f"{name}.parquet").read_bytes() == (folder / f"{name}.parquet").read_bytes()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_data_frame_has_every_value_of_a_table(made: dict[str, Table], name: str) -> None:
+    frame = made[name].to_pandas()
+    assert list(frame.columns) == [column.name for column in made[name].columns]
+    assert len(frame) == made[name].rows
+    for column in made[name].columns:
+        assert frame[column.name].tolist() == pytest.approx(list(column.values), nan_ok=True)
