@@ -20,8 +20,8 @@ from chromium import Browser, Page
 from numpy.typing import NDArray
 from short_runs import begin, traced
 
+import handeye
 from handeye.see.player import scene_bytes, script, shown_poses, tracks_bytes
-from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 
 PLACE, TURN = 3e-4, np.radians(0.3)
@@ -54,7 +54,7 @@ def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     """A run in which the arm takes a pin out of its holder."""
     told = os.environ.get("HANDEYE_CHECK_TRACE")
     if told is not None:
-        return read_trace(Path(told))
+        return handeye.open(told)
     return traced(begin(), tmp_path_factory.mktemp("short") / "run")
 
 

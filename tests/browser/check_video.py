@@ -12,6 +12,7 @@ import pytest
 from chromium import Browser, Page
 from short_runs import begin, through
 
+import handeye
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.trace.reading import read_trace
@@ -26,7 +27,7 @@ def trace(tmp_path_factory: pytest.TempPathFactory) -> Trace:
     """A run in which the arm takes a pin out of its holder."""
     told = os.environ.get("HANDEYE_CHECK_TRACE")
     if told is not None:
-        return read_trace(Path(told))
+        return handeye.open(told)
     start, path = begin(), tmp_path_factory.mktemp("short") / "run"
     folder = open_new(path, start)
     runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
