@@ -22,7 +22,7 @@ ROOT = Path(__file__).parent.parent
 NOTEBOOKS = ROOT / "notebooks"
 PATIENCE = 600
 """s for a cell."""
-COLOURS = 160
+COLOURS = 256
 """Of a stored picture."""
 
 
@@ -63,7 +63,7 @@ def made_small(made: NotebookNode) -> NotebookNode:
         if "image/png" in data:
             picture, small = Image.open(BytesIO(b64decode(data["image/png"]))), BytesIO()
             few = picture.convert("RGB").quantize(
-                COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE
+                COLOURS, Image.Quantize.MAXCOVERAGE, kmeans=3, dither=Image.Dither.NONE
             )
             few.save(small, "png", optimize=True)
             data["image/png"] = b64encode(small.getvalue()).decode()

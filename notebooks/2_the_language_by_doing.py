@@ -138,7 +138,7 @@ print(f"{run.state.why}: found at place {run.state.memory.place + 1}, ({x:.2f}, 
 # %%
 text = (handeye.scripts / "water_pump.al").read_text()
 sixth = text[text.index("        SEARCH  .05\nM6:") : text.index("        SEARCH  .07\nD2:")]
-print(sixth[:640], "        ...", sep="")
+print(*sixth.splitlines()[:21], "        ...", sep="\n")
 
 # %% [markdown]
 # It is copied, with other names: labels `M7`, `K7`, `N7`, the dispenser's place `S7`, the hole `H6`. Two places are
