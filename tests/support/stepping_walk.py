@@ -6,7 +6,8 @@ from pathlib import Path
 from figures import as_recorded
 
 DOC = (Path(__file__).parents[2] / "docs" / "stepping.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
+FENCED = re.findall(r"^```(\w*)\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
+BLOCKS = [block for language, block in FENCED if not language]
 SEED = 0
 SAID = "handeye> "
 
