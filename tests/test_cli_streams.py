@@ -43,6 +43,7 @@ CHEAP = {
     "show": "show run",
     "report": "report ✓",
     "video": "video ✓",
+    "view": "view ✓",
     "compare": "compare ✓ ✓",
     "trace show": "trace show run",
     "trace stats": "trace stats run",

@@ -51,6 +51,7 @@ LAYERS = [
         "report",
         "see",
         "video",
+        "view",
         "comparison",
         "trace",
         "trials",

@@ -23,6 +23,7 @@ from handeye.cli import (
     traces,
     trials,
     videos,
+    views,
     worlds,
 )
 from handeye.cli.common import complain, note, notes, screen
@@ -51,6 +52,7 @@ for commands in (
     records,
     reports,
     videos,
+    views,
     comparisons,
     teaching,
     scripts,

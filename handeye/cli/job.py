@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
@@ -41,6 +41,10 @@ from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
 
+if TYPE_CHECKING:
+    from handeye.view.moment import Newest
+    from handeye.view.server import Server
+
 PANIC: Final = Pause(kind="panic")
 NOT_KEPT: Final = "not kept; with --out FOLDER it could be resumed"
 
@@ -70,6 +74,8 @@ class Job:
     """Ask before every step."""
     live: bool = False
     """Tell each line as it begins, and hear what is said while the run goes."""
+    server: "Server | None" = None
+    """Serves the page in which it is stepped, instead of the terminal."""
     on_stop: str | None = None
     json: bool = False
     report: bool = False
@@ -111,6 +117,7 @@ class _Work:
             before=None if job.folder is None else job.folder.spent,
         )
         self.progress = Progress(listing_of(job.start.setup).stages, notes)
+        self.newest: Newest | None = None
         self.refused = False
         self.left: Path | None = None
         """The checkpoint that was saved last, outside the folder of the run."""
@@ -138,7 +145,7 @@ class _Work:
             with self.progress:
                 runner = Runner(
                     self.job.start,
-                    halt=self.panic,
+                    halt=self._halted,
                     viewed=self.progress.viewed,
                     observers=self._observers,
                     calibrate=self.job.calibrate,
@@ -155,6 +162,10 @@ class _Work:
             note(sentence)
         return runner
 
+    def _halted(self) -> bool:
+        """The panic button was pressed, here or in the browser."""
+        return self.panic() or (self.job.server is not None and self.job.server.link.panic())
+
     def _observers(self, runner: Runner) -> list[Observer]:
         looking: list[Observer] = [] if self.job.step else [self.progress]
         if self.job.start.stage is not None:
@@ -164,6 +175,11 @@ class _Work:
             looking.append(self.folder.watch(runner, self.job.start, again=again, meter=self.meter))
         if self.job.checkpoints is not None:
             looking.append(_KeepStages(self.job.checkpoints, self.job.start.setup))
+        if self.job.server is not None:
+            from handeye.view.moment import Newest
+
+            self.newest = Newest(runner)
+            looking.append(self.newest)
         return looking
 
     # -- carrying out ---------------------------------------------------------------------------------
@@ -190,6 +206,8 @@ class _Work:
             keep=self._keep,
             pictures=None if self.folder is None else self.folder.path / PICTURES,
         )
+        if self.job.server is not None and self.newest is not None:
+            return self._stepped_in_browser(stepper, self.job.server, self.newest)
         names = [name for settable in runner.system.settables().values() for name in settable.names]
         words = [*(command.name for command in COMMANDS), *TOPICS, *runner.listing.labels, *names]
         lines, live = self._lines(words)
@@ -201,6 +219,16 @@ class _Work:
             return interact(stepper, lines, write, json=self.job.json, prompt=prompt, most=most, live=live)
         finally:
             self.refused = stepper.refused
+
+    def _stepped_in_browser(self, stepper: Stepper, server: "Server", newest: "Newest") -> Pause:
+        from handeye.view.driving import drive
+        from handeye.view.page import live_page
+
+        with self.progress.aside():
+            note("making the page")
+            server.show(live_page(stepper.hands.runner, newest), newest)
+            say(server.access.address, whole=True)
+            return drive(stepper, server.link, self.panic.aside)
 
     def _lines(self, words: list[str]) -> tuple[Iterator[str], Live | None]:
         """Lines to be carried out, and the way to those who look on while the run goes, if there is one."""

@@ -1,0 +1,71 @@
+"""Access to the server: by its own name, from its own page, with the token of the address that it prints."""
+
+import hmac
+import secrets
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from http import HTTPStatus
+from typing import Final
+from urllib.parse import parse_qs
+
+HOST: Final = "127.0.0.1"
+"""The only interface that the server listens on."""
+PAGE: Final = "/"
+LIVE: Final = "/live"
+_NAMES: Final = (HOST, "localhost")
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Reason why something is not let through."""
+
+    status: HTTPStatus
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class Access:
+    """What a request has to show."""
+
+    port: int
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+
+    @property
+    def address(self) -> str:
+        """The address to open, with the token."""
+        return f"http://{HOST}:{self.port}{PAGE}?token={self.token}"
+
+    def refusal(self, target: str, hosts: Sequence[str], origins: Sequence[str]) -> Refusal | None:
+        """Why a request is refused; None: it is let through.
+
+        Args:
+            target: path and query.
+            hosts: its `Host` headers.
+            origins: its `Origin` headers.
+        """
+        path, _, query = target.partition("?")
+        if [*hosts] not in ([host] for host in self._hosts):
+            return Refusal(HTTPStatus.FORBIDDEN, "this server goes by another name")
+        if not self._own(origins, needed=path == LIVE):
+            return Refusal(HTTPStatus.FORBIDDEN, "another page cannot use this server")
+        if not self._has_token(query):
+            return Refusal(
+                HTTPStatus.FORBIDDEN, "the token is missing or wrong: open the address that handeye printed"
+            )
+        if path not in (PAGE, LIVE):
+            return Refusal(HTTPStatus.NOT_FOUND, "there is nothing here")
+        return None
+
+    @property
+    def _hosts(self) -> list[str]:
+        return [f"{name}:{self.port}" for name in _NAMES]
+
+    def _own(self, origins: Sequence[str], *, needed: bool) -> bool:
+        """Browsers tell the origin of whatever opens a socket, and mostly none of who opens a page."""
+        if not origins:
+            return not needed
+        return [*origins] in ([f"http://{host}"] for host in self._hosts)
+
+    def _has_token(self, query: str) -> bool:
+        given = parse_qs(query, max_num_fields=8).get("token", []) if query.count("&") < 8 else []
+        return len(given) == 1 and hmac.compare_digest(given[0].encode(errors="replace"), self.token.encode())

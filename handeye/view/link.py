@@ -1,0 +1,66 @@
+"""The link between the one thread that owns a run and the server: lines one way, what is told of the run the other."""
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
+from queue import Empty, SimpleQueue
+from threading import Lock
+from typing import Final
+
+MOST: Final = 100
+"""Lines that may wait; the run takes them in less than a servo period."""
+
+
+class Link:
+    """Lines and panic for a run, from any thread; the run asks for them when it can hear."""
+
+    def __init__(self) -> None:
+        self.tell: Callable[[str], None] = lambda _: None
+        """Tells those who look on; the server says how."""
+        self._lines = SimpleQueue[str | None]()
+        self._lock = Lock()
+        self._goes = False
+        self._panic = False
+
+    # -- the side of those who look on ----------------------------------------------------------------
+
+    def say(self, line: str) -> bool:
+        """Say a line to the run; False: too many wait."""
+        if self._lines.qsize() >= MOST:
+            return False
+        self._lines.put(line)
+        return True
+
+    def press(self) -> bool:
+        """Press the panic button; False: nothing goes that it could stop."""
+        with self._lock:
+            self._panic = self._goes
+            return self._goes
+
+    # -- the side of the run --------------------------------------------------------------------------
+
+    def lines(self, aside: Callable[[], AbstractContextManager[None]]) -> Iterator[str]:
+        """Lines for a run that pauses; the panic button is forgotten whenever it does."""
+        while True:
+            self._set_going(False)
+            with aside():
+                line = self._lines.get()
+            if line is None:
+                return
+            self._set_going(True)
+            yield line
+
+    def come(self) -> str | None:
+        """A line that is there already; None: there is none."""
+        try:
+            return self._lines.get_nowait()
+        except Empty:
+            return None
+
+    def panic(self) -> bool:
+        """The panic button was pressed since the last call."""
+        pressed, self._panic = self._panic, False
+        return pressed
+
+    def _set_going(self, goes: bool) -> None:
+        with self._lock:
+            self._goes, self._panic = goes, False

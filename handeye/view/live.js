@@ -1,0 +1,154 @@
+(() => {
+  "use strict";
+  const byId = (id) => document.getElementById(id);
+  const facts = JSON.parse(byId("facts").textContent);
+  const poses = new Map(), breaks = new Map();
+  const KEPT = 2000; // rows that are kept of what was told
+  let player = null, socket = null, drives = false, left = false;
+
+  // -- the cell ---------------------------------------------------------------------------------------
+
+  async function unpacked(name) {
+    const bytes = Uint8Array.from(atob(byId(name).textContent), (letter) => letter.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  }
+
+  async function draw() {
+    try {
+      const drawn = await createPlayer(byId("view"), await unpacked("scene"), await unpacked("tracks"), {});
+      drawn.pose = (body) => poses.get(body) ?? null;
+      byId("views").replaceChildren(...drawn.views.map(viewButton));
+      player = byId("view").player = drawn;
+    } catch (error) {
+      byId("view").hidden = true;
+      byId("instead").textContent = error.message;
+      byId("instead").hidden = false;
+      return;
+    }
+    player.view(player.views.includes("work") ? "work" : player.views[0]);
+    player.at(0);
+    document.querySelector(".viewer").classList.add("drawn");
+  }
+
+  function viewButton(name) {
+    const button = document.createElement("button");
+    Object.assign(button, { type: "button", textContent: name });
+    button.addEventListener("click", () => player.view(name));
+    return button;
+  }
+
+  /** A moment: figures, joints, then seven numbers for each body, which are none where it is not there. */
+  function moment(buffer) {
+    const numbers = new Float32Array(buffer), [time, gap, ...force] = numbers.subarray(0, facts.figures);
+    let at = facts.figures + facts.joints;
+    for (const body of facts.bodies) {
+      const pose = Array.from(numbers.subarray(at, at += 7));
+      if (pose[2] >= facts.lowest) poses.set(body, pose); else poses.delete(body);
+    }
+    byId("figures").textContent = [`${time.toFixed(2)} s`, ...felt(gap, force)].join(", ");
+    player?.at(time);
+  }
+
+  function felt(gap, force) {
+    const told = Number.isNaN(gap) ? [] : [`gap ${(gap / 0.0254).toFixed(2)} in`];
+    if (force.some(Number.isNaN)) return told;
+    return [...told, `the hand presses with (${force.map((n) => (n / 0.27801385).toFixed(1)).join(", ")}) oz`];
+  }
+
+  // -- the stepper ------------------------------------------------------------------------------------
+
+  function tell(text) {
+    const told = byId("told"), atEnd = told.scrollTop + told.clientHeight >= told.scrollHeight - 4;
+    const rows = `${told.textContent}${text}\n`.split("\n");
+    told.textContent = rows.slice(-KEPT).join("\n");
+    if (atEnd) told.scrollTop = told.scrollHeight;
+  }
+
+  function stand({ script, line, stage_number: number, stage }) {
+    document.querySelector("#script li.on")?.classList.remove("on");
+    if (line === null) return;
+    const row = byId(`line-${Math.max(facts.files.indexOf(script), 0)}-${line}`);
+    row?.classList.add("on");
+    if (row) bring(row);
+    if (stage) byId("state").textContent = `stage ${number}, ${stage}`;
+  }
+
+  /** Scroll the script, and nothing else, until a row can be seen. */
+  function bring(row) {
+    const box = byId("script"), top = row.getBoundingClientRect().top - box.getBoundingClientRect().top;
+    if (top < 0 || top > box.clientHeight - 2 * row.clientHeight) box.scrollTop += top - box.clientHeight / 3;
+  }
+
+  const HEARD = {
+    under_way: (step) => { stand(step); tell(`${String(step.line).padStart(5)} ${step.text.replace(/\s+/g, " ")}`); },
+    reply: (reply, { shown, called, pace }) => {
+      tell(`> ${reply.command}\n${shown}`);
+      stand(reply);
+      const { pause } = reply;
+      if (pause) byId("state").textContent = pause.sentence;
+      byId("answers").hidden = !called;
+      byId("pace").value = pace === null ? "free" : `${pace}x`;
+      if (reply.breaks) marked(reply.command.startsWith("break "), reply.breaks);
+    },
+    refused: (sentence) => tell(sentence),
+    viewers: (count, { drives: mine, free }) => {
+      drives = mine;
+      byId("looking").textContent = `${count} looking; ${mine ? "you drive" : free ? "nobody drives" : "somebody else drives"} `;
+      byId("drive").hidden = mine;
+      for (const button of document.querySelectorAll(".say, #pace, #line")) button.disabled = !mine;
+    },
+    left: () => { left = true; byId("state").textContent = "the run has been left"; },
+  };
+
+  /** Mark the lines with breakpoints: one that was set, or all that there are. */
+  function marked(more, told) {
+    if (!more) breaks.clear();
+    for (const { number, stop } of told) {
+      if (stop.stop === "AtLine") breaks.set(`line-${facts.files.indexOf(stop.file ?? "")}-${stop.line}`, number);
+    }
+    for (const row of document.querySelectorAll("#script li")) row.classList.toggle("break", breaks.has(row.id));
+  }
+
+  function send(wish) {
+    if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(wish));
+  }
+
+  const say = (line) => send({ do: "say", line });
+
+  function listen() {
+    socket = new WebSocket(`ws://${location.host}/live${location.search}`);
+    socket.binaryType = "arraybuffer";
+    socket.addEventListener("message", ({ data }) => {
+      if (typeof data !== "string") { moment(data); return; }
+      const told = JSON.parse(data);
+      for (const [name, act] of Object.entries(HEARD)) if (name in told) act(told[name], told);
+    });
+    socket.addEventListener("open", () => { byId("told").textContent = ""; byId("state").textContent = ""; });
+    socket.addEventListener("close", () => {
+      if (left) return;
+      byId("state").textContent = "the connection is lost; trying again";
+      setTimeout(listen, 1000);
+    });
+  }
+
+  // -- beginning --------------------------------------------------------------------------------------
+
+  for (const button of document.querySelectorAll(".say")) button.addEventListener("click", () => say(button.value));
+  byId("panic").addEventListener("click", () => send({ do: "panic" }));
+  byId("drive").addEventListener("click", () => send({ do: "drive" }));
+  byId("pace").addEventListener("change", () => say(`pace ${byId("pace").value}`));
+  byId("form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    say(byId("line").value);
+    byId("line").value = "";
+  });
+  byId("script").addEventListener("click", ({ target }) => {
+    const row = target.closest("li");
+    if (!row || !drives) return;
+    const [, file, line] = row.id.split("-");
+    const name = facts.files[Number(file)];
+    say(breaks.has(row.id) ? `delete ${breaks.get(row.id)}` : `break ${name ? `${name}:` : ""}${line}`);
+  });
+  draw();
+  listen();
+})();

@@ -1,0 +1,159 @@
+"""The page of a live run: the report's view and script, fed by the server, and what drives the stepper."""
+
+from base64 import b64encode
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Final
+
+import msgspec
+import numpy as np
+
+from handeye.markup import Markup
+from handeye.program.program import Program
+from handeye.runs.runner import Runner
+from handeye.see import player
+from handeye.see.page.document import packed, resource
+from handeye.see.page.elements import element
+from handeye.see.page.source import listing
+from handeye.see.player import scene, tracks
+from handeye.trace.messages import Poses
+from handeye.view.moment import FIGURES, Newest
+
+_MARK: Final = "<!doctype html>\n"
+_BUTTONS: Final = (
+    ("continue", "Run"),
+    ("pause", "Pause"),
+    ("step", "Step"),
+    ("stage", "Next stage"),
+    ("back", "Back"),
+    ("back stage", "Back a stage"),
+)
+_ANSWERS: Final = (("proceed", "Proceed"), ("retry", "Retry"), ("skip", "Skip"), ("abort", "Abort"))
+_PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as it goes"))
+
+
+def live_page(runner: Runner, newest: Newest) -> bytes:
+    """The page of a run in a cell, as one file that fetches nothing.
+
+    Raises:
+        InvalidInput: the task shows no scene.
+    """
+    program: Any = runner.listing
+    model = runner.task.scene(runner.setup.world)
+    names = newest.frames.names
+    facts = {
+        "bodies": names,
+        "figures": FIGURES,
+        "joints": len(newest.frames.joints),
+        "lowest": scene.lowest(model),
+        "files": ["", *program.required],
+        "begun": newest.moment.time,
+    }
+    scripts = [player.script(), _own("live.js")]
+    style = resource("page.css") + _own("live.css")
+    body = element(
+        "body",
+        _header(program),
+        element("main", element("div", _viewer(), _script(program), class_="beside")),
+        element("script", Markup(_data(facts)), id="facts", type="application/json"),
+        packed("scene", scene.scene_bytes(model)),
+        packed("tracks", _first_tracks(names, newest.moment.poses)),
+        *(element("script", Markup(script)) for script in scripts),
+        class_="live",
+    )
+    return (_MARK + element("html", _head(program.name, style, scripts), body, lang="en") + "\n").encode()
+
+
+def _header(program: Program) -> Markup:
+    state = element("p", "connecting", id="state", role="status")
+    drive = element("button", "Take the drive", id="drive", type="button")
+    looking = element("span", id="looking")
+    return element("div", element("h1", program.name), state, element("p", looking, drive), class_="title")
+
+
+def _viewer() -> Markup:
+    canvas = element(
+        "canvas", id="view", tabindex="0", role="img",
+        aria_label="the cell as it now is; arrows walk round it, plus and minus come nearer and go farther",
+    )  # fmt: skip
+    figures = element("p", id="figures", class_="caption")
+    views = element("div", id="views", role="group", aria_label="view", class_="views")
+    return element(
+        "div", element("div", canvas, class_="screen"), element("p", id="instead", hidden=True), figures, views,
+        _controls(), _talk(), class_="viewer",
+    )  # fmt: skip
+
+
+def _controls() -> Markup:
+    buttons = (element("button", shown, type="button", value=said, class_="say") for said, shown in _BUTTONS)
+    answers = (element("button", shown, type="button", value=said, class_="say") for said, shown in _ANSWERS)
+    paces = (element("option", shown, value=said, selected=said == "free") for said, shown in _PACES)
+    pace = element("select", *paces, id="pace", aria_label="pace")
+    panic = element("button", "Panic", id="panic", type="button")
+    called = element(
+        "div", *answers, id="answers", role="group", aria_label="answers for the operator", hidden=True
+    )
+    return element("div", *buttons, pace, panic, called, class_="controls")
+
+
+def _talk() -> Markup:
+    told = element("pre", id="told", role="log", aria_label="what the stepper tells", tabindex="0")
+    line = element(
+        "input",
+        id="line",
+        type="text",
+        maxlength="1000",
+        aria_label="command of the stepper",
+        autocomplete="off",
+    )
+    return element("div", told, element("form", line, id="form"), class_="talk")
+
+
+def _script(program: Program) -> Markup:
+    return element(
+        "div",
+        listing(program),
+        id="script",
+        class_="source",
+        tabindex="0",
+        role="region",
+        aria_label="script",
+    )
+
+
+def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:
+    """Where all bodies are at first, those too that are not there yet: the page puts them where they are."""
+    there = np.where(np.isnan(poses), np.array([0, 0, 0, 1, 0, 0, 0], dtype=np.float32), poses)
+    rows = {name: pose[None] for name, pose in zip(names, there, strict=True)}
+    return tracks.tracks_bytes(rows, times=np.zeros(1), begin=0.0, end=0.0, lowest=-np.inf)
+
+
+def _head(name: str, style: str, scripts: list[str]) -> Markup:
+    """The head, with a policy that lets in the page's own style, scripts and socket, and nothing else."""
+    allowed = " ".join(map(_digest, scripts))
+    policy = (
+        f"default-src 'none'; script-src {allowed}; style-src {_digest(style)}; connect-src 'self'; "
+        "img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
+    return element(
+        "head",
+        element("meta", charset="utf-8"),
+        element("meta", http_equiv="Content-Security-Policy", content=policy),
+        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        element("title", f"{name}: live"),
+        element("style", Markup(style)),
+    )
+
+
+def _digest(content: str) -> str:
+    """The source expression that lets in an element of this content."""
+    return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
+
+
+def _data(facts: dict[str, Any]) -> str:
+    """Facts for the script: no text in them can end the element."""
+    return msgspec.json.encode(facts).decode().replace("<", "\\u003c")
+
+
+def _own(name: str) -> str:
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")

@@ -1,0 +1,261 @@
+"""The server: a thread beside the run that hands out the page, and tells everybody who looks on.
+
+It looks at the newest moment so many times a second, and drops the others; who takes too little of what is told is let
+go. So nobody who looks on can slow the run.
+"""
+
+import asyncio
+import socket
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from http import HTTPStatus
+from threading import Event, Thread
+from typing import Annotated, Final, Self
+
+import msgspec
+from websockets.asyncio.server import Server as SocketServer
+from websockets.asyncio.server import ServerConnection, serve
+from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
+from handeye.errors import InvalidInput
+from handeye.view.access import HOST, LIVE, Access
+from handeye.view.link import Link
+from handeye.view.moment import Newest
+
+RATE: Final = 25
+"""Moments a second that are sent."""
+LARGEST: Final = 4096
+"""Bytes of a message that somebody may send; a larger one ends the connection."""
+LONGEST: Final = 1000
+"""Characters of a line."""
+KEPT: Final = 400
+"""Messages that are told to those who come later."""
+BEHIND: Final = 4 * KEPT
+"""Messages behind which somebody who looks on is let go."""
+
+
+class Say(msgspec.Struct, tag_field="do", tag="say", forbid_unknown_fields=True):
+    """Say a line to the stepper."""
+
+    line: Annotated[str, msgspec.Meta(max_length=LONGEST)]
+
+
+class Panic(msgspec.Struct, tag_field="do", tag="panic", forbid_unknown_fields=True):
+    """Press the panic button: anybody may."""
+
+
+class Drive(msgspec.Struct, tag_field="do", tag="drive", forbid_unknown_fields=True):
+    """Take the drive, from whoever has it."""
+
+
+Wish = Say | Panic | Drive
+"""What somebody who looks on may want."""
+_WISHES: Final = msgspec.json.Decoder(Wish)
+
+
+@dataclass(eq=False)
+class Viewer:
+    """Somebody who looks on."""
+
+    connection: ServerConnection
+    waiting: deque[str] = field(default_factory=deque)
+    """Messages that are not sent yet."""
+
+
+class Server:
+    """Serves one run while entered; its port is taken from the beginning, so that one in use is told at once."""
+
+    def __init__(self, link: Link, port: int = 0) -> None:
+        """Take a port; 0: any that is free.
+
+        Raises:
+            InvalidInput: the port is in use, or not to be had.
+        """
+        self.link = link
+        self._socket = _taken(port)
+        self.access = Access(self._socket.getsockname()[1])
+        self._viewers: list[Viewer] = []
+        self._driver: Viewer | None = None
+        self._told = deque[str](maxlen=KEPT)
+        self._loop = asyncio.new_event_loop()
+        self._up = Event()
+
+    def show(self, page: bytes, newest: Newest) -> None:
+        """Begin to serve a page that is fed with the newest moments.
+
+        Args:
+            page: it and all that it needs, as one file.
+        """
+        self._page, self._newest = page, newest
+        self.link.tell = lambda text: self._call(lambda: self._tell(text))
+        self._thread = Thread(target=self._run, name="viewers", daemon=True)
+        self._thread.start()
+        self._up.wait()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.link.tell = lambda _: None
+        if self._up.is_set():
+            self._call(self._ended.set)
+            self._thread.join()
+        self._socket.close()
+        self._loop.close()
+
+    # -- the thread of the server -----------------------------------------------------------------------
+
+    def _call(self, act: Callable[[], None]) -> None:
+        self._loop.call_soon_threadsafe(act)
+
+    def _run(self) -> None:
+        self._loop.run_until_complete(self._serve())
+
+    async def _serve(self) -> None:
+        self._ended = asyncio.Event()
+        serving = serve(
+            self._look_on,
+            sock=self._socket,
+            process_request=self._answer,
+            max_size=LARGEST,
+            compression=None,
+            server_header=None,
+            close_timeout=1,
+        )
+        async with serving as server:
+            self._up.set()
+            await self._ended.wait()
+            await self._say_goodbye(server)
+
+    async def _say_goodbye(self, server: SocketServer) -> None:
+        """Tell what is left to be told, and close."""
+        for viewer in [*self._viewers]:
+            viewer.waiting.append(_message(left=True))
+        await asyncio.sleep(2 / RATE)
+        server.close()
+
+    def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """The page, or why there is none; None: the socket may be opened."""
+        headers = request.headers
+        refusal = self.access.refusal(request.path, headers.get_all("Host"), headers.get_all("Origin"))
+        if refusal is not None:
+            return _response(refusal.status, "text/plain", f"{refusal.sentence}\n".encode())
+        if request.path.partition("?")[0] == LIVE:
+            return None
+        return _response(HTTPStatus.OK, "text/html", self._page)
+
+    async def _look_on(self, connection: ServerConnection) -> None:
+        """Somebody looks on, until the page is closed."""
+        viewer = Viewer(connection)
+        self._viewers.append(viewer)
+        if self._driver is None:
+            self._driver = viewer
+        viewer.waiting.extend(self._told)
+        self._tell_drive()
+        feeding = asyncio.create_task(self._feed(viewer))
+        try:
+            async for wish in connection:
+                self._hear(viewer, wish)
+        except ConnectionClosed:
+            pass
+        finally:
+            feeding.cancel()
+            self._viewers.remove(viewer)
+            if self._driver is viewer:
+                self._driver = None
+            self._tell_drive()
+
+    async def _feed(self, viewer: Viewer) -> None:
+        """Send what is told, and the newest moment, at the viewer's own pace."""
+        shown = None
+        try:
+            while True:
+                while viewer.waiting:
+                    await viewer.connection.send(viewer.waiting.popleft())
+                moment = self._newest.moment
+                if moment is not shown:
+                    await viewer.connection.send(moment.packed)
+                    shown = moment
+                await asyncio.sleep(1 / RATE)
+        except ConnectionClosed:
+            pass
+
+    # -- telling and hearing ----------------------------------------------------------------------------
+
+    def _tell(self, message: str) -> None:
+        self._told.append(message)
+        for viewer in self._viewers:
+            self._send(viewer, message)
+
+    def _send(self, viewer: Viewer, message: str) -> None:
+        viewer.waiting.append(message)
+        if len(viewer.waiting) > BEHIND:
+            viewer.waiting.clear()
+            viewer.connection.transport.abort()
+
+    def _tell_drive(self) -> None:
+        """Tell everybody how many look on, and whether the drive is theirs."""
+        for viewer in self._viewers:
+            free = self._driver is None
+            self._send(viewer, _message(viewers=len(self._viewers), drives=self._driver is viewer, free=free))
+
+    def _hear(self, viewer: Viewer, message: str | bytes) -> None:
+        try:
+            wish = _WISHES.decode(message)
+        except (msgspec.DecodeError, UnicodeDecodeError):
+            self._send(viewer, _message(refused="this message cannot be understood"))
+            return
+        refused = self._carried_out(viewer, wish)
+        if refused is not None:
+            self._send(viewer, _message(refused=refused))
+
+    def _carried_out(self, viewer: Viewer, wish: Wish) -> str | None:
+        """Do what somebody wants; why not, if it cannot be."""
+        match wish:
+            case Drive():
+                self._driver = viewer
+                self._tell_drive()
+            case Panic():
+                return None if self.link.press() else "nothing goes that the panic button could stop"
+            case Say(line=line):
+                if self._driver is not viewer:
+                    return "somebody else drives: take the drive first"
+                if not self.link.say(line):
+                    return "the run does not hear so many lines at once"
+        return None
+
+
+def _taken(port: int) -> socket.socket:
+    """A socket that listens on a port of this computer alone."""
+    taken = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    try:
+        taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        taken.bind((HOST, port))
+        taken.listen()
+    except (OSError, OverflowError) as error:
+        taken.close()
+        why = error.strerror if isinstance(error, OSError) else "it is no number from 0 to 65535"
+        raise InvalidInput(f"port {port} cannot be had: {why}") from None
+    return taken
+
+
+def _message(**fields: object) -> str:
+    return msgspec.json.encode(fields).decode()
+
+
+def _response(status: HTTPStatus, kind: str, body: bytes) -> Response:
+    headers = Headers(
+        {
+            "Content-Type": f"{kind}; charset=utf-8",
+            "Content-Length": str(len(body)),
+            "Cache-Control": "no-store",
+            "Referrer-Policy": "no-referrer",
+            "X-Content-Type-Options": "nosniff",
+            "X-Frame-Options": "DENY",
+            "Connection": "close",
+        }
+    )
+    return Response(status.value, status.phrase, headers, body)
