@@ -1,5 +1,6 @@
 """The page of a table for notebooks: its first rows, and how many more there are."""
 
+from math import isnan
 from typing import Final
 
 from handeye.door.html import heading, line, page, table
@@ -27,11 +28,8 @@ def table_page(found: Table) -> str:
     return page(heading(f"{found.name}: {found.about}"), shown, *more)
 
 
-def _cell(value: object) -> str | float | None:
+def _cell(value: str | float) -> str | None:
     if isinstance(value, str):
         text = printable(value)
         return text if len(text) <= LETTERS else text[: LETTERS - 1] + "…"
-    number = float(value)  # type: ignore[arg-type]
-    if number != number:  # NaN: there is none
-        return None
-    return f"{number:.6g}"
+    return None if isnan(value) else f"{value:.6g}"

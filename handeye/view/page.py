@@ -1,25 +1,25 @@
 """The page of a live run: the report's view and script, fed by the server, and what drives the stepper."""
 
-from base64 import b64encode
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, Final
 
-import msgspec
 import numpy as np
 
 from handeye.markup import Markup
 from handeye.program.program import Program
 from handeye.runs.runner import Runner
 from handeye.see import player
-from handeye.see.page.document import packed, resource
+from handeye.see.page.document import head, packed, resource
 from handeye.see.page.elements import element
+from handeye.see.page.moments import json_markup
 from handeye.see.page.source import listing
 from handeye.see.player import scene, tracks
 from handeye.trace.messages import Poses
 from handeye.view.moment import FIGURES, Newest
 
 _MARK: Final = "<!doctype html>\n"
+_POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
+"""What the page may do beside the report's: talk with its server, and no more."""
 _BUTTONS: Final = (
     ("continue", "Run"),
     ("pause", "Pause"),
@@ -55,13 +55,17 @@ def live_page(runner: Runner, newest: Newest) -> bytes:
         "body",
         _header(program),
         element("main", element("div", _viewer(), _script(program), class_="beside")),
-        element("script", Markup(_data(facts)), id="facts", type="application/json"),
+        element("script", json_markup(facts), id="facts", type="application/json"),
         packed("scene", scene.scene_bytes(model)),
         packed("tracks", _first_tracks(names, newest.moment.poses)),
         *(element("script", Markup(script)) for script in scripts),
         class_="live",
     )
-    return (_MARK + element("html", _head(program.name, style, scripts), body, lang="en") + "\n").encode()
+    return (
+        _MARK
+        + element("html", head(f"{program.name}: live", style, scripts, *_POLICY), body, lang="en")
+        + "\n"
+    ).encode()
 
 
 def _header(program: Program) -> Markup:
@@ -126,33 +130,6 @@ def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:
     there = np.where(np.isnan(poses), np.array([0, 0, 0, 1, 0, 0, 0], dtype=np.float32), poses)
     rows = {name: pose[None] for name, pose in zip(names, there, strict=True)}
     return tracks.tracks_bytes(rows, times=np.zeros(1), begin=0.0, end=0.0, lowest=-np.inf)
-
-
-def _head(name: str, style: str, scripts: list[str]) -> Markup:
-    """The head, with a policy that lets in the page's own style, scripts and socket, and nothing else."""
-    allowed = " ".join(map(_digest, scripts))
-    policy = (
-        f"default-src 'none'; script-src {allowed}; style-src {_digest(style)}; connect-src 'self'; "
-        "img-src data: blob:; base-uri 'none'; form-action 'none'"
-    )
-    return element(
-        "head",
-        element("meta", charset="utf-8"),
-        element("meta", http_equiv="Content-Security-Policy", content=policy),
-        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
-        element("title", f"{name}: live"),
-        element("style", Markup(style)),
-    )
-
-
-def _digest(content: str) -> str:
-    """The source expression that lets in an element of this content."""
-    return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
-
-
-def _data(facts: dict[str, Any]) -> str:
-    """Facts for the script: no text in them can end the element."""
-    return msgspec.json.encode(facts).decode().replace("<", "\\u003c")
 
 
 def _own(name: str) -> str:

@@ -78,12 +78,14 @@ def _felt_how(run: Recorded, felt: Sequence[GuardedMotion]) -> How:
     return How.THINNED if run.trace.thinned else How.RECORDED
 
 
-def head(name: str, style: str, scripts: Sequence[str]) -> Markup:
-    """The head, with a policy that lets in the page's own style and scripts and nothing else."""
-    policy = (
-        f"default-src 'none'; script-src {' '.join(map(_digest, scripts))}; style-src {_digest(style)}; "
-        "img-src data: blob:"
-    )
+def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:
+    """The head, with a policy that lets in the page's own style and scripts and nothing else.
+
+    Args:
+        also: further directives of the policy.
+    """
+    own = f"script-src {' '.join(map(_digest, scripts))}", f"style-src {_digest(style)}"
+    policy = "; ".join(("default-src 'none'", *own, "img-src data: blob:", *also))
     return element(
         "head",
         element("meta", charset="utf-8"),
