@@ -48,7 +48,9 @@ class Expected:
     calls: tuple[str, ...] = ()
     """Words with which the program calls the operator for what no error tells: likewise."""
     at_setup: bool = False
-    """The camera cannot be calibrated, before the first stage."""
+    """The arm cannot be measured or the camera not be calibrated, before the first stage."""
+    stages: tuple[str, ...] = ()
+    """Names of the stages in which such an error or call is the right one; none: in whichever it comes."""
     harmless: str = ""
     """Why a right pump may come out all the same; empty: it should be noticed."""
 
@@ -122,10 +124,14 @@ class FaultKind:
 class Catalogue:
     """The faults of a task, in the order they are listed."""
 
-    def __init__(self, *kinds: FaultKind) -> None:
+    def __init__(self, *kinds: FaultKind, matrix: Sequence[str] = ()) -> None:
+        """Faults, and the names of those by which a program is tried where nobody names others."""
         self.kinds = {kind.name: kind for kind in kinds}
         """By name."""
         assert len(self.kinds) == len(kinds), "two faults have one name"
+        self.matrix = tuple(matrix) or tuple(self.kinds)
+        """Names of the faults by which a program is tried where nobody names others."""
+        assert {*self.matrix} <= self.kinds.keys(), "the matrix names a fault that there is not"
 
     def kind(self, name: str) -> FaultKind:
         """The fault of a name.

@@ -24,7 +24,7 @@ SPEC = {
 }
 CHOOSING = [
     "assemble", "run", "world", "render", "do", "repl", "teach", "bench timing", "bench overhead", "trials base",
-    "trials gasket", "trials breaking",
+    "trials gasket", "trials breaking", "faults",
 ]  # fmt: skip
 """Commands that build a world."""
 
@@ -125,7 +125,7 @@ def test_what_cannot_be_chosen_is_refused_with_what_is_near(
 @pytest.mark.parametrize(
     "words",
     ["assemble", "render -o it.png", "do PARK", "teach it.al", "bench overhead", "trials base 1", "trials gasket 1",
-     "trials assembly", "trials breaking killed"],
+     "trials assembly", "trials breaking killed", "faults"],
 )  # fmt: skip
 def test_every_command_refuses_a_name_it_does_not_know(command: Command, words: str) -> None:
     code, out, err = command(*words.split(), "--without", "camra")
@@ -251,7 +251,7 @@ def test_every_fault_is_listed_with_its_size(
     command: Command, monkeypatch: pytest.MonkeyPatch, columns: str
 ) -> None:
     monkeypatch.setenv("COLUMNS", columns)
-    code, out, _ = command("faults")
+    code, out, _ = command("faults", "--list")
     names = [
         line.split()[0].split("=")[0] for line in out.splitlines() if line[:3].strip() and line[:2] == "  "
     ]
@@ -260,8 +260,12 @@ def test_every_fault_is_listed_with_its_size(
 
 
 def test_faults_are_listed_for_programs(command: Command) -> None:
-    _, out, _ = command("faults", "--json", "--seed", str(SEVENTH))
+    _, out, _ = command("faults", "--list", "--json", "--seed", str(SEVENTH))
     known = {fault["name"]: fault for fault in json.loads(out)["faults"]}
     assert list(known) == list(task().faults(SEVENTH).kinds)
     assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
     assert known["lamp.dead"]["size"] is None
+    assert known["gap_potentiometer.off"]["must"].startswith(
+        "The program stops by error 51 (the gap does not"
+    )
+    assert known["thread.1.scarred"]["must"] == "The pump comes out right."

@@ -76,8 +76,9 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         self.last_link = int(model.jnt_bodyid[joints[-1]])
         """The body that carries the hand."""
         self.watchdog = Watchdog(arm.servo.period)
-        self._motors = np.array([model.actuator(name).id for name in names])
-        self._limits = model.actuator_ctrlrange[self._motors, 1].copy()
+        self.motors = np.array([model.actuator(name).id for name in names])
+        """Its motors, actuators of the simulator."""
+        self._limits = model.actuator_ctrlrange[self.motors, 1].copy()
         self._friction = model.dof_frictionloss[self.dofs].copy()
         self._brake, self._errors = constants(arm).brake, errors
         self._arm, self._lines = arm, lines
@@ -123,7 +124,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         brake = self._lines.carried_each("brake", self._brake)
         self._model.dof_frictionloss[self.dofs] = brake if torque is None else self._friction
         limits = self._limits
-        self._data.ctrl[self._motors] = (
+        self._data.ctrl[self.motors] = (
             0.0 if torque is None else np.clip(self._driven(torque), -limits, limits)
         )
 

@@ -2,15 +2,13 @@
 
 import re
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
-from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, put_line, say
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, say
+from handeye.cli.kept_records import kept
 from handeye.cli.world_options import (
     ANY_ERRORS,
     ANY_WORLD,
@@ -18,10 +16,9 @@ from handeye.cli.world_options import (
     Faults,
     WorldOptions,
     broken,
-    stage_of,
 )
 from handeye.errors import InvalidInput
-from handeye.files import Kind, check_place, write_over
+from handeye.files import Kind
 from handeye.runs.scripts import default_script
 from handeye.tasks import task
 from handeye.tasks.trial import Known
@@ -29,9 +26,7 @@ from handeye.variation import WorldSpec
 
 if TYPE_CHECKING:
     from handeye.report.result import Result
-    from handeye.trials.faults import FaultTrial
 
-OUTCOMES: Final = Kind("list of outcomes", rb'\{"fault":')
 Eye = Annotated[
     Known,
     Parameter(
@@ -53,7 +48,6 @@ def register(app: App) -> None:
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")
-    trials.command(fault_trials, name="faults")
     app.command(trials)
 
 
@@ -76,7 +70,7 @@ def assembly_trials(
     _some(jobs, "process")
     plan = compiled(default_script())
     worlds = [broken(errors.spec(seed), fault, plan.program) for seed in chosen]
-    with _kept(out, RESULTS, by="seed") as results:
+    with kept(out, RESULTS, by="seed") as results:
         for result in assemble_many(plan, worlds, camera=camera, jobs=jobs):
             results.append(result)
             say(_line(result))
@@ -95,74 +89,6 @@ def _line(result: "Result") -> str:
     if result.exit_code == 3:
         detail = "; ".join(check.told for check in result.referee.values() if check.refuses)
     return f"seed {result.seed:4}  {word:10}  {result.timing.real_time_factor:4.1f}x  {detail}"
-
-
-@contextmanager
-def _kept(out: Path | None, kind: Kind, *, by: str) -> Iterator[list[Any]]:
-    """A list of records that are written to a file in the end, in order of a field; also where trials are broken off.
-
-    Raises:
-        InvalidInput: that file cannot be written.
-    """
-    import msgspec
-
-    if out is not None:
-        check_place(out, kind)
-    records: list[Any] = []
-    try:
-        yield records
-    finally:
-        if out is not None and records:
-            lines = [msgspec.json.encode(each) + b"\n" for each in sorted(records, key=attrgetter(by))]
-            write_over(out, b"".join(lines), kind)
-
-
-def fault_trials(
-    *,
-    only: Annotated[
-        list[str] | None,
-        Parameter(
-            help="A fault or a group of them; may be repeated. By default all.", consume_multiple=False
-        ),
-    ] = None,
-    stage: Annotated[
-        str | None, Parameter(help="Let what can set in while the cell works set in with this stage.")
-    ] = None,
-    world: WorldOptions = ANY_WORLD,
-    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
-    camera: Camera = "auto",
-    json: Json = False,
-    out: Annotated[Path | None, Parameter(help="File for the outcomes, one JSON object a line.")] = None,
-) -> int:
-    """Assemble once with each fault, at its usual size, and tell where it is noticed and by which error.
-
-    Exit code 0: every fault was noticed or did no harm; 3: with some fault the program said done, although the pump was
-    wrong or the fault should have been noticed.
-    """
-    import msgspec
-
-    from handeye.trials.faults import GOOD, chosen, counted_verdicts, try_faults
-
-    spec, plan = world.spec, compiled(default_script())
-    kinds = chosen(task().faults(spec.seed), only or ())
-    number = None if stage is None else stage_of(plan.program)(stage)
-    _some(jobs, "process")
-    with _kept(out, OUTCOMES, by="fault") as tried:
-        for trial in try_faults(plan, spec, kinds, stage=number, camera=camera, jobs=jobs):
-            tried.append(trial)
-            if json:
-                put_line(msgspec.json.encode(trial).decode())
-            else:
-                say(_told(trial))
-    (note if json else say)(f"{len(tried)} faults: {counted_verdicts(tried)}")
-    return 0 if all(trial.verdict in GOOD for trial in tried) else 3
-
-
-def _told(trial: "FaultTrial") -> str:
-    """A line on a run with a fault."""
-    where = "" if trial.line is None else f"“{trial.stage}”, line {trial.line}: "
-    number = "" if trial.error is None else f"error {trial.error}: "
-    return f"{trial.fault:32}  exit {trial.exit_code}  {trial.verdict:9}  {where}{number}{trial.message}".rstrip()
 
 
 def base_vision_trials(

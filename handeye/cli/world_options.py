@@ -25,7 +25,7 @@ Faults = Annotated[
         group=_GROUP,
         consume_multiple=False,
         help="NAME, NAME=VALUE, or either with @STAGE behind it: something that is broken, from the beginning or from "
-        "a stage on; `handeye faults` lists them. May be repeated.",
+        "a stage on; `handeye faults --list` lists them. May be repeated.",
     ),
 ]
 

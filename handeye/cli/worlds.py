@@ -1,23 +1,17 @@
 """Commands that show a world: its quantities, a picture of it."""
 
-from typing import Annotated
+from cyclopts import App
 
-from cyclopts import App, Parameter
-
-from handeye.cli.common import Height, Json, PictureFile, SceneCamera, WholeNumber, Width, put, say, screen
+from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, put, say, screen
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.files import check_place, write_over
 from handeye.tasks import task
-from handeye.variation import checked_seed
-
-Seed = Annotated[WholeNumber, Parameter(help="Number of the world; some have other parts than most.")]
 
 
 def register(app: App) -> None:
     """Add the commands to the command line."""
     app.command(world)
-    app.command(faults)
     app.command(render)
 
 
@@ -32,18 +26,6 @@ def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
         put(world_json(table, drawn))
     else:
         screen.print(world_page(table, drawn, screen.width))
-    return 0
-
-
-def faults(*, seed: Seed = 0, json: Json = False) -> int:
-    """List every fault that `--fault` can put into a run: what is broken, its unit, usual size and range."""
-    from handeye.report.faults_page import faults_json, faults_page
-
-    catalogue = task().faults(checked_seed(seed))
-    if json:
-        put(faults_json(catalogue))
-    else:
-        screen.print(faults_page(catalogue, screen.width))
     return 0
 
 

@@ -52,8 +52,8 @@ class World:
             set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
                 unit, as `".3 in"`. The quantities of a group may differ in their units: a number for `arm.friction` is
                 N m at joints that turn, and N at the one that slides.
-            faults: what is broken, as `handeye faults` lists it: `NAME`, `NAME=VALUE`, or either with `@N` behind it,
-                where it sets in with stage N of the program.
+            faults: what is broken, as `handeye faults --list` shows it: `NAME`, `NAME=VALUE`, or either with `@N`
+                behind it, where it sets in with stage N of the program.
             task: name of the task whose cell it is.
 
         Raises:

@@ -1,4 +1,4 @@
-"""The faults of a task, as a page for the terminal or as one JSON object."""
+"""The faults of a task and what must happen with each, as a page for the terminal or as one JSON object."""
 
 from itertools import groupby
 from textwrap import fill
@@ -7,6 +7,7 @@ import msgspec
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from handeye.errors import ERRORS
 from handeye.faults import Catalogue, Expected, FaultKind, Size
 
 
@@ -20,6 +21,10 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     from_start: bool
     """It can be there only from the beginning."""
     expected: Expected
+    must: str
+    """What must happen with it, a sentence."""
+    matrix: bool
+    """`handeye faults` tries it where nobody names others."""
 
 
 class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -30,7 +35,7 @@ class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
 
 def report(catalogue: Catalogue) -> FaultsReport:
     """The faults of a catalogue, in their order."""
-    return FaultsReport(faults=tuple(_reported(kind) for kind in catalogue.kinds.values()))
+    return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in catalogue.kinds.values()))
 
 
 def faults_json(catalogue: Catalogue) -> bytes:
@@ -45,19 +50,44 @@ def faults_page(catalogue: Catalogue, columns: int) -> RenderableType:
     for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):
         parts += [Text(), Text(device, "bold")] if parts else [Text(device, "bold")]
         for fault in faults:
-            told = fill(fault.meaning, columns, initial_indent="    ", subsequent_indent="    ")
-            parts += [_head(fault), Text(told, "dim")]
+            parts += [
+                _head(fault),
+                Text(_filled(fault.meaning, columns)),
+                Text(_filled(fault.must, columns), "dim"),
+            ]
     return Group(*parts)
 
 
-def _reported(kind: FaultKind) -> FaultReport:
+def _filled(sentence: str, columns: int) -> str:
+    return fill(sentence, columns, initial_indent="    ", subsequent_indent="    ")
+
+
+def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
     return FaultReport(
         name=kind.name,
         meaning=kind.meaning,
         size=kind.size,
         from_start=kind.from_start,
         expected=kind.expected,
+        must=_must(kind.expected),
+        matrix=kind.name in catalogue.matrix,
     )
+
+
+def _must(expected: Expected) -> str:
+    """What must happen with a fault, a sentence."""
+    errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
+    ways = [
+        *(["before the first stage"] if expected.at_setup else []),
+        *([f"by error {errors}"] if errors else []),
+        *(f"with “{call}”" for call in expected.calls),
+    ]
+    stops = f"stops {', or '.join(ways)}" if ways else ""
+    if stops and expected.stages:
+        stops += f", in {' or '.join(f'“{stage}”' for stage in expected.stages)}"
+    if not expected.harmless:
+        return f"The program {stops}." if stops else "Nobody has said what must happen."
+    return f"The program {stops}, or the pump comes out right." if stops else "The pump comes out right."
 
 
 def _head(fault: FaultReport) -> Text:
@@ -68,4 +98,6 @@ def _head(fault: FaultReport) -> Text:
         row.append(f"={fault.size.usual:g}{fault.size.unit.replace(' ', '')}", "cyan").append(
             f"  ({low:g} to {high:g})", "dim"
         )
+    if fault.matrix:
+        row.append("  in the matrix", "green")
     return row.append("  from the beginning only", "dim") if fault.from_start else row

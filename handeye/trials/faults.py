@@ -14,42 +14,58 @@ from handeye.record import Record
 from handeye.report.result import Result
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
+from handeye.trials.brakes import brakes_hold
 from handeye.trials.seeds import in_processes
 from handeye.variation import WorldSpec
 
-Verdict = Literal["noticed", "stopped", "harmless", "unnoticed", "silent"]
-"""How a run with a fault ended: stopped by an error that names the fault; by another one; with a right pump, as it may;
-with a right pump, although the fault should have been noticed; with a wrong pump that the program took for right."""
+Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
+"""How a run with a fault ended: with a right pump, as it may; stopped, with brakes on, by an error that names the
+fault, in a stage where that is right; likewise by another one, or in another stage; with a right pump, although the
+fault should have been noticed; stopped, and the brakes were not on; with a wrong pump that the program took for right.
+"""
 
-GOOD: tuple[Verdict, ...] = ("noticed", "stopped", "harmless")
-"""Verdicts of runs that did not end as if nothing was broken."""
+UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
+"""Outcomes that a fault must never have."""
 
 
 class FaultTrial(Record, frozen=True, kw_only=True):
     """What a run with one fault came to."""
 
-    fault: str
-    """As it would be typed."""
-    verdict: Verdict
-    exit_code: Annotated[int, msgspec.Meta(ge=0)]
+    name: str
+    """The fault, as it would be typed."""
+    outcome: Outcome
     stage: str | None
     """In which it stopped; None: it came to its end, or did not begin."""
-    line: str | None
-    """Of the script, likewise."""
-    error: int | None
     message: str
-    """The program's words, or what the referee found wrong."""
+    """What the operator was told, or what the referee found wrong."""
+    error: int | None
+    line: str | None
+    """Of the script, where it stopped in a stage."""
+    exit_code: Annotated[int, msgspec.Meta(ge=0)]
+
+
+class FaultMatrix(Record, frozen=True, kw_only=True):
+    """What runs with one fault each came to."""
+
+    n: int
+    undetected: int
+    faults: tuple[FaultTrial, ...]
+
+
+def matrix_of(trials: Sequence[FaultTrial]) -> FaultMatrix:
+    """Trials in the order of their names."""
+    found = tuple(sorted(trials, key=lambda trial: trial.name))
+    undetected = sum(trial.outcome in UNDETECTED for trial in found)
+    return FaultMatrix(n=len(found), undetected=undetected, faults=found)
 
 
 def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
-    """The faults of some names and groups; all, if there are none.
+    """The faults of some names and groups; those of the matrix, if there are none.
 
     Raises:
         InvalidInput: there is neither a fault nor a group of a name.
     """
-    if not names:
-        return list(catalogue.kinds.values())
-    found = [kind for name in names for kind in catalogue.select(name)]
+    found = [kind for name in names or catalogue.matrix for kind in catalogue.select(name)]
     return list({kind.name: kind for kind in found}.values())
 
 
@@ -70,32 +86,43 @@ def try_faults(
 def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
     """What a run in a world with one fault comes to."""
     (fault,), done = world.faults, run_plan(plan, world=world, camera=camera)
-    return trial_of(fault, task(done.result.task).faults(world.seed), done.result, done.runner.events)
+    catalogue, braked = task(done.result.task).faults(world.seed), brakes_hold(done.runner.cell)
+    return trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
 
 
-def trial_of(fault: Fault, catalogue: Catalogue, result: Result, events: Sequence[AnyEvent]) -> FaultTrial:
+def trial_of(
+    fault: Fault, catalogue: Catalogue, result: Result, events: Sequence[AnyEvent], *, braked: bool
+) -> FaultTrial:
     """What a run with a fault came to, by its result and by what happened."""
-    wrong = [check.sentence for check in result.referee.values() if not check.ok]
     begun = [event for event in events if isinstance(event, StepStarted)]
     stopped = not result.completed and begun
     return FaultTrial(
-        fault=catalogue.told(fault),
-        verdict=verdict(catalogue.kind(fault.name).expected, result),
-        exit_code=result.exit_code,
+        name=catalogue.told(fault),
+        outcome=outcome(catalogue.kind(fault.name).expected, result, braked=braked),
         stage=result.stopped_at,
-        line=begun[-1].place if stopped else None,
+        message=_message(result),
         error=result.error,
-        message=result.message if not result.completed else "; ".join(wrong),
+        line=begun[-1].place if stopped else None,
+        exit_code=result.exit_code,
     )
 
 
-def verdict(expected: Expected, result: Result) -> Verdict:
-    """How a run ended that should have ended as expected."""
+def _message(result: Result) -> str:
+    """What the operator was told, or what the referee found wrong."""
+    if result.completed:
+        return "; ".join(check.told for check in result.referee.values() if check.refuses)
+    return result.message
+
+
+def outcome(expected: Expected, result: Result, *, braked: bool) -> Outcome:
+    """How a run ended that should have ended as expected; `braked`: the brakes were on when it had."""
     if result.exit_code == 3:
         return "silent"
     if result.exit_code == 0:
-        return "harmless" if expected.harmless else "unnoticed"
-    return "noticed" if _named(expected, result) else "stopped"
+        return "recovered" if expected.harmless else "unnoticed"
+    if not braked:
+        return "unbraked"
+    return "stopped" if _named(expected, result) and _placed(expected, result) else "misnamed"
 
 
 def _named(expected: Expected, result: Result) -> bool:
@@ -105,7 +132,12 @@ def _named(expected: Expected, result: Result) -> bool:
     return expected.at_setup if result.stopped_at is None else result.message in expected.calls
 
 
-def counted_verdicts(trials: Sequence[FaultTrial]) -> str:
+def _placed(expected: Expected, result: Result) -> bool:
+    """See whether a run stopped where that name is the right one."""
+    return not expected.stages or result.stopped_at is None or result.stopped_at in expected.stages
+
+
+def counted_outcomes(trials: Sequence[FaultTrial]) -> str:
     """How many runs ended how, as a sentence."""
-    counts = Counter(trial.verdict for trial in trials)
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.most_common())
+    counts = Counter(trial.outcome for trial in trials)
+    return ", ".join(f"{count} {outcome}" for outcome, count in counts.most_common())

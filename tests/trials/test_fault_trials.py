@@ -1,14 +1,25 @@
 """What a run with a fault came to is judged by the error that should name it."""
 
+import json
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+
 import msgspec
+import numpy as np
 import pytest
+from conftest import Command
 from results import result
 
 from handeye.errors import InvalidInput
 from handeye.events import StepStarted
 from handeye.faults import Catalogue, Expected, Fault, FaultKind
 from handeye.report.result import Result
-from handeye.trials.faults import chosen, counted_verdicts, trial_of, verdict
+from handeye.tasks import task
+from handeye.trials import faults as fault_trials
+from handeye.trials.brakes import brakes_hold
+from handeye.trials.faults import FaultTrial, chosen, counted_outcomes, matrix_of, outcome, trial_of
+from handeye.variation import WorldSpec
 
 STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
 CALLED = msgspec.structs.replace(STOPPED, error=None, message="THE ROTOR IS HARD TO TURN")
@@ -25,40 +36,110 @@ CATALOGUE = Catalogue(
 @pytest.mark.parametrize(
     ("expected", "ended", "found"),
     [
-        (Expected(errors=(30, 32)), STOPPED, "noticed"),
-        (Expected(errors=(23,)), STOPPED, "stopped"),
-        (Expected(at_setup=True), SET_UP, "noticed"),
-        (Expected(errors=(32,)), SET_UP, "stopped"),
-        (Expected(calls=("THE ROTOR IS HARD TO TURN",)), CALLED, "noticed"),
-        (Expected(at_setup=True, errors=(32,)), CALLED, "stopped"),
+        (Expected(errors=(30, 32)), STOPPED, "stopped"),
+        (Expected(errors=(32,), stages=("check the gasket",)), STOPPED, "stopped"),
+        (Expected(errors=(32,), stages=("turn the rotor",)), STOPPED, "misnamed"),
+        (Expected(errors=(23,)), STOPPED, "misnamed"),
+        (Expected(at_setup=True), SET_UP, "stopped"),
+        (Expected(at_setup=True, errors=(2,), stages=("turn the rotor",)), SET_UP, "stopped"),
+        (Expected(errors=(32,)), SET_UP, "misnamed"),
+        (Expected(calls=("THE ROTOR IS HARD TO TURN",)), CALLED, "stopped"),
+        (Expected(at_setup=True, errors=(32,)), CALLED, "misnamed"),
         (Expected(errors=(32,)), RIGHT, "unnoticed"),
-        (Expected(harmless="It is."), RIGHT, "harmless"),
-        (Expected(harmless="It is."), STOPPED, "stopped"),
+        (Expected(harmless="It is."), RIGHT, "recovered"),
+        (Expected(harmless="It is."), STOPPED, "misnamed"),
         (Expected(harmless="It is."), WRONG, "silent"),
         (Expected(errors=(32,)), WRONG, "silent"),
     ],
 )
-def test_a_verdict_asks_for_the_right_name(expected: Expected, ended: Result, found: str) -> None:
-    assert verdict(expected, ended) == found
+def test_an_outcome_asks_for_the_right_name_in_the_right_stage(
+    expected: Expected, ended: Result, found: str
+) -> None:
+    assert outcome(expected, ended, braked=True) == found
+
+
+@pytest.mark.parametrize("ended", [STOPPED, CALLED, SET_UP])
+def test_a_stop_without_brakes_is_undetected_whatever_its_name(ended: Result) -> None:
+    expected = Expected(errors=(32,), calls=("THE ROTOR IS HARD TO TURN",), at_setup=True)
+    assert outcome(expected, ended, braked=False) == "unbraked"
 
 
 def test_a_trial_tells_where_the_run_stopped() -> None:
     events = [StepStarted(time=1.0, step=n, line=line, text="") for n, line in enumerate((7, 9))]
-    trial = trial_of(Fault(name="picture.frozen", stage=2), CATALOGUE, STOPPED, events)
-    assert (trial.fault, trial.stage, trial.line, trial.error, trial.verdict) == (
-        "picture.frozen@2", "check the gasket", "9", 32, "noticed",
+    trial = trial_of(Fault(name="picture.frozen", stage=2), CATALOGUE, STOPPED, events, braked=True)
+    assert (trial.name, trial.stage, trial.line, trial.error, trial.outcome) == (
+        "picture.frozen@2", "check the gasket", "9", 32, "stopped",
     )  # fmt: skip
 
 
-def test_faults_are_chosen_by_name_and_by_group() -> None:
+def test_faults_are_chosen_by_name_and_by_group_and_by_the_matrix_if_nobody_names_any() -> None:
     assert [kind.name for kind in chosen(CATALOGUE, ["picture", "picture.dark", "lamp.dead"])] == [
         "picture.dark", "picture.frozen", "lamp.dead",
     ]  # fmt: skip
     assert len(chosen(CATALOGUE, [])) == 3
+    some = Catalogue(*CATALOGUE.kinds.values(), matrix=("lamp.dead",))
+    assert [kind.name for kind in chosen(some, [])] == ["lamp.dead"]
     with pytest.raises(InvalidInput, match=r"^there is no fault `lamp.daed`; did you mean `lamp.dead`\?$"):
         chosen(CATALOGUE, ["lamp.daed"])
 
 
-def test_verdicts_are_counted() -> None:
-    trials = [trial_of(Fault(name=name), CATALOGUE, STOPPED, []) for name in CATALOGUE.kinds]
-    assert counted_verdicts(trials) == "2 stopped, 1 noticed"
+def test_outcomes_are_counted() -> None:
+    trials = [
+        trial_of(Fault(name=name), CATALOGUE, STOPPED, [], braked=name != "lamp.dead")
+        for name in CATALOGUE.kinds
+    ]
+    assert counted_outcomes(trials) == "1 unbraked, 1 misnamed, 1 stopped"
+    matrix = matrix_of(trials)
+    assert (matrix.n, matrix.undetected, [trial.name for trial in matrix.faults]) == (
+        3, 1, ["lamp.dead", "picture.dark", "picture.frozen"],
+    )  # fmt: skip
+
+
+def test_the_matrix_of_the_pump_has_thirty_faults_and_more() -> None:
+    assert len(task().faults(0).matrix) >= 30
+
+
+@pytest.mark.slow
+def test_brakes_hold_until_the_arm_is_driven() -> None:
+    cell = task().cell(WorldSpec(seed=3), "ray")
+    assert brakes_hold(cell)
+    cell.devices.arm.drive(np.zeros(6))
+    assert not brakes_hold(cell)
+    cell.advance(1 / 60)
+    cell.devices.arm.drive(None)
+    assert not brakes_hold(cell)  # told, and not yet done
+    cell.advance(1 / 60)
+    assert brakes_hold(cell)
+
+
+def broken_off(*_: object, **__: object) -> Iterator[FaultTrial]:
+    """One trial, and then Ctrl-C."""
+    yield trial_of(Fault(name="picture.frozen"), CATALOGUE, RIGHT, [], braked=True)
+    raise KeyboardInterrupt
+
+
+def test_the_matrix_that_is_interrupted_tells_what_has_ended(
+    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(fault_trials, "try_faults", broken_off)
+    place = tmp_path / "kept.jsonl"
+    code, out, err = command("faults", "--out", str(place))
+    assert (code, "1 faults: 1 unnoticed; 1 undetected" in out) == (130, True)
+    assert f"1 of {len(task().faults(0).matrix)} faults, about " in err
+    assert json.loads(place.read_text())["outcome"] == "unnoticed"
+
+
+def test_a_fault_that_goes_undetected_has_an_exit_code_of_its_own(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(fault_trials, "try_faults", lambda *_, **__: islice(broken_off(), 1))
+    code, out, _ = command("faults", "--only", "picture.frozen", "--json")
+    told = json.loads(out)
+    assert (code, told["n"], told["undetected"]) == (3, 1, 1)
+    assert {"name", "outcome", "stage", "message"} <= told["faults"][0].keys()
+
+
+@pytest.mark.parametrize("words", [("--only", "rotr"), ("--all", "--only", "rotor"), ("--jobs", "0")])
+def test_what_cannot_be_tried_is_bad_input(command: Command, words: tuple[str, ...]) -> None:
+    code, out, err = command("faults", *words)
+    assert (code, out, err.count("\n")) == (2, "", 1)

@@ -1,15 +1,58 @@
 """The catalogue of what can be broken in the pump's world."""
 
 from dataclasses import replace
+from typing import Final
 
 from handeye.faults import Catalogue
 from handeye.tasks.water_pump.device_faults import device_faults
 from handeye.tasks.water_pump.noticing import expected
 from handeye.tasks.water_pump.part_faults import part_faults
 
+MATRIX: Final = (
+    "finger_switch.stuck_closed",
+    "finger_switch.minus_y.stuck_open",
+    "gap_potentiometer.stuck",
+    "gap_potentiometer.off",
+    "finger_motor.dead",
+    "force.off_zero.z",
+    "potentiometer.1.jump",
+    "potentiometer.3.stuck",
+    "potentiometer.4.drift",
+    "tachometer.2.dead",
+    "drive.2.weak",
+    "brake.2.slips",
+    "screwdriver.motor.dead",
+    "screwdriver.current.dead",
+    "screwdriver.missing",
+    "magnet.weak",
+    "bit.smooth",
+    "lamp.dead",
+    "picture.dark",
+    "picture.frozen",
+    "base.missing",
+    "base.turned",
+    "base.reversed",
+    "pin.1.missing",
+    "pin.2.thick",
+    "hole.2.blocked",
+    "hole.3.blocked",
+    "thread.1.scarred",
+    "gasket.missing",
+    "gasket.doubled",
+    "gasket.off.x",
+    "gasket.reversed",
+    "top.missing",
+    "top.off.y",
+    "top.reversed",
+    "screw.3.missing",
+    "screw.1.burred",
+    "rotor.jammed",
+)
+"""By what `handeye faults` tries a program: of like faults of several joints, pins, screws and holes one."""
+
 
 def catalogue(seed: int) -> Catalogue:
     """What can be broken in the world of a seed: devices, then parts."""
     devices, parts = device_faults(), part_faults(seed)
     kinds = (*(fault.kind for fault in devices), *(fault.kind for fault in parts))
-    return Catalogue(*(replace(kind, expected=expected(kind.name)) for kind in kinds))
+    return Catalogue(*(replace(kind, expected=expected(kind.name)) for kind in kinds), matrix=MATRIX)

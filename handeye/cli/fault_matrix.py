@@ -1,0 +1,125 @@
+"""The command that tries faults, one a run: what each comes to, and whether it is noticed."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put, put_json, say, screen
+from handeye.cli.kept_records import kept
+from handeye.cli.tally import Tally
+from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
+from handeye.errors import InvalidInput
+from handeye.files import Kind
+from handeye.runs.scripts import default_script
+from handeye.tasks import task
+
+if TYPE_CHECKING:
+    from handeye.faults import Catalogue, FaultKind
+    from handeye.planfile.plan import Plan
+    from handeye.trials.faults import FaultTrial
+    from handeye.variation import WorldSpec
+
+OUTCOMES: Final = Kind("list of outcomes", rb'\{"name":')
+
+
+def register(app: App) -> None:
+    """Add the command to the command line."""
+    app.command(faults)
+
+
+def faults(
+    *,
+    only: Annotated[
+        list[str] | None,
+        Parameter(help="A fault or a group of them; may be repeated.", consume_multiple=False),
+    ] = None,
+    every: Annotated[bool, Parameter(name="--all", help="All faults, not those of the matrix only.")] = False,
+    listed: Annotated[
+        bool, Parameter(name="--list", help="Try nothing; list the faults, and what must happen with each.")
+    ] = False,
+    stage: Annotated[
+        str | None, Parameter(help="Let what can set in while the cell works set in with this stage.")
+    ] = None,
+    world: WorldOptions = ANY_WORLD,
+    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
+    camera: Camera = "auto",
+    json: Json = False,
+    out: Annotated[Path | None, Parameter(help="File for the outcomes, one JSON object a line.")] = None,
+) -> int:
+    """Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
+
+    A fault is `recovered` from, or the program is `stopped` by its right name, in the right stage, with the brakes on.
+    Less good is a stop by another name (`misnamed`). Undetected are `unnoticed` faults that should have been noticed, a
+    stop that leaves the arm `unbraked`, and a wrong pump that the program took for right (`silent`).
+
+    A run takes up to a minute of a processor; about how long the rest takes is told on standard error. Ctrl-C ends it,
+    and what has ended stays told.
+
+    Exit code 0: no fault was undetected; 3: one was; 2: bad input; 130: interrupted.
+    """
+    from handeye.trials.faults import chosen
+
+    spec = world.spec
+    catalogue = task().faults(spec.seed)
+    if every and only:
+        raise InvalidInput("--all excludes --only")
+    if listed:
+        return _list(catalogue, json=json)
+    kinds = chosen(catalogue, tuple(catalogue.kinds) if every else only or ())
+    if jobs < 1:
+        raise InvalidInput(f"at least one process is needed; {jobs} is too few")
+    plan = compiled(default_script())
+    number = None if stage is None else stage_of(plan.program)(stage)
+    return _tried(plan, spec, kinds, number, jobs=jobs, camera=camera, json=json, out=out)
+
+
+def _list(catalogue: "Catalogue", *, json: bool) -> int:
+    from handeye.report.faults_page import faults_json, faults_page
+
+    if json:
+        put(faults_json(catalogue))
+    else:
+        screen.print(faults_page(catalogue, screen.width))
+    return 0
+
+
+def _tried(
+    plan: "Plan",
+    world: "WorldSpec",
+    kinds: "list[FaultKind]",
+    stage: int | None,
+    *,
+    jobs: int,
+    camera: str,
+    json: bool,
+    out: Path | None,
+) -> int:
+    """Carry the plan out with each fault, and tell of each as it ends; the exit code."""
+    from handeye.trials.faults import counted_outcomes, matrix_of, try_faults
+
+    tally = Tally(len(kinds), "faults")
+    note(f"{len(kinds)} runs, {jobs} at a time")
+    with kept(out, OUTCOMES, by="name") as tried:
+        try:
+            with tally:
+                for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, jobs=jobs):
+                    tried.append(trial)
+                    if not json:
+                        with tally.aside():
+                            say(_told(trial))
+                    tally.one_more()
+        finally:
+            matrix = matrix_of(tried)
+            if json:
+                put_json(matrix)
+            elif tried:
+                say(f"{matrix.n} faults: {counted_outcomes(tried)}; {matrix.undetected} undetected")
+    return 3 if matrix.undetected else 0
+
+
+def _told(trial: "FaultTrial") -> str:
+    """A line on a run with a fault."""
+    where = "" if trial.line is None else f"“{trial.stage}”, line {trial.line}: "
+    number = "" if trial.error is None else f"error {trial.error}: "
+    return f"{trial.name:32}  {trial.outcome:9}  {where}{number}{trial.message}".rstrip()

@@ -1,0 +1,77 @@
+"""How many of many trials have ended, and about how long the others will take, on standard error."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import TracebackType
+from typing import Final, Self
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn
+
+from handeye.cli.common import notes, say
+
+LINES: Final = 20
+"""Lines told of all trials together where there is no terminal, and one of the first."""
+
+
+class Tally:
+    """A bar on a terminal; elsewhere a line now and then."""
+
+    def __init__(
+        self,
+        total: int,
+        what: str,
+        console: Console = notes,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._total, self._what, self._console, self._clock = total, what, console, clock
+        self._ended, self._began = 0, clock()
+        self._bar = Progress(
+            TextColumn("{task.description}"), BarColumn(bar_width=20), console=console, transient=True,
+            disable=not console.is_terminal,
+        )  # fmt: skip
+        self._task = self._bar.add_task(self._told(), total=total)
+
+    def __enter__(self) -> Self:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.stop()
+
+    def one_more(self) -> None:
+        """Count a trial that has ended."""
+        self._ended += 1
+        self._bar.update(self._task, completed=self._ended, description=self._told())
+        if not self._console.is_terminal and self._due():
+            say(self._told(), self._console)
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """While something else is printed: a bar that is there is out of the way."""
+        self._bar.stop()
+        try:
+            yield
+        finally:
+            self._bar.start()
+
+    def _due(self) -> bool:
+        share = self._ended * LINES // self._total
+        return self._ended == 1 or share > (self._ended - 1) * LINES // self._total
+
+    def _told(self) -> str:
+        left = self._total - self._ended
+        said = f"{self._ended} of {self._total} {self._what}"
+        if not left or not self._ended:
+            return said
+        return f"{said}, {duration((self._clock() - self._began) / self._ended * left)} to go"
+
+
+def duration(seconds: float) -> str:
+    """A duration in words: `about 40 s`, `about 12 min`."""
+    if seconds < 90:
+        return f"about {max(10, round(seconds, -1)):.0f} s"
+    return f"about {seconds / 60:.0f} min"
