@@ -90,6 +90,10 @@
       byId("pace").value = pace === null ? "free" : `${pace}x`;
       if (reply.breaks) marked(reply.command.startsWith("break "), reply.breaks);
     },
+    television: (figure) => {
+      byId("television").innerHTML = figure; // markup of the server, which has escaped all text in it
+      byId("television").hidden = !figure;
+    },
     refused: (sentence) => tell(sentence),
     viewers: (count, { drives: mine, free }) => {
       drives = mine;

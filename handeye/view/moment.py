@@ -6,12 +6,14 @@ from typing import Final
 
 import numpy as np
 
+from handeye.events import AnyEvent
 from handeye.execution.servo_period import ServoPeriod
 from handeye.pose import Array
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.trace.frames import Frames, NoFrames
 from handeye.trace.messages import Poses
+from handeye.view.television import NEWS, television
 
 FIGURES: Final = 5
 """Figures before the joints: time, gap, and the three of the force."""
@@ -41,7 +43,7 @@ class Moment:
 
 
 class Newest(Observer):
-    """Keeps the newest moment of a run, for whoever may come and look; it is read from any thread."""
+    """Keeps the newest moment and picture of a run, for whoever may come and look; they are read from any thread."""
 
     def __init__(self, runner: Runner) -> None:
         cell = runner.system.cell
@@ -50,6 +52,11 @@ class Newest(Observer):
         self._joints: Array = np.full(len(self.frames.joints), np.nan)
         self._gap = np.nan
         self.moment = self._now(None)
+        self.television = television(runner)
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, NEWS):
+            self.television = television(self._runner)
 
     def tick(self, period: ServoPeriod) -> None:
         sensed = period.sensed
@@ -58,6 +65,7 @@ class Newest(Observer):
 
     def undone(self, events: int) -> None:
         self.moment = self._now(None)
+        self.television = television(self._runner)
 
     def _now(self, force: Array | None) -> Moment:
         poses = self.frames.poses()

@@ -54,7 +54,7 @@ def live_page(runner: Runner, newest: Newest) -> bytes:
     body = element(
         "body",
         _header(program),
-        element("main", element("div", _viewer(), _script(program), class_="beside")),
+        element("main", element("div", _viewer(), _aside(program), class_="beside")),
         element("script", json_markup(facts), id="facts", type="application/json"),
         packed("scene", scene.scene_bytes(model)),
         packed("tracks", _first_tracks(names, newest.moment.poses)),
@@ -113,8 +113,10 @@ def _talk() -> Markup:
     return element("div", told, element("form", line, id="form"), class_="talk")
 
 
-def _script(program: Program) -> Markup:
-    return element(
+def _aside(program: Program) -> Markup:
+    """What stands beside the cell: the television, once there is a picture, and the script."""
+    television = element("div", id="television", role="region", aria_label="television", hidden=True)
+    script = element(
         "div",
         listing(program),
         id="script",
@@ -123,6 +125,7 @@ def _script(program: Program) -> Markup:
         role="region",
         aria_label="script",
     )
+    return element("div", television, script, class_="aside")
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:

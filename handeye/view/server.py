@@ -169,8 +169,8 @@ class Server:
             self._tell_drive()
 
     async def _feed(self, viewer: Viewer) -> None:
-        """Send what is told, and the newest moment, at the viewer's own pace."""
-        shown = None
+        """Send what is told, and the newest moment and picture, at the viewer's own pace."""
+        shown, pictured = None, None
         try:
             while True:
                 while viewer.waiting:
@@ -179,6 +179,10 @@ class Server:
                 if moment is not shown:
                     await viewer.connection.send(moment.packed)
                     shown = moment
+                television = self._newest.television
+                if television is not pictured:
+                    await viewer.connection.send(television.message)
+                    pictured = television
                 await asyncio.sleep(1 / RATE)
         except ConnectionClosed:
             pass

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
+import numpy as np
 import pytest
 from toy_system import begin_toy
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -15,12 +16,17 @@ from websockets.sync.client import ClientConnection, connect
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
 from handeye.runs.runner import Runner
+from handeye.see.facts.seen import SeenPicture
 from handeye.view.driving import drive
 from handeye.view.link import Link
 from handeye.view.moment import Newest
 from handeye.view.server import LARGEST, Server
+from handeye.view.television import Television
 
 PAGE = b"<!doctype html>the page"
+PICTURE = SeenPicture(
+    time=1.0, name="NEAR", lens=0.05, picture=np.zeros((3, 4), dtype=np.uint8), marks=(), findings=()
+)
 
 
 class Theatre:
@@ -31,7 +37,8 @@ class Theatre:
         runner = Runner(begin_toy())
         self.stepper = Stepper(runner)
         self.server = open_.enter_context(Server(Link()))
-        self.server.show(PAGE, Newest(runner))
+        self.newest = Newest(runner)
+        self.server.show(PAGE, self.newest)
 
     @property
     def port(self) -> int:
@@ -175,6 +182,14 @@ def test_who_comes_later_is_told_what_has_been_told(theatre: Theatre) -> None:
     theatre.go("step 3")
     viewer = theatre.open.enter_context(connect(**theatre.way()))
     assert [heard(viewer, "reply")["reply"]["position"] for _ in range(3)] == [0, 3, 3]
+
+
+def test_everybody_is_shown_the_picture_that_was_taken_last(theatre: Theatre) -> None:
+    viewer = theatre.viewer()
+    assert heard(viewer, "television") == {"television": ""}
+    theatre.newest.television = Television(PICTURE)
+    for looking in (viewer, theatre.viewer()):
+        assert "<b>NEAR</b>" in heard(looking, "television")["television"]
 
 
 def test_when_the_run_has_been_left_everybody_is_told() -> None:

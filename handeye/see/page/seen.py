@@ -37,6 +37,11 @@ def _content(pictures: Sequence[SeenPicture], lost: int) -> Iterator[Markup]:
 
 
 def _figure(seen: SeenPicture) -> Markup:
+    return figure(seen, to_moment(seen.time, f"{seen.name}, {clock(seen.time)}"))
+
+
+def figure(seen: SeenPicture, name: str) -> Markup:
+    """A picture under its name, with what was found in it drawn over it and told beneath."""
     png = data_address("image/png", picture_png(seen.picture))
     rows, columns = seen.picture.shape
     told = [_told(finding) for finding in seen.findings]
@@ -49,10 +54,9 @@ def _figure(seen: SeenPicture) -> Markup:
         class_="marks",
         aria_hidden="true",
     )
-    link = to_moment(seen.time, f"{seen.name}, {clock(seen.time)}")
     caption = element(
         "figcaption",
-        element("b", link),
+        element("b", name),
         f" through the {seen.lens / MILLIMETRE:.0f} mm lens",
         *(element("span", line) for line in told),
     )

@@ -1,0 +1,79 @@
+"""The picture of the television camera that those who look on are shown, with what was found in it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import msgspec
+
+from handeye.events import AnyEvent, ErrorRaised, PartInspected, PartSeen, PictureTaken
+from handeye.execution.state import ExecutionState, Found
+from handeye.program.program import Program
+from handeye.runs.programs import ProgramSystem
+from handeye.runs.runner import Runner
+from handeye.see.facts.seen import Finding, SeenPicture
+from handeye.see.page.seen import figure
+from handeye.trace.steps import DoneStep, done_steps
+
+NEWS = PictureTaken | PartSeen | PartInspected | ErrorRaised
+"""Events after which there is another picture, or more on it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Television:
+    """What the television shows; a value that stays what it is, whatever the run does."""
+
+    picture: SeenPicture | None = None
+    """The picture that the program took or examined last, timed by the cell's clock; None: it has taken none."""
+
+    @cached_property
+    def message(self) -> str:
+        """The same for pages: markup, none where there is no picture."""
+        shown = "" if self.picture is None else figure(self.picture, self.picture.name)
+        return msgspec.json.encode({"television": str(shown)}).decode()
+
+
+def television(runner: Runner) -> Television:
+    """What the television shows of a run."""
+    system = runner.system
+    if not isinstance(system, ProgramSystem):
+        return Television()
+    return shown(runner.events, system.plan.program, system.state)
+
+
+def shown(events: Sequence[AnyEvent], program: Program, state: ExecutionState) -> Television:
+    """What the television shows after some events, copied from what the program remembers."""
+    taken, findings = _last(events, program)
+    if taken is None or taken.picture not in state.shots:
+        return Television()
+    found = state.found.get(taken.picture, Found())
+    return Television(
+        SeenPicture(
+            time=taken.time,
+            name=taken.picture,
+            lens=taken.lens,
+            picture=state.shots[taken.picture].picture.copy(),
+            marks=tuple(found.marks()),
+            findings=tuple(findings),
+        )
+    )
+
+
+def _last(events: Sequence[AnyEvent], program: Program) -> tuple[PictureTaken | None, Sequence[Finding]]:
+    """The picture that was taken or looked at last, and what was found in it."""
+    taken: dict[str, PictureTaken] = {}
+    findings: dict[str, list[Finding]] = {}
+    last = None
+    for step in done_steps(events):
+        for event in step.events:
+            if isinstance(event, PictureTaken):
+                taken[event.picture], findings[event.picture], last = event, [], event.picture
+        examined = _examined(step, program)
+        if examined in taken:
+            findings[examined] += [event for event in step.events if isinstance(event, Finding)]
+            last = examined
+    return (None, ()) if last is None else (taken[last], findings[last])
+
+
+def _examined(step: DoneStep, program: Program) -> str | None:
+    return program.steps[step.started.step].operation.examines
