@@ -85,17 +85,28 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
         InvalidInput: there is no such run, or the report cannot be written there.
     """
     from handeye.files import check_place, write_over
-    from handeye.see.animation import animation
-    from handeye.see.facts.scene import check_scene
-    from handeye.see.page.document import REPORT, report_page
-    from handeye.see.photographs import album
+    from handeye.see.page.document import REPORT
 
     check_place(place, REPORT)
     if place.exists() and not overwrite:
         raise InvalidInput(f"{place} holds a report already; --overwrite replaces it")
+    write_over(place, page_of(run), REPORT)
+
+
+def page_of(run: Path) -> bytes:
+    """The page of the run in a folder or a trace.
+
+    Raises:
+        InvalidInput: there is none, or an older handeye recorded it.
+    """
+    from handeye.see.animation import animation
+    from handeye.see.facts.scene import check_scene
+    from handeye.see.page.document import report_page
+    from handeye.see.photographs import album
+
     recorded = read_recorded(run)
     check_scene(recorded)
-    write_over(place, report_page(recorded, album(recorded), animation(recorded)), REPORT)
+    return report_page(recorded, album(recorded), animation(recorded))
 
 
 def read_recorded(run: Path) -> "Recorded":

@@ -1,19 +1,23 @@
-"""Command that shows the live cell in a browser."""
+"""Command that shows the cell in a browser: a run that is carried out there, or one that was recorded."""
 
 from pathlib import Path
-from typing import Annotated
+from threading import Event
+from typing import Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Out, WholeNumber, compiled
+from handeye.cli.common import Camera, Out, WholeNumber, compiled, note, say
+from handeye.cli.reports import page_of
 from handeye.cli.runs import Overwrite
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.errors import InvalidInput
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
-DEMO: tuple[str, ...] = ("pace 1x", "continue")
+DEMO: Final = ("pace 1x", "continue")
 """What is said to the run of the demo at first."""
+_RECORDED: Final = (".mcap", ".part", ".jsonl")
+"""Endings of what a run has left."""
 
 
 def register(app: App) -> None:
@@ -24,7 +28,10 @@ def register(app: App) -> None:
 def view(
     file: Annotated[
         Path | None,
-        Parameter(help="A plan made by `handeye plan` (.plan.json); by default that of the pump."),
+        Parameter(
+            help="A plan made by `handeye plan` (.plan.json), by default that of the pump; or the folder or trace of a "
+            "run, which is shown as its report."
+        ),
     ] = None,
     /,
     *,
@@ -38,12 +45,12 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Show the live cell in a browser, and step a run there.
+    """Show the live cell in a browser, and step a run there; or show a run that was recorded.
 
     Prints the address to open, which nobody can guess and no other computer can reach. Any number of pages may look
     on; one drives. Nobody who looks on changes anything of the run, or slows it.
 
-    Exit codes are those of `run`.
+    Exit codes are those of `run`; of a recorded run 0, when Ctrl-C ends it.
     """
     from handeye import resources
     from handeye.cli.job import Job, work
@@ -54,8 +61,12 @@ def view(
 
     if demo and file is not None:
         raise InvalidInput("--demo brings its own program; give a plan or --demo")
-    if file is not None and file.is_dir():
-        raise InvalidInput(f"{file} is a folder; `handeye report` makes a page of the run in one")
+    if file is not None and (file.is_dir() or file.suffix in _RECORDED):
+        if world != ANY_WORLD or fault or camera != "auto" or out is not None or overwrite:
+            raise InvalidInput(
+                f"{file} is a run that was carried out; of the options, only --port goes with it"
+            )
+        return _play(file, port)
     link = Link()
     with Server(link, port) as server:
         plan = (
@@ -66,3 +77,23 @@ def view(
             link.say(line)
         start = Checkpoint(setup=setup)
         return work(Job(start=start, out=out, overwrite=overwrite, step=True, on_stop="ask", server=server))
+
+
+def _play(run: Path, port: int) -> int:
+    """Show the report of a run until Ctrl-C.
+
+    Raises:
+        InvalidInput: there is no such run, or the port cannot be had.
+    """
+    from handeye.view.link import Link
+    from handeye.view.server import Server
+
+    with Server(Link(), port) as server:
+        note("making the page")
+        server.show(page_of(run))
+        say(server.access.address, whole=True)
+        try:
+            Event().wait()
+        except KeyboardInterrupt:
+            note("")
+    return 0

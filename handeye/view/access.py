@@ -12,6 +12,7 @@ HOST: Final = "127.0.0.1"
 """The only interface that the server listens on."""
 PAGE: Final = "/"
 LIVE: Final = "/live"
+NOTHING: Final = "there is nothing here"
 _NAMES: Final = (HOST, "localhost")
 
 
@@ -53,7 +54,7 @@ class Access:
                 HTTPStatus.FORBIDDEN, "the token is missing or wrong: open the address that handeye printed"
             )
         if path not in (PAGE, LIVE):
-            return Refusal(HTTPStatus.NOT_FOUND, "there is nothing here")
+            return Refusal(HTTPStatus.NOT_FOUND, NOTHING)
         return None
 
     @property

@@ -21,7 +21,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from handeye.errors import InvalidInput
-from handeye.view.access import HOST, LIVE, Access
+from handeye.view.access import HOST, LIVE, NOTHING, Access
 from handeye.view.link import Link
 from handeye.view.moment import Newest
 
@@ -83,11 +83,12 @@ class Server:
         self._loop = asyncio.new_event_loop()
         self._up = Event()
 
-    def show(self, page: bytes, newest: Newest) -> None:
-        """Begin to serve a page that is fed with the newest moments.
+    def show(self, page: bytes, newest: Newest | None = None) -> None:
+        """Begin to serve a page.
 
         Args:
             page: it and all that it needs, as one file.
+            newest: the moments that it is fed with; None: there is nothing to come, and no socket.
         """
         self._page, self._newest = page, newest
         self.link.tell = lambda text: self._call(lambda: self._tell(text))
@@ -144,18 +145,19 @@ class Server:
         if refusal is not None:
             return _response(refusal.status, "text/plain", f"{refusal.sentence}\n".encode())
         if request.path.partition("?")[0] == LIVE:
-            return None
+            return None if self._newest is not None else _nothing()
         return _response(HTTPStatus.OK, "text/html", self._page)
 
     async def _look_on(self, connection: ServerConnection) -> None:
         """Somebody looks on, until the page is closed."""
+        assert self._newest is not None
         viewer = Viewer(connection)
         self._viewers.append(viewer)
         if self._driver is None:
             self._driver = viewer
         viewer.waiting.extend(self._told)
         self._tell_drive()
-        feeding = asyncio.create_task(self._feed(viewer))
+        feeding = asyncio.create_task(self._feed(viewer, self._newest))
         try:
             async for wish in connection:
                 self._hear(viewer, wish)
@@ -168,18 +170,18 @@ class Server:
                 self._driver = None
             self._tell_drive()
 
-    async def _feed(self, viewer: Viewer) -> None:
+    async def _feed(self, viewer: Viewer, newest: Newest) -> None:
         """Send what is told, and the newest moment and picture, at the viewer's own pace."""
         shown, pictured = None, None
         try:
             while True:
                 while viewer.waiting:
                     await viewer.connection.send(viewer.waiting.popleft())
-                moment = self._newest.moment
+                moment = newest.moment
                 if moment is not shown:
                     await viewer.connection.send(moment.packed)
                     shown = moment
-                television = self._newest.television
+                television = newest.television
                 if television is not pictured:
                     await viewer.connection.send(television.message)
                     pictured = television
@@ -248,6 +250,10 @@ def _taken(port: int) -> socket.socket:
 
 def _message(**fields: object) -> str:
     return msgspec.json.encode(fields).decode()
+
+
+def _nothing() -> Response:
+    return _response(HTTPStatus.NOT_FOUND, "text/plain", f"{NOTHING}\n".encode())
 
 
 def _response(status: HTTPStatus, kind: str, body: bytes) -> Response:
