@@ -128,6 +128,16 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
         (("trials", "assembly", "--seeds", "9" * 5000), "is neither"),
         (("trials", "assembly", "--seeds", "١-٣"), "is neither"),
         (("trials", "assembly", "--seeds", "9" * 19), "the largest seed is"),
+        (("trials", "assembly", "--seeds", "3", "--n", "2"), "--seeds says both: leave --n and --seed out"),
+        (
+            ("trials", "assembly", "--n", "3", "--only", "3"),
+            "there is no trial 3: this batch has trials 0 to 2",
+        ),
+        (("trials", "assembly", "--n", "0"), "at least one trial is needed; 0 is too few"),
+        (
+            ("trials", "assembly", "--wall-limit", "0"),
+            "a limit of time is a number of seconds above 0; 0 is not",
+        ),
         (("frobnicate",), "there is no command `frobnicate`"),
     ],
 )

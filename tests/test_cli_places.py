@@ -16,7 +16,6 @@ WRITERS = {
     "JSON schema": ("schema", "-o", "kept.al"),
     "graph": ("inspect", "job.plan.json", "--graph", "dot", "-o", "kept.al"),
     "checkpoint": ("do", "OPEN 1", "--keep", "kept.al"),
-    "list of results": ("trials", "assembly", "--out", "kept.al"),
     "SVG drawing": ("inspect", "job.plan.json", "--graph", "svg", "-o", "kept.svg"),
     "PNG picture": ("render", "-o", "kept.png"),
     "PNG picture of a run": ("trace", "photograph", "run", "--at", "1", "-o", "kept.png"),
@@ -36,7 +35,7 @@ def test_a_file_of_another_kind_is_left_alone(command: Command, planned: Planned
     assert kept.read_text(encoding="utf-8") == OURS
 
 
-@pytest.mark.parametrize("what", ["checkpoint", "list of results", "PNG picture", "PNG picture of a run"])
+@pytest.mark.parametrize("what", ["checkpoint", "PNG picture", "PNG picture of a run"])
 def test_a_place_that_cannot_be_written_is_told_before_anything_is_done(command: Command, what: str) -> None:
     *words, name = WRITERS[what]
     code, out, err = command(*words, f"absent/{name}")

@@ -12,7 +12,7 @@ NUMBERS = [
     ("run", "job.plan.json", "--seed"),
     ("render", "-o", "it.png", "--width"),
     ("trace", "photograph", "run", "--at", "1", "-o", "it.png", "--height"),
-    ("trials", "assembly", "--jobs"),
+    ("trials", "assembly", "--workers"),
     ("trials", "breaking", "killed", "--count"),
     ("trials", "base"),
     ("bench", "language", "--times"),

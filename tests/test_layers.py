@@ -23,6 +23,7 @@ FOUNDATIONS = {
     "errors",
     "extras",
     "files",
+    "line_file",
     "folders",
     "resources",
     "variation",

@@ -1,31 +1,21 @@
 """Commands that try things in many worlds and count."""
 
-import re
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final, Literal
+from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, say
-from handeye.cli.kept_records import kept
+from handeye.cli.batches import assembly_trials
+from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
 from handeye.cli.world_options import (
-    ANY_ERRORS,
     ANY_WORLD,
-    ErrorOptions,
-    Faults,
     WorldOptions,
-    broken,
 )
 from handeye.errors import InvalidInput
-from handeye.files import Kind
-from handeye.runs.scripts import default_script
 from handeye.tasks import task
 from handeye.tasks.trial import Known
 from handeye.variation import WorldSpec
-
-if TYPE_CHECKING:
-    from handeye.report.result import Result
 
 Eye = Annotated[
     Known,
@@ -38,7 +28,6 @@ Worlds = Annotated[
     WholeNumber | None, Parameter(help="Worlds to try in, from --seed on; by default as many as COUNT.")
 ]
 Jobs = Annotated[WholeNumber, Parameter(help="Processes at a time.")]
-RESULTS: Final = Kind("list of results", rb'\{"assembled":')
 
 
 def register(app: App) -> None:
@@ -49,46 +38,6 @@ def register(app: App) -> None:
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")
     app.command(trials)
-
-
-def assembly_trials(
-    *,
-    seeds: Annotated[str, Parameter(help="Worlds to try: a range such as 0-19, or one number.")] = "0-19",
-    errors: ErrorOptions = ANY_ERRORS,
-    fault: Faults = None,
-    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
-    camera: Camera = "auto",
-    out: Annotated[Path | None, Parameter(help="File for the results, one JSON object a line.")] = None,
-) -> int:
-    """Assemble in many worlds and count.
-
-    Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed.
-    """
-    from handeye.trials.seeds import assemble_many
-
-    chosen = _range(seeds)
-    _some(jobs, "process")
-    plan = compiled(default_script())
-    worlds = [broken(errors.spec(seed), fault, plan.program) for seed in chosen]
-    with kept(out, RESULTS, by="seed") as results:
-        for result in assemble_many(plan, worlds, camera=camera, jobs=jobs):
-            results.append(result)
-            say(_line(result))
-    done = sum(result.exit_code == 0 for result in results)
-    silent = sum(result.exit_code == 3 for result in results)
-    say(f"{done} of {len(results)} assembled, {silent} silent failures")
-    return 3 if silent else 0
-
-
-def _line(result: "Result") -> str:
-    """A line on a run."""
-    word = {0: "assembled", 1: "stopped", 3: "not right"}[result.exit_code]
-    detail = f"{result.stopped_at or ''}: {result.message}"
-    if result.exit_code == 0:
-        detail = "; ".join(f"caution: {sentence}" for sentence in result.cautions)
-    if result.exit_code == 3:
-        detail = "; ".join(check.told for check in result.referee.values() if check.refuses)
-    return f"seed {result.seed:4}  {word:10}  {result.timing.real_time_factor:4.1f}x  {detail}"
 
 
 def base_vision_trials(
@@ -178,15 +127,6 @@ def _some(count: int, what: str = "world") -> int:
     if count < 1:
         raise InvalidInput(f"at least one {what} is needed; {count} is too few")
     return count
-
-
-def _range(text: str) -> range:
-    """The seeds that `3` or `0-19` names."""
-    found = re.fullmatch(r"([0-9]{1,19})(?:-([0-9]{1,19}))?", text)
-    first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
-    if last < first:
-        raise InvalidInput(f"seeds are given as a number or a range such as 0-19; {text!r} is neither")
-    return range(first, last + 1)
 
 
 def breaking_trials(

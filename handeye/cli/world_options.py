@@ -16,13 +16,13 @@ from handeye.world_options import overrides
 if TYPE_CHECKING:
     from handeye.runs.system import Listing
 
-_GROUP: Final = Group("World", sort_key=1)
+WORLD: Final = Group("World", sort_key=1)
 
 Faults = Annotated[
     list[str] | None,
     Parameter(
         name="--fault",
-        group=_GROUP,
+        group=WORLD,
         consume_multiple=False,
         help="NAME, NAME=VALUE, or either with @STAGE behind it: something that is broken, from the beginning or from "
         "a stage on; `handeye faults --list` lists them. May be repeated.",
@@ -30,7 +30,7 @@ Faults = Annotated[
 ]
 
 
-@Parameter(name="*", group=_GROUP)
+@Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ErrorOptions:
     """Which errors a world has, and how large they are."""
@@ -78,7 +78,7 @@ class ErrorOptions:
         return [*level, *without, *(word for setting in self.settings or () for word in ("--set", setting))]
 
 
-@Parameter(name="*", group=_GROUP)
+@Parameter(name="*", group=WORLD)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldOptions:
     """A world, or the first of several."""

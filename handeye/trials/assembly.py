@@ -38,6 +38,7 @@ def run_plan(
     observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     viewed: Callable[[int, int], None] = lambda *_: None,
     calibrate: bool = False,
+    halt: Callable[[], bool] = lambda: False,
 ) -> Finished:
     """Carry out a plan in a world, with no operator there, and have it judged.
 
@@ -48,15 +49,22 @@ def run_plan(
         umpire: takes the place of the task's referee.
         viewed: told of each view in which the camera is calibrated: its number, of how many.
         calibrate: the camera is calibrated anew, whatever is kept of an earlier run.
+        halt: the panic button, asked at every servo period.
 
     Raises:
         InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
             the camera cannot work as asked.
+        Halted: the panic button was hit before the working phase.
     """
     metered = meter or Meter()
     setup = Setup(plan=plan, world=world, camera=camera, limits={**(limits or {})}, replaced=parts.names)
     runner = Runner(
-        Checkpoint(setup=setup), viewed=viewed, observers=observers, parts=parts, calibrate=calibrate
+        Checkpoint(setup=setup),
+        halt=halt,
+        viewed=viewed,
+        observers=observers,
+        parts=parts,
+        calibrate=calibrate,
     )
     check_limits(runner)
     result = finished(runner, advance(runner), metered, judged=referee, referee=umpire)

@@ -8,7 +8,7 @@ from handeye.resources import plans
 from handeye.see.recorded import Recorded
 from handeye.tasks import DEFAULT, known
 from handeye.units import UNITS, Unit
-from handeye.variation import Quantity
+from handeye.variation import Quantity, WorldSpec
 
 _CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
 
@@ -18,16 +18,16 @@ def command(run: Recorded) -> str | None:
     head = run.trace.head
     if head.task != DEFAULT or head.own_parts:
         return None
-    if _is_shipped(head.plan):
+    if is_shipped(head.plan):
         words = ["assemble"]
     else:
         judged = run.result is not None and run.result.assembled is not None
         words = ["run", "plan.json", *(["--judge"] if judged else [])]
-    return shlex.join(["handeye", *words, *_world(run), *_camera(run)])
+    return shlex.join(["handeye", *words, *world_words(head.world, head.task), *_camera(run)])
 
 
-def _is_shipped(digest: str) -> bool:
-    """The plan of a run is the one that `assemble` makes."""
+def is_shipped(digest: str) -> bool:
+    """See whether a plan is the one that `assemble` makes."""
     task = known(DEFAULT)
     assert task is not None
     assert task.script is not None
@@ -40,10 +40,9 @@ def _camera(run: Recorded) -> list[str]:
     return [] if kind is None else ["--camera", kind]
 
 
-def _world(run: Recorded) -> list[str]:
-    """The options that stand for its world."""
-    world = run.trace.head.world
-    task = known(run.trace.head.task)
+def world_words(world: WorldSpec, of: str = DEFAULT) -> list[str]:
+    """The options that stand for a world of the task of a name, which is one of handeye's own."""
+    task = known(of)
     assert task is not None
     quantities, faults = task.variation(world.seed).quantities, task.faults(world.seed)
     words = ["--seed", str(world.seed)]

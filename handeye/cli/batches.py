@@ -1,0 +1,197 @@
+"""The command that assembles in many worlds and counts."""
+
+import re
+import shlex
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final, Literal
+
+from cyclopts import Parameter
+
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, say
+from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
+from handeye.errors import InvalidInput
+from handeye.host_time import HostTimer
+from handeye.plain_text import counted
+from handeye.planfile.store import read_plan
+from handeye.runs.scripts import default_script
+
+if TYPE_CHECKING:
+    from handeye.trials.batch.folder import BatchFolder
+    from handeye.trials.batch.row import Row
+    from handeye.trials.batch.trial import Trial
+    from handeye.variation import WorldSpec
+
+COUNT: Final = 20
+"""Trials, if nobody says how many."""
+
+
+def assembly_trials(
+    *,
+    n: Annotated[WholeNumber | None, Parameter(help=f"How many trials; by default {COUNT}.")] = None,
+    seed: Annotated[
+        WholeNumber | None,
+        Parameter(group=WORLD, help="World of trial 0, by default 0; trial K has a number greater by K."),
+    ] = None,
+    seeds: Annotated[
+        str | None,
+        Parameter(help="The same as --seed and --n: a range such as 0-19, or one number."),
+    ] = None,
+    errors: ErrorOptions = ANY_ERRORS,
+    fault: Faults = None,
+    plan: Annotated[
+        Path | None, Parameter(help="A plan made by `handeye plan`; by default that of the water pump.")
+    ] = None,
+    only: Annotated[WholeNumber | None, Parameter(help="Carry out trial K alone, from 0.")] = None,
+    workers: Annotated[WholeNumber, Parameter(name=["--workers", "--jobs"], help="Trials at a time.")] = 2,
+    engine: Annotated[
+        Literal["process"], Parameter(help="Where trials go: processes of this computer.")
+    ] = "process",
+    camera: Camera = "auto",
+    simulated_limit: Annotated[
+        float, Parameter(help="Seconds of the cell's clock after which a trial counts as failed.")
+    ] = 3600.0,
+    wall_limit: Annotated[
+        float, Parameter(help="Seconds of this computer after which a trial counts as failed.")
+    ] = 1800.0,
+    out: Annotated[
+        Path | None,
+        Parameter(
+            help="Folder of the batch: a line is written to it as each trial ends, and the same command goes on where "
+            "it was broken off."
+        ),
+    ] = None,
+    json: Json = False,
+) -> int:
+    """Assemble in many worlds and count: how often, how sure that is, and what failed where.
+
+    The figures are the same for any number of workers. A trial whose process is killed is tried once more; an
+    exception counts as a failure.
+
+    Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed; 2: bad input; 130:
+    interrupted.
+    """
+    from handeye.trials.batch.batch import carry_out, jobs_of
+    from handeye.trials.batch.engines import processes
+    from handeye.trials.batch.figures import figures
+    from handeye.trials.batch.trial import Trial
+
+    timer = HostTimer()
+    chosen = _chosen(n, seed, seeds)
+    numbers = _numbers(len(chosen), only)
+    _positive(workers, "worker")
+    _limits(simulated_limit, wall_limit)
+    errors.spec(chosen[-1])
+    record = compiled(default_script()) if plan is None else read_plan(plan)
+    world = broken(errors.spec(chosen[0]), fault, record.program)
+    trial = Trial(plan=record, camera=camera, simulated_limit_s=simulated_limit, wall_limit_s=wall_limit)
+    fresh: list[Row] = []
+    with _kept(out, trial, world) as folder:
+        tell = _progress(
+            len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh
+        )
+        rows = carry_out(trial, jobs_of(world, numbers), processes(workers), folder=folder, told=tell)
+    found = figures(rows, _command(world, plan, camera), fresh=fresh, wall_s=timer.wall_s)
+    if json:
+        put_json(found)
+    else:
+        from handeye.cli.batch_text import lines
+
+        for line in lines(found):
+            say(line, whole=True)
+    return 3 if found.silent_failures else 0
+
+
+def _chosen(n: int | None, seed: int | None, seeds: str | None) -> range:
+    """The seeds of a batch."""
+    if seeds is None:
+        first, count = seed or 0, COUNT if n is None else n
+        _positive(count, "trial")
+        return range(first, first + count)
+    if n is not None or seed is not None:
+        raise InvalidInput("--seeds says both: leave --n and --seed out, or --seeds")
+    found = re.fullmatch(r"([0-9]{1,19})(?:-([0-9]{1,19}))?", seeds)
+    first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
+    if last < first:
+        raise InvalidInput(f"seeds are given as a number or a range such as 0-19; {seeds!r} is neither")
+    return range(first, last + 1)
+
+
+def _numbers(count: int, only: int | None) -> range:
+    """The trials to be carried out."""
+    if only is None:
+        return range(count)
+    if not 0 <= only < count:
+        raise InvalidInput(f"there is no trial {only}: this batch has trials 0 to {count - 1}")
+    return range(only, only + 1)
+
+
+def _positive(count: int, what: str) -> None:
+    if count < 1:
+        raise InvalidInput(f"at least one {what} is needed; {count} is too few")
+
+
+def _limits(*seconds: float) -> None:
+    for limit in seconds:
+        if not limit > 0:
+            raise InvalidInput(f"a limit of time is a number of seconds above 0; {limit:g} is not")
+
+
+@contextmanager
+def _kept(out: Path | None, trial: "Trial", world: "WorldSpec") -> "Iterator[BatchFolder | None]":
+    """The folder of the batch, if one is wanted; what is in it is told also where trials are broken off."""
+    from handeye.trials.batch.batch import head_of
+    from handeye.trials.batch.folder import BatchFolder
+
+    if out is None:
+        yield None
+        return
+    folder = BatchFolder(out, head_of(trial, world), trial.plan)
+    try:
+        yield folder
+    except BaseException:
+        note(f"{counted(len(folder.rows), 'trial')} kept in {out}; the same command goes on from there")
+        raise
+    finally:
+        folder.close()
+
+
+def _progress(count: int, kept: int, timer: HostTimer, rows: "list[Row]") -> "Callable[[Row], None]":
+    """What tells of each trial as it ends: how it ended, the rate until now with its interval, and the time left."""
+    from handeye.cli.batch_text import percent
+    from handeye.trials.batch.rates import rate
+
+    if kept:
+        note(f"{kept} of {counted(count, 'trial')} are kept from before")
+
+    def tell(row: "Row") -> None:
+        rows.append(row)
+        sure = rate(sum(each.verdict == "assembled" for each in rows), len(rows))
+        assert sure.wilson95 is not None
+        left = timer.wall_s / len(rows) * (count - kept - len(rows))
+        note(
+            f"{kept + len(rows):4} of {count}  seed {row.seed:4}  {row.verdict:9}  {sure.successes} of {sure.trials} "
+            f"assembled ({percent(*sure.wilson95)}), {_left(left)} left{row.detail and '  '}{row.detail}"
+        )
+
+    return tell
+
+
+def _left(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def _command(world: "WorldSpec", plan: Path | None, camera: str) -> "Callable[[Row], str]":
+    """What tells the command that carries a trial out again."""
+    from msgspec.structs import replace
+
+    from handeye.see.facts.again import world_words
+
+    words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
+    made = [] if camera == "auto" else ["--camera", camera]
+
+    def command(row: "Row") -> str:
+        return shlex.join(["handeye", *words, *world_words(replace(world, seed=row.seed)), *made])
+
+    return command

@@ -1,0 +1,51 @@
+"""How sure a count of successes makes us of the rate behind it."""
+
+from typing import Final
+
+from handeye.record import Record
+
+CONFIDENCE: Final = 0.95
+
+
+class Rate(Record, frozen=True, kw_only=True):
+    """Successes among independent trials, with what they say about the probability of success."""
+
+    successes: int
+    trials: int
+    rate: float | None
+    """Successes over trials; None, as the bounds: nothing was tried."""
+    wilson95: tuple[float, float] | None
+    """Wilson's score interval: it holds the probability in about 95 of 100 batches."""
+    p_s: float | None
+    """Lower bound of the probability, 95 % one-sided: the least p for which so many successes or more have a chance
+    of 5 %. It is the exact bound of Clopper and Pearson, and the P_S of NIST's measures of robotic assembly."""
+
+
+def rate(successes: int, trials: int) -> Rate:
+    """The rate of so many successes among so many trials."""
+    from scipy.stats import binomtest  # slow to import
+
+    if trials == 0:
+        return Rate(successes=0, trials=0, rate=None, wilson95=None, p_s=None)
+    both = binomtest(successes, trials).proportion_ci(CONFIDENCE, method="wilson")
+    above = binomtest(successes, trials, alternative="greater").proportion_ci(CONFIDENCE, method="exact")
+    return Rate(
+        successes=successes,
+        trials=trials,
+        rate=successes / trials,
+        wilson95=(float(both.low), float(both.high)),
+        p_s=float(above.low),
+    )
+
+
+def mcnemar(only_first: int, only_second: int) -> float:
+    """Two-sided p of McNemar's exact test: how likely pairs that differ fall so unevenly if neither is better.
+
+    Args:
+        only_first: pairs in which only the first succeeded.
+        only_second: pairs in which only the second did.
+    """
+    from scipy.stats import binomtest
+
+    differ = only_first + only_second
+    return 1.0 if differ == 0 else float(binomtest(only_first, differ).pvalue)

@@ -1,0 +1,74 @@
+"""What one trial of a batch came to, as it is kept."""
+
+from typing import Annotated, Final, Literal
+
+import msgspec
+
+from handeye.errors import ERRORS
+from handeye.record import Record
+from handeye.report.result import Result
+
+Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit"]
+"""How a trial ended: by its program; by an exception; because its process was killed; at a limit of simulated seconds,
+or of the host's."""
+Verdict = Literal["assembled", "silent", "stopped", "failed"]
+"""The referee found all right; the program said done and it was not; the program called for help; the run broke off."""
+
+_BROKEN_OFF: Final[dict[Ended, str]] = {
+    "killed": "its process was killed twice",
+    "simulated limit": "over the limit of simulated time",
+    "wall limit": "over the limit of wall time",
+}
+
+
+class Row(Record, frozen=True, kw_only=True):
+    """One trial. Equal trials have equal rows, but for the host's seconds and how often a process was killed."""
+
+    trial: Annotated[int, msgspec.Meta(ge=0)]
+    seed: Annotated[int, msgspec.Meta(ge=0)]
+    ended: Ended
+    raised: str = ""
+    """Type and words of the exception."""
+    result: Result | None = None
+    """None: the run broke off."""
+    line: str | None = None
+    """Of the script, where the program stopped."""
+    events: str = ""
+    """Sixteen hexadecimal digits that stand for everything that happened."""
+    killed: Annotated[int, msgspec.Meta(ge=0)] = 0
+    """How often its process was killed."""
+    wall_s: float = 0.0
+    cpu_s: float = 0.0
+
+    @property
+    def verdict(self) -> Verdict:
+        """How it counts."""
+        if self.result is None or self.ended != "ended":
+            return "failed"
+        codes: dict[int, Verdict] = {0: "assembled", 1: "stopped", 3: "silent"}
+        return codes[self.result.exit_code]
+
+    @property
+    def stage(self) -> str:
+        """The stage in which it failed; for one that came to its end, the referee."""
+        if self.result is None:
+            return ""
+        return "referee" if self.result.completed else self.result.stopped_at or "setting up"
+
+    @property
+    def cause(self) -> str:
+        """Cause of a failure, the same words for the same cause; empty if there was none."""
+        if self.ended != "ended" or self.result is None:
+            return self.raised or _BROKEN_OFF[self.ended]
+        if not self.result.completed:
+            return ERRORS[self.result.error] if self.result.error is not None else self.result.message
+        return ", ".join(name for name, check in self.result.referee.items() if check.refuses)
+
+    @property
+    def detail(self) -> str:
+        """The same with its figures."""
+        if self.ended != "ended" or self.result is None:
+            return self.cause
+        if not self.result.completed:
+            return self.result.message
+        return "; ".join(check.told for check in self.result.referee.values() if check.refuses)

@@ -1,0 +1,171 @@
+"""Processes that are kept from trial to trial, and that may be lost: each then costs the trial it was at."""
+
+import os
+import threading
+from collections import deque
+from collections.abc import Callable, Generator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from multiprocessing import connection, get_context, parent_process
+from multiprocessing.connection import Connection
+from typing import Any, Final, Generic, TypeVar
+
+from handeye.host_time import HostTimer
+from handeye.trials.interrupts import deaf_to_interrupts
+
+Item = TypeVar("Item")
+T = TypeVar("T")
+
+TRIES: Final = 2
+"""Times that a trial is begun whose process is killed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer(Generic[Item, T]):
+    """What came of one trial."""
+
+    item: Item
+    value: T | None = None
+    """None: there is none, for the reason that follows."""
+    error: BaseException | None = None
+    """What the trial raised."""
+    killed: int = 0
+    """How often its process was killed."""
+    overdue: bool = False
+    """Its process was ended because it took too long."""
+    wall_s: float = 0.0
+    """Of the last time that it was tried."""
+
+    @property
+    def lost(self) -> bool:
+        """Its process was killed under it; it may be tried once more."""
+        return self.value is None and self.error is None and not self.overdue
+
+
+class Worker:
+    """A process that carries out one trial after the other."""
+
+    def __init__(self, trial: Callable[[Any], Any]) -> None:
+        """Begin the process. Ctrl-C at the terminal is for us: it does not hear it."""
+        self.here, there = get_context("spawn").Pipe()
+        self.process = get_context("spawn").Process(target=_serve, args=(there,), daemon=True)
+        with deaf_to_interrupts():
+            self.process.start()
+        there.close()  # so that both ends are told when the other is gone
+        self.given: _Given[Any] | None = None
+        self._send(
+            trial
+        )  # not with the process: whoever starts one writes for ever if it is killed meanwhile
+
+    def give(self, given: "_Given[Any]") -> None:
+        """Let it carry out a trial."""
+        self.given, given.timer = given, HostTimer()
+        self._send(given.item)
+
+    def end(self) -> None:
+        """End the process, whatever it is at."""
+        self.here.close()
+        self.process.kill()
+        self.process.join()
+
+    def _send(self, what: Any) -> None:
+        with suppress(OSError):  # it is gone, which whoever waits for its answer will be told
+            self.here.send(what)
+
+
+@dataclass(slots=True, kw_only=True)
+class _Given(Generic[Item]):
+    """A trial that is to be carried out, or is under way."""
+
+    item: Item
+    killed: int = 0
+    timer: HostTimer = field(default_factory=HostTimer)
+
+
+def answers(
+    trial: Callable[[Item], T], items: Sequence[Item], count: int, *, limit_s: float | None = None
+) -> Generator[Answer[Item, T], None, None]:
+    """What a trial comes to for each of some items, in the order they end, in so many processes that are kept.
+
+    A trial whose process is killed is begun once more, in a new one. Who stops asking for answers ends the processes.
+
+    Args:
+        limit_s: seconds by the clock after which the process of a trial is ended.
+    """
+    todo = deque(_Given[Item](item=item) for item in items)
+    workers: list[Worker] = []
+    try:
+        while todo or any(worker.given for worker in workers):
+            while todo and len(workers) < count:
+                workers.append(Worker(trial))
+            for worker in workers:
+                if worker.given is None and todo:
+                    worker.give(todo.popleft())
+            for worker in _heard(workers, limit_s):
+                answer = _answer(worker, limit_s)
+                if answer.lost and answer.killed < TRIES:
+                    todo.appendleft(_Given(item=answer.item, killed=answer.killed))
+                else:
+                    yield answer
+                if worker.given is not None:  # it is lost
+                    worker.end()
+                    workers.remove(worker)
+    finally:  # Ctrl-C first of all: a trial under way may take minutes
+        for worker in workers:
+            worker.end()
+
+
+def _heard(workers: list[Worker], limit_s: float | None) -> list[Worker]:
+    """Wait for workers that have answered, were lost, or have taken too long."""
+    busy = [worker for worker in workers if worker.given is not None]
+    left = None if limit_s is None else max(min(limit_s - w.given.timer.wall_s for w in busy if w.given), 0.0)
+    told = connection.wait([worker.here for worker in busy], left)
+    return [w for w in busy if w.here in told or _overdue(w, limit_s)]
+
+
+def _overdue(worker: Worker, limit_s: float | None) -> bool:
+    return limit_s is not None and worker.given is not None and worker.given.timer.wall_s >= limit_s
+
+
+def _answer(worker: Worker, limit_s: float | None) -> Answer[Any, Any]:
+    """What a worker has to say; it is without work then, unless it is lost."""
+    given = worker.given
+    assert given is not None
+    wall_s, overdue = given.timer.wall_s, _overdue(worker, limit_s) and not worker.here.poll()
+    if not overdue:
+        try:
+            value, error = worker.here.recv()
+        except (EOFError, OSError):
+            return Answer(item=given.item, killed=given.killed + 1, wall_s=wall_s)
+        worker.given = None
+        return Answer(item=given.item, value=value, error=error, killed=given.killed, wall_s=wall_s)
+    return Answer(item=given.item, killed=given.killed, overdue=True, wall_s=wall_s)
+
+
+# -- in the process -----------------------------------------------------------------------------------
+
+
+def _serve(there: Connection) -> None:
+    """Carry out what comes, until nothing more does."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    try:
+        trial = there.recv()
+        while True:
+            there.send(_tried(trial, there.recv()))
+    except (EOFError, OSError):
+        return
+
+
+def _tried(trial: Callable[[Any], Any], item: Any) -> tuple[Any, BaseException | None]:
+    try:
+        return trial(item), None
+    except Exception as error:  # it is for whoever asked
+        return None, error
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that began it is gone, also where that was killed: nobody wants its answer."""
+    parent = parent_process()
+    assert parent is not None
+    connection.wait([parent.sentinel])
+    os._exit(1)

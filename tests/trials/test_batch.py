@@ -1,0 +1,190 @@
+"""A batch keeps each trial as it ends, goes on where it was broken off, and counts what it has."""
+
+import json
+import resource
+import signal
+from collections.abc import Generator, Sequence
+from pathlib import Path
+
+import msgspec
+import pytest
+from results import result
+from short_runs import FEEL, plan_of
+
+from handeye.errors import InvalidInput
+from handeye.report.result import Check
+from handeye.trials.batch.batch import carry_out, head_of, jobs_of
+from handeye.trials.batch.engines import processes
+from handeye.trials.batch.figures import figures
+from handeye.trials.batch.folder import BatchFolder, read_batch
+from handeye.trials.batch.rates import mcnemar, rate
+from handeye.trials.batch.row import Row
+from handeye.trials.batch.trial import Job, Trial, row_of
+from handeye.trials.workers import Answer
+from handeye.variation import WorldSpec
+
+WORLD = WorldSpec(seed=5)
+TRIAL = Trial(plan=plan_of(FEEL), camera="ray")
+RIGHT = result(completed=True, assembled=True)
+FAR = Check(
+    ok=False, subject="pin", value=4, relation="at most", limit=3, unit="mm", sentence="pin (at most 3 mm)"
+)
+WRONG = result(completed=True, assembled=False, checks={"pins": FAR})
+STOPPED = result(completed=False, assembled=None, message="no gasket lies on the base")
+
+
+def row(job: Job) -> Row:
+    """What nobody has tried: trial 1 is stopped, trial 2 silently wrong."""
+    found = {1: STOPPED, 2: WRONG}.get(job.trial, RIGHT)
+    return Row(trial=job.trial, seed=job.world.seed, ended="ended", result=found)
+
+
+class Engine:
+    """Answers in reverse order, and breaks down after some answers."""
+
+    def __init__(self, breaks_after: int = 99) -> None:
+        self.breaks_after, self.tried = breaks_after, []
+
+    def __call__(self, trial: Trial, jobs: Sequence[Job]) -> Generator[Answer[Job, Row], None, None]:
+        for number, job in enumerate(reversed(jobs)):
+            if number == self.breaks_after:
+                raise KeyboardInterrupt
+            self.tried.append(job.trial)
+            yield Answer(item=job, value=row(job))
+
+
+def opened(path: Path, trial: Trial = TRIAL, world: WorldSpec = WORLD) -> BatchFolder:
+    return BatchFolder(path, head_of(trial, world), trial.plan)
+
+
+def test_a_batch_goes_on_where_it_was_broken_off(tmp_path: Path) -> None:
+    jobs, folder = jobs_of(WORLD, range(5)), opened(tmp_path)
+    with pytest.raises(KeyboardInterrupt):
+        carry_out(TRIAL, jobs, Engine(2), folder=folder)
+    folder.close()
+    with (tmp_path / "trials.jsonl").open("ab") as file:
+        file.write(b'{"trial":2,"seed"')  # as where the parent was killed
+    again = opened(tmp_path)
+    engine = Engine()
+    rows = carry_out(TRIAL, jobs, engine, folder=again)
+    again.close()
+    assert (sorted(again.rows), engine.tried) == ([*range(5)], [2, 1, 0])
+    assert rows == carry_out(TRIAL, jobs, Engine()) == read_batch(tmp_path)[1]
+    assert [each.seed for each in rows] == [5, 6, 7, 8, 9]
+
+
+def test_a_folder_takes_one_batch(tmp_path: Path) -> None:
+    opened(tmp_path).close()
+    high = msgspec.structs.replace(WORLD, level="high")
+    with pytest.raises(
+        InvalidInput, match=r"holds 0 trials of another batch, which differs in worlds; choose "
+    ):
+        opened(tmp_path, world=high)
+    other = Trial(plan=plan_of("OPEN 1\n"), camera="gl", simulated_limit_s=1)
+    with pytest.raises(InvalidInput, match="differs in plan, camera, limit of simulated time; "):
+        opened(tmp_path, other)
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("mine")
+    with pytest.raises(
+        InvalidInput, match=r"holds other things \(`mine\.txt`\); choose a new folder, or an "
+    ):
+        opened(tmp_path)
+    (tmp_path / "trials.jsonl").write_text("mine\n")
+    with pytest.raises(
+        InvalidInput, match=r"trials\.jsonl, line 1, is of no batch that this handeye reads: "
+    ):
+        opened(tmp_path)
+
+
+def test_two_commands_do_not_write_one_batch(tmp_path: Path) -> None:
+    folder = opened(tmp_path)
+    with pytest.raises(InvalidInput, match=r"another command is writing to .*trials\.jsonl now"):
+        opened(tmp_path)
+    folder.close()
+
+
+def test_a_full_disk_keeps_what_was_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder, jobs = opened(tmp_path), jobs_of(WORLD, range(2))
+    folder.append(row(jobs[0]))
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+    monkeypatch.setattr(signal, "SIGXFSZ", signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+    resource.setrlimit(resource.RLIMIT_FSIZE, ((tmp_path / "trials.jsonl").stat().st_size + 10, limit[1]))
+    try:
+        with pytest.raises(InvalidInput, match=r"trials\.jsonl cannot be written"):
+            carry_out(TRIAL, jobs, Engine(), folder=folder)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+    folder.close()
+    assert read_batch(tmp_path)[1] == (row(jobs[0]),)
+
+
+def test_figures_count_what_ended_how_and_tell_the_command_of_each_failure() -> None:
+    rows = carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine())
+    lost = row_of(Answer(item=jobs_of(WORLD, [4])[0], killed=2))
+    found = figures([*rows, lost], lambda each: f"again {each.seed}")
+    assert (found.n, found.assembled, found.stopped, found.silent_failures, found.failed, found.killed) == (
+        5, 2, 1, 1, 1, 2,
+    )  # fmt: skip
+    assert [(each.trial, each.stage, each.cause, each.command) for each in found.failures] == [
+        (1, "check the gasket", "the gasket is not on properly", "again 6"),
+        (2, "referee", "pins", "again 7"),
+        (4, "", "its process was killed twice", "again 9"),
+    ]
+
+
+def test_a_rate_has_wilsons_interval_and_an_exact_lower_bound() -> None:
+    """Wilson's by its closed form; the exact one by the chance that it gives."""
+    sure = rate(57, 60)
+    z, p = 1.959964, 57 / 60
+    middle, half = p + z**2 / 120, z * (p * (1 - p) / 60 + z**2 / 14400) ** 0.5
+    assert sure.wilson95 == pytest.approx([(middle + s * half) / (1 + z**2 / 60) for s in (-1, 1)], abs=1e-6)
+    from scipy.stats import binom
+
+    assert binom.sf(56, 60, sure.p_s) == pytest.approx(0.05)
+    assert rate(2995, 2995).p_s == pytest.approx(0.999, abs=1e-6)
+    assert rate(0, 0).wilson95 is None
+
+
+def test_pairs_are_compared_by_mcnemars_exact_test() -> None:
+    assert (mcnemar(0, 0), mcnemar(3, 3)) == (1.0, 1.0)
+    assert mcnemar(0, 6) == mcnemar(6, 0) == pytest.approx(2 / 2**6)
+
+
+# -- trials that are carried out ---------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_a_kept_process_comes_to_the_same_as_a_new_one(tmp_path: Path) -> None:
+    """The third trial of one process, to the byte of its events, is that of a process that has done nothing yet."""
+    jobs = jobs_of(WORLD, range(3))
+    kept = carry_out(TRIAL, jobs, processes(1))
+    (new,) = carry_out(TRIAL, jobs[2:], processes(1))
+    assert kept[2].events == new.events
+    assert len({each.events for each in kept}) == 3
+
+
+@pytest.mark.slow
+def test_an_exception_is_a_result() -> None:
+    rows = carry_out(Trial(plan=plan_of(FEEL), camera="none"), jobs_of(WORLD, range(1)), processes(1))
+    assert (rows[0].ended, rows[0].verdict) == ("raised", "failed")
+    assert rows[0].cause.startswith("InvalidInput: ")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("simulated", "wall", "ended"), [(1.0, 99.0, "simulated limit"), (99.0, 1e-6, "wall limit")]
+)
+def test_a_trial_that_takes_too_long_has_failed(simulated: float, wall: float, ended: str) -> None:
+    trial = Trial(plan=plan_of(FEEL), camera="ray", simulated_limit_s=simulated, wall_limit_s=wall)
+    found = trial(jobs_of(WORLD, range(1))[0])
+    assert (found.ended, found.verdict) == (ended, "failed")
+
+
+def test_what_a_trial_leaves_can_be_read_by_other_programs(tmp_path: Path) -> None:
+    folder = opened(tmp_path)
+    folder.append(row(jobs_of(WORLD, [0])[0]))
+    folder.close()
+    head, first = map(json.loads, (tmp_path / "trials.jsonl").read_text().splitlines())
+    assert (head["format"], head["world"]["seed"], first["result"]["assembled"]) == ("handeye batch", 5, True)
