@@ -109,6 +109,11 @@ CODES: Final[dict[str, Code]] = {
     "never-saved": _warning("no SAVE saves a restored difference on any path to it", "MOVE T\nRESTORE H"),
     "number-out-of-range": _error("a number is too small or too large for its place", "OPEN 5"),
     "opened-too-little": _warning("a grasp asks for more than the hand is open", "OPEN .2\nCLOSE .25"),
+    "parameter-name-taken": _error(
+        "a parameter has the name of an instruction, of another word of the language, of an axis or of a label",
+        "DEFINE PRESS X\nCHANGE X 1\n\nPARK\nPRESS Z",
+    ),
+    "parameter-twice": _error("a macro has two parameters of one name", "DEFINE A S S\nMOVE S\n\nA T T"),
     "part-not-described": _error(
         "too little is taught of a part to find it in a picture",
         "LOOK V\nGENERAL GASKET V",
@@ -200,6 +205,10 @@ CODES: Final[dict[str, Code]] = {
     "unknown-instruction": _error("a word is neither an instruction nor a macro", "GRAB 1"),
     "unknown-label": _error("a jump goes to a label that no statement has", "JUMP NOWHERE"),
     "unknown-lens": _error("the turret has no such lens", "LENS 35"),
+    "unknown-parameter": _warning(
+        "a text in a macro has something in braces that is no parameter",
+        'DEFINE A S\nMOVE S\nWAIT "NOT AT {P}"\n\nA T',
+    ),
     "unknown-part": _error("a part is not known", "TRANS A [0 0 0 0 0 0] OF LID\nPARK"),
     "unknown-picture": _error("no LOOK takes a picture of that name", "GENERAL BASE VIEW"),
     "unknown-position": _error("a position is neither taught nor defined by TRANS", "MOVE X9"),
@@ -214,6 +223,7 @@ CODES: Final[dict[str, Code]] = {
     "unterminated-vector": _error("a vector has no closing bracket", "CHANGE [0 0 -1 0.6"),
     "unused-label": _warning("no instruction jumps to a label", "L: PARK"),
     "unused-macro": _warning("a macro is never used", "PARK\nDEFINE A\nOPEN 1\n\n"),
+    "unused-parameter": _warning("no line of a macro has a parameter of it", "DEFINE A S\nPARK\n\nA T"),
     "unused-position": _warning("a position is defined but never used", "TRANS A [1 2 3 0 0 0]\nPARK"),
     "unused-vector": _warning("a vector is defined but never used", "VECT D [0 0 1]\nPARK"),
     "vector-size": _error("a vector has too few or too many numbers", "CHANGE [0 0] 1"),

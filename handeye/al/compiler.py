@@ -3,11 +3,13 @@
 from pathlib import PurePath
 from typing import Final
 
+from msgspec.structs import replace
+
 from handeye.al.checks.names import check_names
 from handeye.al.checks.program_checks import CompiledScript, check_whole
 from handeye.al.lower import Lowered, lower
 from handeye.al.lower_statement import position
-from handeye.al.macros import expand
+from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
 from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script
@@ -34,11 +36,13 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         return None, arranged(d for d in found if d.code != "unknown-instruction")
     if sum(d.severity == "error" for d in found) >= LIMIT:
         return None, arranged(found)
-    words = by_word(script)
+    placed = expand(script, found.append)
+    statements = list(as_called(script, placed))
+    words = by_word(statements)
     used = used_names(words)
-    found += check_names(script, words, used, taught)
+    found += check_names(statements, words, used, taught)
     vectors = named_vectors(words)
-    placed = expand(with_vectors(script, vectors), found.append)
+    placed = [replace(item, statement=with_vectors(item.statement, vectors)) for item in placed]
     lowered = lower(placed, source, found.append, inner=_inner_labels(script))
     found = _without_lost_labels(source, found)
     if not lowered.steps and not has_errors(found):
@@ -47,8 +51,9 @@ def compile_text(source: Source, taught: Taught) -> tuple[Program | None, list[D
         return None, arranged(found)
     positions = {**taught.positions, **dict(map(position, words.get("TRANS", ())))}
     whole = CompiledScript(
-        source=source, script=script, words=words, used=used, vectors=vectors, placed=placed, lowered=lowered
-    )
+        source=source, script=script, statements=statements, words=words, used=used, vectors=vectors, placed=placed,
+        lowered=lowered,
+    )  # fmt: skip
     found += check_whole(whole, taught, positions)
     program = None if has_errors(found) else _program(source, lowered, positions, taught)
     return program, arranged(found)

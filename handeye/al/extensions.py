@@ -3,8 +3,9 @@
 from collections.abc import Iterator
 
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
-from handeye.al.statements import all_statements, pairs
+from handeye.al.statements import pairs
 from handeye.al.syntax import Number
 from handeye.diagnostics import Diagnostic, Label, arranged, quoted
 from handeye.source import Source, Span
@@ -18,7 +19,12 @@ def extensions(source: Source) -> list[Diagnostic]:
 
 
 def _found(source: Source) -> Iterator[Diagnostic]:
-    for statement in all_statements(parse_whole(source)[0]):
+    script = parse_whole(source)[0]
+    for macro in script.macros.values():
+        if macro.parameters:
+            span = Span(start=macro.parameters[0].start, end=macro.parameters[-1].end)
+            yield _extension("parameters of a macro are ours", span, "write a macro for each use of it")
+    for statement in as_called(script, expand(script, lambda _: None)):
         definition = INSTRUCTIONS.get(statement.word.text) if statement.word is not None else None
         if statement.word is None or definition is None:
             continue

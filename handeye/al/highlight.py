@@ -17,6 +17,7 @@ from pygments.token import (
 from handeye.al.word_groups import FREE_TEXT, JUMPS, MODIFIERS, OPERAND_WORDS, OTHERS
 
 _NAME = r"[A-Za-z_]\w*"
+_PARAMETER = rf"\{{{_NAME}\}}"
 
 
 def _ops(ops: list[str]) -> words:
@@ -35,7 +36,11 @@ class ArmLexer(RegexLexer):
             (r"\s+", Whitespace),
             (r";.*", Comment.Single),
             (rf"({_NAME})([ \t]*)(:)", bygroups(Name.Label, Whitespace, Punctuation)),
-            (rf"(?i:(DEFINE))\b([ \t]*)({_NAME})?", bygroups(Keyword.Declaration, Whitespace, Name.Function)),
+            (
+                rf"(?i:(DEFINE))\b([ \t]*)({_NAME})?",
+                bygroups(Keyword.Declaration, Whitespace, Name.Function),
+                "operands",
+            ),
             (_ops(FREE_TEXT), Keyword, "free"),
             (_ops(JUMPS), Keyword, "jump"),
             (_ops(MODIFIERS), Keyword.Type, "operands"),
@@ -48,7 +53,7 @@ class ArmLexer(RegexLexer):
             (words(OPERAND_WORDS, prefix=r"(?i:", suffix=r")\b"), Keyword.Pseudo),
             (_NAME, Name.Variable),
             (r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?(?![\w.])", Number.Float),
-            (r'"[^"\n]*"', String.Double),
+            (r'"(?=[^"\n]*")', String.Double, "string"),
             (r"[][,]", Punctuation),
             (r";.*", Comment.Single, "#pop"),
             (r"\n", Whitespace, "#pop"),
@@ -63,8 +68,14 @@ class ArmLexer(RegexLexer):
         ],
         "free": [
             (r"[ \t]+", Whitespace),
-            (r'"[^"\n]*"', String.Double, "#pop"),
-            (r'[^\s;"]([^\n;"]*[^\s;"])?', String, "#pop"),
+            (r'"(?=[^"\n]*")', String.Double, ("#pop", "string")),
+            (_PARAMETER, String.Interpol),
+            (r'[^\s;"{]([^\n;"{]*[^\s;"{])?|\{', String),
             default("#pop"),
+        ],
+        "string": [
+            (_PARAMETER, String.Interpol),
+            (r'[^"{]+|\{', String.Double),
+            (r'"', String.Double, "#pop"),
         ],
     }

@@ -391,8 +391,11 @@ INSTRUCTIONS: Final[dict[str, Instruction]] = {instruction.op: instruction for i
 DEFINE: Final = Instruction(
     op="DEFINE",
     group=RUN,
-    help="begin a macro; a blank line ends it",
-    operands=(name_of("name", Refers.NEW),),
+    help="begin a macro, perhaps with parameters, for which each call gives operands; a blank line ends it",
+    operands=(
+        name_of("name", Refers.NEW),
+        Operand(name="parameter ...", takes=(Name,), optional=True, ours=True),
+    ),
     role=Role.DECLARATION,
 )
 """Makes macros: the parser's own."""

@@ -10,7 +10,8 @@ from msgspec.structs import replace
 from handeye.al.definition import DECLARATION, JUMP, MODIFIER, MOTION, SHIFT, SKIP, STEP, Role
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.lower_statement import operation, restore
-from handeye.al.macros import Call, Placed
+from handeye.al.macros import Placed
+from handeye.al.parameters import Call, FilledLine, uses
 from handeye.al.syntax import Name, Statement, Text
 from handeye.diagnostics import LIMIT, Diagnostic, Label, Meant, alternatives, quoted, told_names
 from handeye.program.motion_operations import Move
@@ -63,9 +64,10 @@ def _step(source: Source, draft: "_Draft") -> Step:
     text, start = source.find(statement.start)
     length, column = statement.end - statement.start, text.column(start)
     modifiers = tuple([_place(source, modifier) for modifier in draft.modifiers]) if draft.modifiers else ()
+    shown = text.text[start : start + length] if draft.line is None else draft.line.text
     return Step(
         operation=draft.operation, stage=draft.stage, labels=draft.labels, macro=draft.macro, file=text.key,
-        line=statement.line, span=(column, column + length), text=text.text[start : start + length],
+        line=statement.line, span=(column, column + length), text=shown,
         modifiers=modifiers, next=draft.next,
     )  # fmt: skip
 
@@ -90,8 +92,11 @@ class _Draft(msgspec.Struct, gc=False):
     next: int | None
     """The draft that follows."""
     macro: str
+    reach: Call
+    """The call whose labels a jump knows."""
+    line: FilledLine | None
     modifiers: Sequence[Statement] = ()
-    """Those that fit it."""
+    """Those that fit it, and the calls that give it operands."""
     labels: tuple[str, ...] = ()
     shifts: tuple[Statement, ...] = ()
 
@@ -206,9 +211,15 @@ class _Lowering:
             self.stages[FIRST_STAGE] = item.statement.span
         modifier = self.pending[0] if self.pending else None
         behind = len(self.drafts) + 1
+        filled = [placed.line for placed in (*self.pending, item) if placed.line is not None]
+        if filled:
+            modifiers = (*modifiers, *dict.fromkeys(call for line in filled for call in line.calls))
         self.drafts.append(
-            _Draft(item.statement, item.call, self.stage, made, modifier, behind, item.macro, modifiers)
-        )
+            _Draft(
+                item.statement, item.call, self.stage, made, modifier, behind, item.macro,
+                item.jumps_from, item.line, modifiers,
+            )
+        )  # fmt: skip
 
     def fits(self, modifier: Placed, first: Placed, motion: Statement) -> bool:
         """True if it modifies such a motion, and is the first of its kind."""
@@ -272,7 +283,7 @@ class _Lowering:
         draft = self.drafts[index]
         label = draft.statement.operands[-1]
         assert isinstance(label, Name)
-        scopes = [draft.call[:depth] for depth in range(len(draft.call), -1, -1)]
+        scopes = [draft.reach[:depth] for depth in range(len(draft.reach), -1, -1)]
         for scope in scopes:
             if (scope, label.text) in self.labels:
                 target = self.labels[scope, label.text][0]
@@ -290,13 +301,13 @@ class _Lowering:
             there = Label(span=inner.span, text="this is inside a macro")
             message = f"label {quoted(label.text)} belongs to a macro"
             help = "the labels of a macro are local; a macro ends with the first blank line"
-            self.problem("unknown-label", message, label, there, help=help)
+            self.problem("unknown-label", message, label, there, *uses(label), help=help)
             return
         message = f"no statement has the label {quoted(label.text)}"
         # Looking for what was meant takes time: only for those that will be shown.
         known = [name for scope, name in self.labels if scope in scopes] if self.lost <= LIMIT else []
         meant = alternatives(label.text, known)
-        self.problem("unknown-label", message, label, help=told_names(meant), meant=meant)
+        self.problem("unknown-label", message, label, *uses(label), help=told_names(meant), meant=meant)
 
     def mark_searching(self) -> None:
         """Every MOVE between a label and an AOJ that goes back to it belongs to a search."""

@@ -1,22 +1,24 @@
 """Macros: each call is replaced by the statements of the macro."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
 import msgspec
 from msgspec.structs import replace
 
-from handeye.al.syntax import Name, Script, Statement
+from handeye.al.definition import Instruction
+from handeye.al.heads import as_instruction
+from handeye.al.instructions import INSTRUCTIONS
+from handeye.al.operands import Mistake, read_operands
+from handeye.al.parameters import Call, FilledLine, Given, filled
+from handeye.al.syntax import LONGEST_LINE, Macro, Name, Script, Statement, Value
 from handeye.diagnostics import Diagnostic, Label, quoted
 
 LONGEST: Final = 10_000
 """Statements of the longest program, macros expanded."""
 DEEPEST: Final = 20
 """Calls within calls."""
-
-Call = tuple[int, ...]
-"""Which call of a macro a statement comes from, within which other call: () is the text itself."""
 
 
 class Placed(msgspec.Struct, frozen=True, gc=False):
@@ -26,13 +28,49 @@ class Placed(msgspec.Struct, frozen=True, gc=False):
     call: Call
     macro: str
     """The macro it stands in; empty: none."""
+    line: FilledLine | None = None
+    """What calls have put into it; None: nothing."""
+
+    @property
+    def jumps_from(self) -> Call:
+        """The call whose labels its jump knows: a label that is given to a macro is one where it is given."""
+        label = self.statement.operands[-1:]
+        given = () if self.line is None else self.line.given.values()
+        return next(
+            (one.call for one in given if label and label[0] and label[0].span == one.span), self.call
+        )
 
 
 def expand(script: Script, report: Callable[[Diagnostic], None]) -> list[Placed]:
     """The statements of the program in order; as far as macros can be expanded."""
     expansion = _Expansion(script=script, report=report)
-    expansion.place(script.statements, (), ())
+    expansion.place(script.statements, _Frame())
     return expansion.placed
+
+
+def as_called(script: Script, placed: list[Placed]) -> Iterator[Statement]:
+    """The statements of a script and of its macros; of those with parameters, the lines of each call."""
+    yield from script.statements
+    for macro in script.macros.values():
+        if not macro.parameters:
+            yield from macro.body
+    filled = {name for name, macro in script.macros.items() if macro.parameters}
+    if filled:
+        yield from dict.fromkeys(item.statement for item in placed if item.macro in filled)
+
+
+class _Frame(msgspec.Struct, frozen=True):
+    """A call that is being expanded; at first the text itself."""
+
+    call: Call = ()
+    inside: tuple[str, ...] = ()
+    """Macros, each called by the one before."""
+    given: Mapping[str, Given] = {}
+    """By parameter."""
+    by: Statement | None = None
+
+    def placed(self, statement: Statement, line: FilledLine | None = None) -> Placed:
+        return Placed(statement, self.call, self.inside[-1] if self.inside else "", line)
 
 
 @dataclass(slots=True)
@@ -43,29 +81,73 @@ class _Expansion:
     visited: int = 0
     too_long: bool = False
 
-    def place(self, statements: tuple[Statement, ...], call: Call, inside: tuple[str, ...]) -> None:
+    def place(self, statements: tuple[Statement, ...], frame: _Frame) -> None:
         for statement in statements:
             if self.too_long:
                 return
             self.visited += 1
             if self.visited > LONGEST:
                 self.stop(statement, f"the program has more than {LONGEST} statements")
-            elif statement.word is None or statement.word.text not in self.script.macros or statement.broken:
-                self.placed.append(Placed(statement, call, inside[-1] if inside else ""))
+            elif statement.word is None or statement.broken:
+                self.placed.append(frame.placed(statement))
+            elif statement.word.text in self.script.macros:
+                self.call(statement, statement.word, frame)
             else:
-                self.call(statement, statement.word, call, inside)
+                self.placed.append(self.read(statement, frame) if statement.open else frame.placed(statement))
 
-    def call(self, statement: Statement, word: Name, call: Call, inside: tuple[str, ...]) -> None:
-        if word.text in inside:
+    def read(self, statement: Statement, frame: _Frame) -> Placed:
+        """An open line, closed by what the call gives."""
+        assert statement.word is not None
+        line = filled(statement, frame.given)
+        operands = self.operands(line, INSTRUCTIONS[statement.word.text], frame)
+        if operands is None:
+            return frame.placed(replace(statement, broken=True, open=False))
+        return frame.placed(replace(statement, operands=line.landed(operands), open=False), line)
+
+    def call(self, statement: Statement, word: Name, frame: _Frame) -> None:
+        if word.text in frame.inside:
             self.problem("recursive-macro", statement, f"macro {quoted(word.text)} uses itself")
             return
-        if len(inside) >= DEEPEST:
+        if len(frame.inside) >= DEEPEST:
             self.stop(statement, f"macros are nested more than {DEEPEST} deep")
             return
         if statement.labels:
-            self.placed.append(Placed(replace(statement, word=None), call, inside[-1] if inside else ""))
-        body = self.script.macros[word.text].body
-        self.place(body, (*call, self.visited), (*inside, word.text))
+            self.placed.append(frame.placed(replace(statement, word=None)))
+        macro = self.script.macros[word.text]
+        given = self.given(statement, macro, frame)
+        if given is None:
+            self.placed.append(frame.placed(replace(statement, labels=(), broken=True)))
+            return
+        call, inside = (*frame.call, self.visited), (*frame.inside, word.text)
+        self.place(macro.body, _Frame(call, inside, given, statement))
+
+    def given(self, statement: Statement, macro: Macro, frame: _Frame) -> dict[str, Given] | None:
+        """What a call gives for each parameter; None if it does not."""
+        if not macro.parameters and not statement.open:
+            return {}
+        names = [parameter.text for parameter in macro.parameters]
+        line = filled(statement, frame.given)
+        values = self.operands(line, as_instruction(macro.name.text, names), frame)
+        if values is None:
+            return None
+        return {
+            name: line.passed(v, frame.call) for name, v in zip(names, values, strict=True) if v is not None
+        }
+
+    def operands(
+        self, line: FilledLine, definition: Instruction, frame: _Frame
+    ) -> tuple[Value | None, ...] | None:
+        """The operands of a line, as they are read at their places; None: there is a mistake, which is told."""
+        try:
+            if len(line.text) > LONGEST_LINE:
+                message = f"with its operands the line has {len(line.text)} characters"
+                raise Mistake(
+                    "line-too-long", message, line.statement.span, help=f"a line has at most {LONGEST_LINE}"
+                )
+            return read_operands(definition, line.head, line.tokens)
+        except Mistake as mistake:
+            self.report(line.told(mistake.diagnostic, frame.by or line.statement))
+            return None
 
     def stop(self, statement: Statement, message: str) -> None:
         self.too_long = True

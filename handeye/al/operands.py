@@ -39,7 +39,7 @@ def read_operands(definition: Instruction, head: Token, tokens: Sequence[Token])
     if definition.op in FREE_TEXT:
         return _Reader(definition, head, tokens).read()
     try:
-        return _Reader(definition, head, _separated(tokens)).read()
+        return _Reader(definition, head, separated(tokens)).read()
     except Mistake as mistake:
         raise _meant(tokens) or mistake from None
 
@@ -53,8 +53,12 @@ def free_text(tokens: Sequence[Token]) -> str:
     return text
 
 
-def _separated(tokens: Sequence[Token]) -> Sequence[Token]:
-    """Without the commas of the dialect of 1977, each of which stands between two values."""
+def separated(tokens: Sequence[Token]) -> Sequence[Token]:
+    """Tokens without the commas of the dialect of 1977, each of which stands between two values.
+
+    Raises:
+        Mistake: one does not.
+    """
     for token in tokens:
         if token.text == ",":
             return _without_commas(tokens)
@@ -245,6 +249,8 @@ class _Reader(msgspec.Struct, gc=False):
         return None
 
     def check_vector(self, value: Vector, operand: Operand) -> None:
+        if not operand.units:
+            return  # the lines of a macro take it as what it is
         if len(value.values) != len(operand.units):
             message = f"`{self.definition.op}` takes a vector of {len(operand.units)} numbers, not {len(value.values)}"
             raise Mistake("vector-size", message, value.span, help=self.usage())

@@ -3,13 +3,18 @@
 from dataclasses import dataclass, field
 from typing import Final
 
+from msgspec.structs import replace
+
+from handeye.al.definition import Instruction
+from handeye.al.heads import heads, taken
 from handeye.al.hints import elsewhere, strange
 from handeye.al.includes import REQUIRE
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.operands import Mistake, free_text, read_operands
+from handeye.al.operands import Mistake, free_text, read_operands, separated
+from handeye.al.parameters import braced_in, parameters_in
 from handeye.al.requirements import Requirements
 from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
-from handeye.al.syntax import Macro, Name, Script, Statement, Text, Value
+from handeye.al.syntax import LONGEST_LINE, Macro, Name, Script, Statement, Text, Value
 from handeye.diagnostics import (
     LIMIT,
     Diagnostic,
@@ -26,9 +31,6 @@ _DEFINE: Final = "DEFINE"
 _TYPED: Final = ("DO", "GO")
 """Words of the console: they have an instruction, or the program, carried out."""
 
-LONGEST_LINE: Final = 1000
-"""Characters. Steps, plans and traces repeat the line they come from, for each call of a macro."""
-
 
 def parse(text: str) -> tuple[Script, list[Diagnostic]]:
     """The tree of a text alone and what is wrong with its form; reading ends after `LIMIT` mistakes."""
@@ -43,26 +45,20 @@ def parse_whole(source: Source) -> tuple[Script, list[Diagnostic]]:
 def _parsed(source: Source, requirements: Requirements | None) -> tuple[Script, list[Diagnostic]]:
     texts = {text.key: scan(text.text, source.begins[text.key]) for text in source.texts}
     defining = (text.key for text in source.texts if _DEFINE in text.text.upper())
-    names = {name for key in defining for name in _macro_names(texts[key])}
-    parser = _Parser(texts=texts, macro_names=names, requirements=requirements)
+    # Known before they are defined, so that a call may stand first.
+    known: dict[str, Instruction | None] = {}
+    for head in (head for key in defining for head in heads(texts[key])):
+        known.setdefault(head.word, head.usage)
+    parser = _Parser(texts=texts, known=known, requirements=requirements)
     parser.read(source)
     return Script(statements=tuple(parser.statements), macros=parser.macros), parser.diagnostics
-
-
-def _macro_names(lines: list[Line]) -> set[str]:
-    """Names of macros, known before they are defined, so that a call may stand first."""
-    found = set()
-    for line in lines:
-        tokens = line.split()[1]
-        if len(tokens) > 1 and tokens[0].text.upper() == _DEFINE and tokens[1].kind is NAME:
-            found.add(tokens[1].text.upper())
-    return found
 
 
 @dataclass(slots=True)
 class _Parser:
     texts: dict[str, list[Line]]
-    macro_names: set[str]
+    known: dict[str, Instruction | None]
+    """Macros by name; None: it cannot be told what the macro takes."""
     requirements: Requirements | None
     """None: what is required is not read."""
     errors: int = 0
@@ -71,6 +67,8 @@ class _Parser:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     opened: Name | None = None
     """The macro whose body is being read."""
+    parameters: dict[str, Name] = field(default_factory=dict)
+    """Those of that macro."""
     body: list[Statement] = field(default_factory=list)
 
     def read(self, source: Source) -> None:
@@ -136,8 +134,9 @@ class _Parser:
     def close(self) -> None:
         name = self.opened
         if name is not None and name.text not in self.macros and name.text not in INSTRUCTIONS:
-            self.macros[name.text] = Macro(name=name, body=tuple(self.body))
-        self.opened, self.body = None, []
+            parameters = tuple(self.parameters.values())
+            self.macros[name.text] = Macro(name=name, parameters=parameters, body=tuple(self.body))
+        self.opened, self.parameters, self.body = None, {}, []
 
     def define(self, tokens: tuple[Token, ...]) -> None:
         if self.opened is not None:
@@ -151,9 +150,7 @@ class _Parser:
             self.opened = Name(tokens[0].start, tokens[0].end, "")
             return
         name = Name(tokens[1].start, tokens[1].end, tokens[1].text.upper())
-        if len(tokens) > 2:
-            self.beyond(name, tokens[2:])
-        elif name.text in INSTRUCTIONS or name.text == "DEFINE":
+        if name.text in INSTRUCTIONS or name.text == "DEFINE":
             self.report("macro-name-taken", f"{quoted(name.text)} is an instruction", name.span)
         elif name.text in self.macros:
             first = Label(span=self.macros[name.text].name.span, text="first defined here")
@@ -161,15 +158,33 @@ class _Parser:
                 "macro-twice", f"macro {quoted(name.text)} is defined twice", name.span, secondary=(first,)
             )
         self.opened = name
+        try:
+            for token in separated(tokens[1:])[1:]:
+                self.parameter(token)
+        except Mistake as mistake:
+            self.tell(mistake.diagnostic)
 
-    def beyond(self, name: Name, rest: tuple[Token, ...]) -> None:
-        """More than a name behind a DEFINE: an instruction, or arguments."""
-        message, help = f"macro {quoted(name.text)} can have no arguments", "write a macro for each use of it"
-        if rest[0].text.upper() in INSTRUCTIONS:
-            message = "`DEFINE` takes a name only"
-            help = "write the instructions of a macro on the lines below"
-        span = Span(start=rest[0].start, end=rest[-1].end)
-        self.report("too-many-operands", message, span, help=help)
+    def parameter(self, token: Token) -> None:
+        """One more of the macro that is opened.
+
+        Raises:
+            Mistake: it is not a name, or one that stands for something else.
+        """
+        if token.kind is not NAME:
+            said = "a call gives the numbers and vectors; the macro names them"
+            message = f"a parameter is a name, not {quoted(token.text)}"
+            raise Mistake("wrong-operand", message, token.span, help=said)
+        name = _name(token)
+        is_taken = taken(name.text)
+        if is_taken is not None:
+            said = "write the instructions of a macro on the lines below"
+            help = said if token.text.upper() in INSTRUCTIONS else None
+            raise Mistake("parameter-name-taken", is_taken, token.span, help=help)
+        first = self.parameters.setdefault(name.text, name)
+        if first is not name:
+            message = f"parameter {quoted(name.text)} is named twice"
+            there = (Label(span=first.span, text="first here"),)
+            self.report("parameter-twice", message, name.span, secondary=there)
 
     def unterminated(self, why: str) -> None:
         if self.opened is None or not self.opened.text:
@@ -185,6 +200,8 @@ class _Parser:
     def statement(
         self, line: Line, labels: tuple[Name, ...], said: str, tokens: tuple[Token, ...]
     ) -> Statement:
+        for label in labels:
+            self.check_label(label)
         if not tokens:
             return Statement(line.tokens[0].start, line.end, labels, None, line.number)
         head, rest = tokens[0], tokens[1:]
@@ -193,25 +210,45 @@ class _Parser:
         if head.kind is not NAME:
             self.unreadable(head)
             return Statement(start, end, labels, None, line.number, broken=True)
-        definition = INSTRUCTIONS.get(said)
+        is_call = said not in INSTRUCTIONS
+        kept = rest if self.parameters or is_call else ()
+        definition = INSTRUCTIONS.get(said) or self.known.get(said)
         if definition is None:
-            is_call = self.is_call(word, line, rest)
-            return Statement(start, end, labels, word, line.number, broken=not is_call)
+            self.unknown(word, line, rest)
+            return Statement(start, end, labels, word, line.number, broken=True)
+        statement = Statement(start, end, labels, word, line.number, tokens=kept)
+        if self.is_open(statement):
+            return replace(statement, open=True)
         try:
             operands = read_operands(definition, head, rest)
         except Mistake as mistake:
             self.tell(mistake.diagnostic)
             # What it would have named is not missing as well.
             named = tuple(_name(token) for token in rest[:1] if token.kind is NAME)
-            return Statement(start, end, labels, word, line.number, named, broken=True)
-        return Statement(start, end, labels, word, line.number, operands)
+            return replace(statement, operands=named, broken=True)
+        return statement if is_call else replace(statement, operands=operands)
 
-    def is_call(self, word: Name, line: Line, rest: tuple[Token, ...]) -> bool:
-        if word.text in self.macro_names:
-            if rest:
-                extra = Span(start=rest[0].start, end=rest[-1].end)
-                self.report("too-many-operands", f"macro {quoted(word.text)} takes no operands", extra)
-            return not rest
+    def is_open(self, statement: Statement) -> bool:
+        """True if a parameter of the macro stands in a line of it."""
+        if not self.parameters:
+            return False
+        names = [
+            *(token.text for token in parameters_in(statement)),
+            *(name for name, _ in braced_in(statement)),
+        ]
+        return not self.parameters.keys().isdisjoint(names)
+
+    def check_label(self, label: Name) -> None:
+        there = self.parameters.get(label.text)
+        if there is not None:
+            message = f"label {quoted(label.text)} has the name of a parameter"
+            secondary = (Label(span=there.span, text="the parameter"),)
+            self.report("parameter-name-taken", message, label.span, secondary=secondary)
+
+    def unknown(self, word: Name, line: Line, rest: tuple[Token, ...]) -> None:
+        """Tell of a word that is neither an instruction nor a macro, unless it is a macro with a wrong head."""
+        if word.text in self.known:
+            return
         if word.text in _TYPED:
             self.report(
                 "typed-word",
@@ -219,12 +256,11 @@ class _Parser:
                 word.span,
                 help=_alone(rest),
             )
-            return False
+            return
         written = line.split()[1][0].text
         message = f"there is no instruction {quoted(written)}"
         help, meant = self.meant(written, line, rest)
         self.report("unknown-instruction", message, word.span, help=help, meant=meant)
-        return False
 
     def meant(self, written: str, line: Line, rest: tuple[Token, ...]) -> tuple[str | None, Meant | None]:
         """Help where a line begins with a word that is neither an instruction nor a macro, and what may be meant."""
@@ -234,11 +270,11 @@ class _Parser:
             return f"{label}; a `;` begins a comment", MissingMark(":")
         if (help := elsewhere(written)) is not None:
             return help, None
-        if behind not in self.macro_names:
-            names = alternatives(written, {*INSTRUCTIONS, *self.macro_names, _DEFINE})
+        if behind not in self.known:
+            names = alternatives(written, {*INSTRUCTIONS, *self.known, _DEFINE})
             if names is not None:
                 return told_names(names), names
-        if behind in INSTRUCTIONS or behind in self.macro_names:
+        if behind in INSTRUCTIONS or behind in self.known:
             return label, MissingMark(":")
         if behind.startswith("="):
             return "`ASSIGN` sets a counter, `TRANS` defines a position", None

@@ -25,10 +25,10 @@ def all_statements(script: Script) -> Iterator[Statement]:
         yield from macro.body
 
 
-def by_word(script: Script) -> ByWord:
-    """The statements of a script and of its macros by their words."""
+def by_word(statements: Iterable[Statement]) -> ByWord:
+    """Statements by their words."""
     found = defaultdict(list)
-    for statement in all_statements(script):
+    for statement in statements:
         if statement.word is not None:
             found[statement.word.text].append(statement)
     return found

@@ -1,34 +1,45 @@
 """The syntax tree of an arm program. It has no cycles, so that nobody has to look for them (`gc`)."""
 
-from typing import ClassVar
+from typing import ClassVar, Final
 
 import msgspec
 
-from handeye.source import Located
+from handeye.al.scanner import Token
+from handeye.source import Located, Span
+
+LONGEST_LINE: Final = 1000
+"""Characters. Steps, plans and traces repeat the line they come from, for each call of a macro."""
 
 
-class Name(Located, frozen=True, gc=False):
+class Operand(Located, frozen=True, gc=False, kw_only=True):
+    """What stands at an operand."""
+
+    use: Span | None = None
+    """The parameter of a macro in whose place it stands; None: it stands where it is written."""
+
+
+class Name(Operand, frozen=True, gc=False):
     """A word: the name of something, or a word of the language."""
 
     what: ClassVar[str] = "a name"
     text: str
 
 
-class Number(Located, frozen=True, gc=False):
+class Number(Operand, frozen=True, gc=False):
     """A number in the unit of its place."""
 
     what: ClassVar[str] = "a number"
     value: float
 
 
-class Vector(Located, frozen=True, gc=False):
+class Vector(Operand, frozen=True, gc=False):
     """Numbers in brackets."""
 
     what: ClassVar[str] = "a vector"
     values: tuple[float, ...]
 
 
-class Text(Located, frozen=True, gc=False):
+class Text(Operand, frozen=True, gc=False):
     """Words for people; without the quotes."""
 
     what: ClassVar[str] = "a string"
@@ -50,13 +61,18 @@ class Statement(Located, frozen=True, gc=False):
     """One for each operand in the definition of the instruction; None where an optional one is left out."""
     broken: bool = False
     """A mistake in it has been reported; `operands` is empty, but for a name it begins with."""
+    tokens: tuple[Token, ...] = ()
+    """Its operands before they are read: of a call, and of every line of a macro with parameters."""
+    open: bool = False
+    """A parameter stands in it: only a call tells its operands, which are not read yet."""
 
 
 class Macro(msgspec.Struct, frozen=True, gc=False, kw_only=True):
-    """`DEFINE name`, statements, and a blank line."""
+    """`DEFINE name parameter ...`, statements, and a blank line."""
 
     name: Name
     """In capitals, as words of the instruction column are."""
+    parameters: tuple[Name, ...] = ()
     body: tuple[Statement, ...]
 
 

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from handeye.al.definition import Operand, Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.statements import ByWord, pairs
-from handeye.al.syntax import Macro, Name, Script, Statement, Value, Vector
+from handeye.al.syntax import Name, Statement, Value, Vector
 
 Vectors = Mapping[str, tuple[float, ...]]
 """Components by name, in the unit of the place that the name stands at."""
@@ -30,10 +30,12 @@ def named_vectors(words: ByWord) -> Vectors:
     return known
 
 
-def with_vectors(script: Script, known: Vectors) -> Script:
-    """The script with vectors in the place of their names."""
-    macros = {n: Macro(name=m.name, body=_replaced(m.body, known)) for n, m in script.macros.items()}
-    return Script(statements=_replaced(script.statements, known), macros=macros)
+def with_vectors(statement: Statement, known: Vectors) -> Statement:
+    """A statement with vectors in the place of their names."""
+    named = statement.word is not None and statement.word.text in _TAKE_NAMES
+    if not named or statement.broken or not any(isinstance(value, Name) for value in statement.operands):
+        return statement
+    return replace(statement, operands=tuple(in_place(v, o, known) for o, v in pairs(statement)))
 
 
 def in_place(value: Value | None, operand: Operand, known: Vectors) -> Value | None:
@@ -41,15 +43,3 @@ def in_place(value: Value | None, operand: Operand, known: Vectors) -> Value | N
     if isinstance(value, Name) and operand.refers is Refers.VECTOR:
         return Vector(value.start, value.end, known.get(value.text, _UNITS["Z"]))
     return value
-
-
-def _replaced(statements: tuple[Statement, ...], known: Vectors) -> tuple[Statement, ...]:
-    return tuple(
-        [s if s.word is None or s.word.text not in _TAKE_NAMES else _with(s, known) for s in statements]
-    )
-
-
-def _with(statement: Statement, known: Vectors) -> Statement:
-    if not any(isinstance(value, Name) for value in statement.operands) or statement.broken:
-        return statement
-    return replace(statement, operands=tuple(in_place(v, o, known) for o, v in pairs(statement)))

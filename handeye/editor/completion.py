@@ -8,7 +8,8 @@ from handeye.al.instructions import EXPLAINED
 from handeye.al.scanner import TokenKind, scan
 from handeye.al.syntax import Name
 from handeye.editor.document import Document
-from handeye.editor.occurrences import MACRO, PART, POSITION
+from handeye.editor.macro_bodies import called, uses
+from handeye.editor.occurrences import MACRO, PARAMETER, PART, POSITION
 from handeye.editor.places import expected, instruction
 from handeye.errors import ERRORS
 from handeye.source import Span, line_name
@@ -38,11 +39,15 @@ def completions(document: Document, offset: int) -> tuple[Span, list[Proposal]]:
     definition, tokens = instruction(line)
     if not tokens:
         return span, [*_instructions(), *_named(document, MACRO)]
-    if definition is None:
-        return span, []
-    wanted = expected(definition, tokens[1:])
+    usage = definition or called(line, document.macros)
+    wanted = expected(usage, tokens[1:]) if usage is not None else []
+    found = list(_parameters(document, start)) if wanted else []
     last = tokens[-1].text.upper()
-    found = [p for operand in wanted for p in _operand(document, operand, after=last)]
+    for operand in wanted:
+        stands = [operand]
+        if definition is None and usage is not None:
+            stands = [use.operand for use in uses(document.macros, usage.op, operand.name)]
+        found += [proposal for each in stands for proposal in _operand(document, each, after=last)]
     return span, list(dict.fromkeys(found))
 
 
@@ -57,6 +62,14 @@ def names(document: Document, kind: str) -> dict[str, str]:
             line = line_name(text.position(name.span.start)[0], text.key)
             found.setdefault(name.name, f"{kind}, line {line}")
     return dict(sorted(found.items()))
+
+
+def _parameters(document: Document, offset: int) -> Iterator[Proposal]:
+    """Those of the macro that an offset is in."""
+    macro = document.macro_at(offset)
+    if macro is not None:
+        for token in macro.head.parameters:
+            yield Proposal(text=token.text, kind=PARAMETER, detail=f"parameter of {macro.head.word}")
 
 
 def _word_before(text: str) -> str:

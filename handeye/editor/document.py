@@ -7,11 +7,12 @@ from functools import cached_property
 from handeye.al.compiler import compile_text
 from handeye.al.includes import Read, sewn
 from handeye.al.lower_statement import position
+from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
 from handeye.al.scanner import Line, scan
-from handeye.al.statements import all_statements
 from handeye.diagnostics import Diagnostic
-from handeye.editor.occurrences import PART, POSITION, Occurrence, macros_of, occurrences
+from handeye.editor.macro_bodies import MacroBody, macros_of
+from handeye.editor.occurrences import PART, POSITION, Occurrence, occurrences
 from handeye.editor.taughtfile import taught_occurrences
 from handeye.program.program import Position, Program
 from handeye.program.taught import Taught
@@ -45,17 +46,25 @@ class Document:
         return scan(self.text)
 
     @cached_property
+    def macros(self) -> dict[str, MacroBody]:
+        """The macros of the script and of what it requires, by name."""
+        required = [macros_of(text.text) for text in self.whole.required]
+        return {word: macro for each in (*required, self._own_macros) for word, macro in each.items()}
+
+    @cached_property
+    def _own_macros(self) -> dict[str, MacroBody]:
+        return macros_of(self.text)
+
+    @cached_property
     def names(self) -> list[Occurrence]:
         """Every name in the script."""
-        macros = {macro for text in self.whole.required for macro in macros_of(text.text)}
-        return occurrences(self.text, self.taught.parts, macros)
+        return occurrences(self.text, self.taught.parts, self.macros)
 
     @cached_property
     def required_names(self) -> list[tuple[Source, Occurrence]]:
         """Every name in what it requires, with the text; spans are of that text."""
-        macros = {macro for text in self.whole.texts for macro in macros_of(text.text)}
         parts = self.taught.parts
-        return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, macros)]
+        return [(text, o) for text in self.whole.required for o in occurrences(text.text, parts, self.macros)]
 
     @cached_property
     def taught_names(self) -> list[Occurrence]:
@@ -70,7 +79,8 @@ class Document:
     @cached_property
     def positions(self) -> dict[str, Position]:
         """Hand positions by name: taught, and written in whatever lines of the text are right."""
-        statements = all_statements(parse_whole(self.whole)[0])
+        script = parse_whole(self.whole)[0]
+        statements = as_called(script, expand(script, lambda _: None))
         written = [s for s in statements if s.word is not None and s.word.text == "TRANS"]
         return {**self.taught.positions, **dict(position(s) for s in written if not s.broken)}
 
@@ -79,6 +89,11 @@ class Document:
         if kind == POSITION:
             return self.taught.positions.keys()
         return self.taught.parts.keys() if kind == PART else ()
+
+    def macro_at(self, offset: int) -> MacroBody | None:
+        """The macro of the script that an offset is in; None outside of them."""
+        line = self.line_at(offset)
+        return next((macro for macro in self._own_macros.values() if line in macro.lines), None)
 
     def line_at(self, offset: int) -> Line | None:
         """The line an offset is on; None behind the last."""

@@ -10,6 +10,8 @@ from handeye.diagnostics import Diagnostic, MissingMark, quoted
 from handeye.editor.completion import names
 from handeye.editor.document import Document
 from handeye.editor.fix import Fix, insert, line_of, operand_of, replace, with_blanks_before
+from handeye.editor.macro_bodies import called
+from handeye.editor.navigation import Edit
 from handeye.editor.places import expected, instruction, places
 from handeye.source import Span
 
@@ -62,6 +64,28 @@ def end_macro(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
             return
     end = "\n" if document.text.endswith("\n") else "\n\n"
     yield insert(len(document.text), end, "end the macro with a blank line")
+
+
+def remove_parameter(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:
+    """The head without the parameter, and the calls without its operands; none where commas separate them."""
+    name = document.name_at(diagnostic.primary.span.start)
+    macro = None if name is None else document.macros.get(name.scope)
+    if name is None or macro is None:
+        return
+    spans, lines = [name.span], [line_of(document, diagnostic)]
+    for line in document.lines:
+        call = called(line, document.macros)
+        if call is not None and call.op == name.scope:
+            lines.append(line)
+            given = [
+                p.token
+                for p in places(call, line.split()[1][1:])
+                if p.operand and p.operand.name == name.name
+            ]
+            spans += [Span(start=given[0].start, end=given[-1].end)] if given else []
+    if not any(token.text == "," for line in lines for token in line.tokens):
+        edits = tuple(Edit(span=with_blanks_before(document, span), text="") for span in spans)
+        yield Fix(title=f"remove the parameter {quoted(name.name)}", edits=edits)
 
 
 def drop_operands(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

@@ -61,6 +61,7 @@ _CURES: Final[dict[str, Callable[[Document, Diagnostic], Iterator[Fix]]]] = {
     "unterminated-vector": fix_operands.close_vector,
     "unused-label": fix_lines.remove_unused,
     "unused-macro": fix_lines.remove_unused,
+    "unused-parameter": fix_operands.remove_parameter,
     "unused-position": fix_lines.remove_unused,
     "unused-vector": fix_lines.remove_unused,
     "wrong-operand": fix_operands.quote,

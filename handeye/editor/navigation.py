@@ -1,15 +1,17 @@
 """From a name to where it is made and used, and to another name."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
+from handeye.al.definition import AXES
 from handeye.al.includes import key_of, own_key, required_by
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.word_groups import OPERAND_WORDS
 from handeye.diagnostics import quoted
 from handeye.editor.document import Document
-from handeye.editor.occurrences import LABEL, MACRO, PARK, PART, POSITION, Occurrence, same
+from handeye.editor.occurrences import LABEL, MACRO, PARAMETER, PARK, PART, POSITION, Occurrence, same
 from handeye.errors import InvalidInput
 from handeye.source import Span
 
@@ -85,22 +87,37 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
             f"{quoted(new)} is not a name: names consist of letters, digits and `_`, and do not start with a digit"
         )
     if (
-        name.kind in (MACRO, LABEL) and new.upper() in (*INSTRUCTIONS, "DEFINE")
+        name.kind in (MACRO, LABEL, PARAMETER) and new.upper() in (*INSTRUCTIONS, "DEFINE")
     ) or new.upper() in OPERAND_WORDS:
         raise InvalidInput(f"{quoted(new)} is a word of the language")
+    if name.kind == PARAMETER and new in AXES:
+        raise InvalidInput(f"{quoted(new)} is an axis of the table")
     others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
     if new != name.name and any(_meets(other, name, new) for other in others):
         raise InvalidInput(f"there is a {name.kind} {quoted(new)} already")
+    if new != name.name and (macro := _hidden(others, name, new)):
+        raise InvalidInput(f"in macro {quoted(macro)} {quoted(new)} stands for something else")
     return [Edit(span=f.span, text=new, taught=f.taught, file=f.file) for _, f in _all(document, name)]
 
 
 def _meets(other: Occurrence, name: Occurrence, new: str) -> bool:
     """True if a name clashes with the new one; AIM takes positions and parts alike."""
+    if name.kind == PARAMETER:
+        return False
     if name.kind == LABEL:
         return other.kind == LABEL and other.name == new
     kinds = (POSITION, PART) if name.kind in (POSITION, PART) else (name.kind,)
     called = new.upper() if name.kind == MACRO else new
     return other.kind in kinds and other.name == called and not same(other, name)
+
+
+def _hidden(others: Iterable[Occurrence], name: Occurrence, new: str) -> str | None:
+    """A macro in which the new name of a thing is a parameter, or that of a parameter a thing; None if none is."""
+    used = {other.macro for other in others if same(other, name)} - {""}
+    for other in others:
+        if other.name == new and other.macro in used and PARAMETER in (other.kind, name.kind):
+            return other.macro
+    return None
 
 
 def _is_taught(document: Document, name: Occurrence) -> bool:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from handeye.al.scanner import TokenKind
 from handeye.editor.document import Document
-from handeye.editor.occurrences import MACRO
+from handeye.editor.occurrences import MACRO, PARAMETER
 from handeye.editor.places import instruction
 from handeye.source import Span
 
@@ -31,7 +31,7 @@ def outline(document: Document) -> list[Symbol]:
     stages = _stages(document)
     macros = []
     for name in document.names:
-        if not name.makes:
+        if not name.makes or name.kind == PARAMETER:
             continue
         line = document.line_at(name.span.start)
         assert line is not None

@@ -26,9 +26,10 @@ def grammar() -> Rule:
                 rf"({_NAME})\s*(:)",
                 {"1": "entity.name.label.armal", "2": "punctuation.separator.label.armal"},
             ),
-            _match(
+            _begun(
                 rf"(?i:\b(DEFINE)\b)(?:\s+({_NAME}))?",
                 {"1": "keyword.other.define.armal", "2": "entity.name.function.armal"},
+                [_match(rf"\b({_NAME})", {"1": "variable.parameter.armal"}), {"include": "#operands"}],
             ),
             _line(_word(FREE_TEXT), "keyword.control.armal", _ANY_WORDS),
             _line(_word(JUMPS), "keyword.control.armal", [_LABEL, {"include": "#operands"}]),
@@ -50,9 +51,14 @@ def _match(pattern: str, names: dict[str, str]) -> Rule:
 
 def _line(begin: str, name: str, patterns: Iterable[Rule]) -> Rule:
     """An instruction and its operands, to the comment or the end of the line."""
+    return _begun(begin, {"1": name}, patterns)
+
+
+def _begun(begin: str, names: dict[str, str], patterns: Iterable[Rule]) -> Rule:
+    """What stands behind some words, to the comment or the end of the line."""
     return {
         "begin": begin,
-        "beginCaptures": {"1": {"name": name}},
+        "beginCaptures": {number: {"name": name} for number, name in names.items()},
         "end": "(?=;)|$",
         "patterns": list(patterns),
     }
@@ -62,9 +68,20 @@ def _word(words: Iterable[str]) -> str:
     return rf"(?i:\b({'|'.join(words)})\b)"
 
 
-_STRING: Final[Rule] = {"name": "string.quoted.double.armal", "match": '"[^"]*"?'}
+_PARAMETER: Final[Rule] = {"name": "variable.parameter.armal", "match": rf"\{{{_NAME}\}}"}
+_STRING: Final[Rule] = {
+    "begin": '"',
+    "beginCaptures": {"0": {"name": "string.quoted.double.armal"}},
+    "end": '"|$',
+    "endCaptures": {"0": {"name": "string.quoted.double.armal"}},
+    "patterns": [_PARAMETER, {"name": "string.quoted.double.armal", "match": r'[^"{]+|\{'}],
+}
 _LABEL: Final[Rule] = _match(rf"\b({_NAME})\s*(?=;|$)", {"1": "entity.name.label.armal"})
-_ANY_WORDS: Final[list[Rule]] = [_STRING, {"name": "string.unquoted.armal", "match": r'[^\s;"]+'}]
+_ANY_WORDS: Final[list[Rule]] = [
+    _STRING,
+    _PARAMETER,
+    {"name": "string.unquoted.armal", "match": r'[^\s;"{]+|\{'},
+]
 
 
 def _operands() -> list[Rule]:

@@ -10,7 +10,14 @@ from handeye.source import Source, Span
 
 Units = Callable[[str], int]
 """How many code units of the agreed encoding a text has."""
-_UNNECESSARY: Final = {"unreachable-code", "unused-label", "unused-macro", "unused-position", "unused-vector"}
+_UNNECESSARY: Final = {
+    "unreachable-code",
+    "unused-label",
+    "unused-macro",
+    "unused-parameter",
+    "unused-position",
+    "unused-vector",
+}
 """Codes of what could be left out: editors show it paler."""
 
 

@@ -82,7 +82,8 @@ def lasting(lines: Sequence[str]) -> list[str]:
 
 def _macro_lines(macro: Macro, lines: Sequence[str]) -> list[str]:
     """A macro as it is written, and the blank line that ends it."""
-    return [f"DEFINE {macro.name.text}", *(lines[statement.line - 1] for statement in macro.body), ""]
+    head = " ".join(["DEFINE", macro.name.text, *(parameter.text for parameter in macro.parameters)])
+    return [head, *(lines[statement.line - 1] for statement in macro.body), ""]
 
 
 def is_open(lines: Sequence[str]) -> bool:

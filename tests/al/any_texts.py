@@ -27,7 +27,10 @@ CORPUS = [
 WORDS = [
     *INSTRUCTIONS,
     "DEFINE M",
+    "DEFINE M S",
     "M",
+    "S",
+    "{S}",
     "T",
     "L:",
     "L",

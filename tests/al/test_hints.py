@@ -34,7 +34,11 @@ from handeye.source import Source
         ("PARK\nEND", "unknown-instruction", "a program ends where its text ends"),
         ("PARK\nRETURN", "unknown-instruction", "a program ends where its text ends"),
         ("L: PARK\nGOTO L", "unknown-instruction", "`JUMP` goes to a label"),
-        ("DEFINE M\nPARK\n\nCALL M", "unknown-instruction", "the name of a macro alone calls it"),
+        (
+            "DEFINE M\nPARK\n\nCALL M",
+            "unknown-instruction",
+            "the name of a macro calls it, with its operands behind",
+        ),
         ("L; MOVE T", "unknown-instruction", "a label ends with a colon: `L:`; a `;` begins a comment"),
         ("L MOVE T", "unknown-instruction", "a label ends with a colon: `L:`"),
         ("DEFINE M\nPARK\n\nL M", "unknown-instruction", "a label ends with a colon: `L:`"),

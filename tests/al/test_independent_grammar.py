@@ -1,5 +1,6 @@
 """The parser against a grammar that was written from the manual: both take the same texts for arm programs."""
 
+import re
 from pathlib import Path
 
 import lark
@@ -10,26 +11,64 @@ from hypothesis import given
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
 
+LINE = re.compile(r'((?:[ \t\r\f\v]*[A-Za-z_]\w*[ \t\r\f\v]*:)*)((?:[^;"]|"[^"]*"?)*)(.*)', re.ASCII)
+"""Labels, what is said, and a comment."""
+DEFINES = re.compile(r"[ \t\r\f\v]*DEFINE\b", re.ASCII | re.IGNORECASE)
+WORD = re.compile(r"(?<![\w.])[A-Za-z_]\w*", re.ASCII)
+BLANKS = " \t\r\f\v"
 HERE = Path(__file__).parent
 GRAMMAR = lark.Lark((HERE / "arm_language.lark").read_text(encoding="utf-8"), parser="lalr")
 SIZES = {"line-too-long", "number-out-of-range", "unknown-lens", "zero-vector"}
 """What the parser says of what is written as it should be, but for its size."""
 
 
+def without_open_lines(text: str) -> str:
+    """The text without what a parameter stands in, of which only a call tells what it is."""
+    out, parameters = [], set[str]()
+    for line in text.split("\n"):
+        labels, said, comment = LINE.fullmatch(line).groups()
+        if DEFINES.match(said):
+            parameters = {*re.findall(r"[A-Za-z_]\w*", said, re.ASCII)[2:]}
+        elif not line.strip(BLANKS):
+            parameters = set()
+        elif not parameters.isdisjoint(re.findall(r"\{([A-Za-z_]\w*)\}", said, re.ASCII)) or (
+            re.split(r"\W", said.strip(BLANKS), maxsplit=1, flags=re.ASCII)[0].upper()
+            not in ("WAIT", "REQUIRE")
+            and not parameters.isdisjoint(WORD.findall(re.sub(r'"[^"]*"?', '""', said))[1:])
+        ):
+            said = " PARK "
+        mark = (
+            "" if parameters.isdisjoint(WORD.findall(labels)) else "?"
+        )  # no label has the name of a parameter
+        out.append(mark + labels + said + comment)
+    return "\n".join(out)
+
+
 def is_program(text: str) -> bool:
     """What the grammar says, and the rules that no such grammar can have."""
+    text = without_open_lines(text)
     try:
         tree = GRAMMAR.parse(text + "\n" * (text[-1:] not in ("\n", "")))
     except lark.UnexpectedInput:
         return False
-    macros = [str(macro.children[0]).upper() for macro in tree.find_data("macro")]
-    calls = {str(call.children[0]).upper() for call in tree.find_data("call")}
+    heads = [[str(name) for name in head.children] for head in tree.find_data("head")]
+    macros = [name.upper() for name, *_ in heads]
+    takes = {name.upper(): len(parameters) for name, *parameters in heads}
+    named = {name for _, *parameters in heads for name in parameters}
+    calls = [
+        (str(word).upper(), [g for g in given if g])
+        for word, *given in (c.children for c in tree.find_data("call"))
+    ]
     axes = [
         (float(count), letters) for count, *letters in (found.children for found in tree.find_data("axes"))
     ]
     return (
         len(set(macros)) == len(macros)
-        and calls <= set(macros)
+        and all(takes.get(word) == len(given) for word, given in calls)
+        and all(len({*parameters}) == len(parameters) for _, *parameters in heads)
+        and not {*INSTRUCTIONS, "DEFINE", "DIRECT", "HOLD", "LEVEL", "NIL", "OF"}
+        & {name.upper() for name in named}
+        and not {"X", "Y", "Z"} & named
         and not any([*macro.find_data("require")] for macro in tree.find_data("macro"))
         and not {*INSTRUCTIONS, "DEFINE"} & set(macros)
         and all(some.children[0].upper() != "NIL" for some in tree.find_data("some"))
@@ -102,6 +141,24 @@ PROBES = {
     "DEFINE A\nPARK\n ": True,
     "DEFINE A\nPARK\n": False,
     "L: DEFINE A\nPARK\n\nA": True,
+    "DEFINE A S,G\nMOVE S\nOPEN G\n\nA T 1": True,
+    "DEFINE A, S\nMOVE S DIRECT\n\nA T": True,
+    "DEFINE A S\nMOVE S\n\nA, T": False,
+    "DEFINE A S\nMOVE S\n\nA [0 0 1]": True,
+    "DEFINE A S\nMOVE S\n\nA [0 T 1]": False,
+    'DEFINE A S\nWAIT AT {S}\n\nA "T"': True,
+    'DEFINE A S\nMOVE S\n\nA "T': False,
+    "DEFINE A S\nMOVE S\n\nA": False,
+    "DEFINE A S\nMOVE S\n\nA T P": False,
+    "DEFINE A S\nMOVE S\n\nA 1in": False,
+    "DEFINE A S S\nMOVE S\n\nA T P": False,
+    "DEFINE A 1\nPARK\n\nA 1": False,
+    "DEFINE A open\nPARK\n\nA T": False,
+    "DEFINE A X\nPARK\n\nA T": False,
+    "DEFINE A x\nCHANGE x 1\n\nA Y": True,
+    "DEFINE A Nil\nPARK\n\nA T": False,
+    "DEFINE A S\nS: MOVE S\n\nA T": False,
+    "DEFINE A S\nMOVE S\n\nMOVE S T": False,
     "TRANS A [0 0 0 0 0 0] OFB": False,
     "MOVE é": False,
     "PARK\r\n\x0bPARK\x0c": True,

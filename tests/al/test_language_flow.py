@@ -67,18 +67,24 @@ def test_macro_without_a_blank_line_is_reported() -> None:
 @pytest.mark.parametrize(
     ("define", "message", "help"),
     [
-        ("DEFINE GRASP A B", "macro `GRASP` can have no arguments", "write a macro for each use of it"),
-        ("DEFINE GRASP, A", "macro `GRASP` can have no arguments", "write a macro for each use of it"),
         (
             "DEFINE GRASP CLOSE .1",
-            "`DEFINE` takes a name only",
+            "`CLOSE` is an instruction",
             "write the instructions of a macro on the lines below",
+        ),
+        ("DEFINE GRASP Y", "`Y` is an axis of the table", None),
+        ("DEFINE GRASP nil", "`nil` is a word of the language", None),
+        (
+            "DEFINE GRASP S 50",
+            "a parameter is a name, not `50`",
+            "a call gives the numbers and vectors; the macro names them",
         ),
     ],
 )
-def test_a_macro_with_arguments_is_told_what_to_do(define: str, message: str, help: str) -> None:
-    (diagnostic,) = diagnose(f"{define}\nMOVE P\n\nGRASP")
-    assert (diagnostic.code, diagnostic.message, diagnostic.help) == ("too-many-operands", message, help)
+def test_what_cannot_be_a_parameter_is_told_once(define: str, message: str, help: str | None) -> None:
+    (diagnostic,) = diagnose(f"{define}\nMOVE P\n\nGRASP 1")
+    assert len(diagnose(f"{define} U\nMOVE P\n\nGRASP 1 2")) == 1
+    assert (diagnostic.message, diagnostic.help) == (message, help)
 
 
 def test_macro_inside_a_macro_is_reported_as_a_missing_blank_line() -> None:

@@ -36,6 +36,14 @@ def test_a_stage_that_only_calls_a_macro_has_the_lines_of_the_macro() -> None:
     assert [stage.lines for stage in listing(plan.program)] == [(7, 7), (2, 3)]
 
 
+def test_a_line_of_a_macro_is_listed_as_each_call_has_it() -> None:
+    plan = plan_of("DEFINE M G\nOPEN G\n\nM 1\nM .5\n")
+    assert [line.split("line ")[1] for line in listing_text(plan.program)[1:]] == [
+        "2     OPEN 1",
+        "2     OPEN .5",
+    ]
+
+
 def test_the_source_is_shown_as_in_the_script_with_the_line_where_the_run_stands() -> None:
     assert excerpt_lines(excerpt(PLAN.program, 8, 8, 1)) == [
         "    7          SEARCH  .07",

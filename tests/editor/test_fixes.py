@@ -47,6 +47,8 @@ CURED = {
         "STOP 9\nMOVE T\nSKIPN 23\n        JUMP    PAST1\nSTOP 50\nMOVE T\nPAST1:\nPARK"
     ),
     "LOOK A\nLOOK B ;after\nINSPECT BASE A B": "LOOK A\nLOOK B HOLD ;after\nINSPECT BASE A B",
+    "DEFINE A S G\nMOVE S\n\nA T [0 0 1] ;on\nA P 1": "DEFINE A S\nMOVE S\n\nA T ;on\nA P",
+    "DEFINE A S\nMOVE S\n\nA PARKK": "DEFINE A S\nMOVE S\n\nA PARK",
     "DEFINE D\nSTOP 9\n\nCHANGE Z -1\n\nMOVE T\nD\nPARK": (
         "DEFINE D\nSTOP 9\nCHANGE Z -1\n\nMOVE T\nD\nPARK"
     ),

@@ -61,6 +61,19 @@ def test_labels_jumps_macros_and_messages_have_their_own_colours() -> None:
     assert coloured(text)[-2:] == [("pin", "string.unquoted"), (";help", "comment.line.semicolon")]
 
 
+def test_parameters_have_a_colour_in_the_head_and_in_texts() -> None:
+    text = 'DEFINE A S,G ;on\nWAIT NO {S} at {\nSTAGE "{S} {" 1\nMOVE T'
+    assert [piece for kind, piece in lexed(text) if kind is String.Interpol] == ["{S}"] * 2
+    assert [piece for kind, piece in lexed(text) if kind is Name.Variable] == ["S", "G", "T"]
+    assert [piece for piece, scope in coloured(text) if scope == "variable.parameter"] == [
+        "S",
+        "G",
+        "{S}",
+        "{S}",
+    ]
+    assert not [piece for piece, scope in coloured(text) if scope.startswith("invalid") or not scope]
+
+
 def test_the_label_of_a_jump_is_the_last_name_of_its_line() -> None:
     text = "AOJ TRIES,L1 ;on"
     assert [kind for kind, _ in lexed(text)][1:4] == [Name.Variable, Token.Punctuation, Name.Label]

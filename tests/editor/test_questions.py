@@ -256,6 +256,79 @@ def test_what_stands_before_the_first_stage_and_macros_have_their_place() -> Non
     ]
 
 
+# --- parameters of macros ------------------------------------------------------------------------
+
+TAKING = """\
+DEFINE TAKE S G
+        MOVE    S
+        OPEN    G
+        WAIT    "NO PIN AT {S}"
+        SAVE    OFF
+
+DEFINE BOTH U
+        TAKE    U 1
+        TAKE    T 1
+
+        BOTH    P
+"""
+
+
+def test_a_macro_is_shown_with_its_head_and_a_parameter_with_that_line() -> None:
+    assert told(TAKING.replace("TAKE    T", "|TAKE    T")).splitlines()[3] == "DEFINE TAKE S G"
+    assert told(TAKING.replace("MOVE    S", "MOVE    |S")) == (
+        "parameter `S`, line 1\n\n```armal\nDEFINE TAKE S G\n```"
+    )
+    assert told(TAKING.replace("BOTH    P", "BOTH    |P")).startswith("position `P`")
+
+
+def test_a_parameter_is_found_among_operands_in_texts_and_nowhere_else() -> None:
+    expected = ["1:13", "2:17", "4:29"]
+    assert places(TAKING.replace("MOVE    S", "MOVE    |S")) == expected
+    assert places(TAKING.replace("{S}", "{|S}")) == expected
+    assert renamed(TAKING.replace("TAKE S G", "TAKE |S G"), "PLACE_OF")[0] == (
+        TAKING.replace("TAKE S", "TAKE PLACE_OF")
+        .replace("MOVE    S", "MOVE    PLACE_OF")
+        .replace("{S}", "{PLACE_OF}")
+    )
+
+
+def test_an_operand_of_a_call_is_the_name_of_what_the_macro_does_with_it() -> None:
+    assert renamed(TAKING.replace("BOTH    P", "BOTH    |P"), "PIN")[0] == TAKING.replace(
+        "BOTH    P", "BOTH    PIN"
+    )
+    assert places("DEFINE A L\nJUMP L\n\nA |M\nM: PARK") == ["4:3", "5:1"]
+    assert places("DEFINE A N\nLOOK N\n\nA |W\nGENERAL BASE W") == ["4:3", "5:14"]
+
+
+@pytest.mark.parametrize(
+    ("marked", "new"),
+    [
+        (TAKING.replace("TAKE S", "TAKE |S"), "G"),
+        (TAKING.replace("TAKE S", "TAKE |S"), "X"),
+        (TAKING.replace("TAKE S", "TAKE |S"), "park"),
+        (TAKING.replace("BOTH U", "BOTH |U"), "T"),
+        (TAKING.replace("TAKE    T", "TAKE    |T"), "U"),
+    ],
+)
+def test_no_name_comes_to_stand_for_something_else_in_a_macro(marked: str, new: str) -> None:
+    with pytest.raises(InvalidInput):
+        renamed(marked, new)
+
+
+def test_parameters_are_proposed_in_their_macro_and_what_fits_in_a_call() -> None:
+    assert proposed("DEFINE A S\nMOVE |\n\nA T")[0] == "S"
+    assert proposed("DEFINE A S\nMOVE S\n\nMOVE |")[0] == "FAR"
+    assert proposed("DEFINE A S\nMOVE S\n\nA |") == ["FAR", "LOW", "P", "PARK", "T"]
+    assert proposed("DEFINE A S\nMOVE S\n\nA T |") == []
+
+
+def test_the_outline_has_macros_without_their_parameters() -> None:
+    assert [(s.name, s.kind) for s in outline(document(TAKING))][:2] == [
+        ("TAKE", "macro"),
+        ("program", "stage"),
+    ]
+
+
 # --- whatever is typed ---------------------------------------------------------------------------
 
 

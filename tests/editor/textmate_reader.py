@@ -1,4 +1,4 @@
-"""As much of a TextMate grammar's reader as our grammar needs: one line after the other, no nesting of rules.
+"""As much of a TextMate grammar's reader as our grammar needs: one line after the other.
 
 At each place the pattern that matches first wins, and of several the one that stands first. A rule with `begin` holds
 until its `end`.
@@ -39,6 +39,7 @@ class _Line:
             yield from self.matched(match, rule)
             if "begin" in rule:
                 yield from self.within(rule["patterns"], rule["end"])
+                yield from self.ended(rule)
 
     def flat(self, patterns: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
         for rule in patterns:
@@ -63,6 +64,12 @@ class _Line:
                 yield match[int(number)], capture["name"]
                 self.at = match.end(int(number))
         yield from self.plain(match.end())
+
+    def ended(self, rule: dict[str, Any]) -> Iterator[Token]:
+        match = re.compile(rule["end"]).match(self.line, self.at)
+        if match is not None and match[0]:
+            yield match[0], rule["endCaptures"]["0"]["name"]
+            self.at = match.end()
 
     def plain(self, end: int) -> Iterator[Token]:
         if end > self.at:

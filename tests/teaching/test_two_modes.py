@@ -203,3 +203,11 @@ def test_nothing_can_be_undone_before_anything_is_done(tmp_path: Path) -> None:
 def test_help_names_every_command(console: Console) -> None:
     said = console.read("HELP")
     assert [name for name in COMMANDS if f"\n  {name}" not in said] == []
+
+
+def test_a_macro_with_a_parameter_is_carried_out_with_its_operand(console: Console) -> None:
+    console.type("DEFINE WIDE G", "OPEN G", "", "WIDE 2", "DO WIDE 3.5")
+    assert console.steps == ["OPEN 3.5"]
+    assert "`9` is too large for the gap of `OPEN`" in console.read("WIDE 9")
+    assert console.repl.functions[-1] == "WIDE 2"
+    assert "`WIDE` lacks its G" in console.read("DO WIDE")

@@ -1,6 +1,6 @@
 """Check for what cannot be meant in the flow of a program, on the graph of its steps: nothing has to move to find it.
 
-A statement of a macro is several steps. It is at fault only if it is at fault in every call.
+A statement of a macro is several steps. It is at fault only if it is at fault in every call with the same operands.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -124,9 +124,9 @@ class _Flow:
         found = {number: diagnostic for number, diagnostic in check() if number in self.reached}
         if not found:
             return
-        right = {self.span(number) for number in self.reached if number not in found}
+        right = {self.origins[number] for number in self.reached if number not in found}
         for number, diagnostic in found.items():
-            if self.span(number) not in right:
+            if self.origins[number] not in right:
                 yield diagnostic
 
     def unreachable(self) -> Iterator[Diagnostic]:

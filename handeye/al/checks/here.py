@@ -5,6 +5,7 @@ from typing import Final
 
 from handeye.al.definition import Refers
 from handeye.al.macros import Placed
+from handeye.al.parameters import uses
 from handeye.al.statements import pairs
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
@@ -37,6 +38,6 @@ def _early(use: Name, here: Statement) -> Diagnostic:
         code="position-before-here",
         message=f"position {quoted(use.text)} is used before `HERE` defines it",
         primary=Label(span=use.span),
-        secondary=(Label(span=here.span, text="defined here"),),
+        secondary=(Label(span=here.span, text="defined here"), *uses(use)),
         help="planning follows the order of the text; a `TRANS` would give it a place",
     )

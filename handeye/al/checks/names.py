@@ -1,18 +1,18 @@
 """Every name must be the name of something: positions, parts, pictures, saved differences, error numbers."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 from handeye.al.definition import AXES, NIL, Refers
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.al.statements import ByWord, Used, all_statements, pairs
-from handeye.al.syntax import Name, Number, Script, Statement
+from handeye.al.parameters import across, uses
+from handeye.al.statements import ByWord, Used, pairs
+from handeye.al.syntax import Name, Number, Statement
 from handeye.al.unitwords import no_units
 from handeye.al.word_groups import SKIPS
 from handeye.diagnostics import LIMIT, Diagnostic, Label, alternatives, quoted, told_names
 from handeye.errors import ERRORS
 from handeye.program.taught import Taught
-from handeye.source import Span
 
 _CODES = {
     Refers.POSITION: "unknown-position",
@@ -38,14 +38,16 @@ _DECLARE = ("TRANS", "HERE", "LOOK", "VECT", "ASSIGN", "SAVE")
 """Instructions that make what they name."""
 
 
-def check_names(script: Script, words: ByWord, used: Used, taught: Taught) -> list[Diagnostic]:
+def check_names(
+    statements: Sequence[Statement], words: ByWord, used: Used, taught: Taught
+) -> list[Diagnostic]:
     """Names in a script, its macros included, of what is not there, or is there twice."""
     declared = {op: _declared(words.get(op, ())) for op in _DECLARE}
     known = _known(declared, taught)
     unknown = [
         (name, refers) for refers, there in known.items() for name in used[refers] if name.text not in there
     ]
-    swapped = list(_swapped(script, known)) if unknown else []
+    swapped = list(_swapped(statements, known)) if unknown else []
     marked = [d.primary.span for d in swapped]
     unknown = [use for use in unknown if not any(mark.start <= use[0].start < mark.end for mark in marked)]
     unknown.sort(key=lambda use: use[0].span)
@@ -58,11 +60,11 @@ def check_names(script: Script, words: ByWord, used: Used, taught: Taught) -> li
     return found + _twice(declared["TRANS"], taught) + _vectors_twice(declared["VECT"])
 
 
-def _swapped(script: Script, known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
+def _swapped(statements: Sequence[Statement], known: dict[Refers, set[str]]) -> Iterator[Diagnostic]:
     """Two names of an instruction that would be right the other way round."""
-    labels = {label.text for statement in all_statements(script) for label in statement.labels}
+    labels = {label.text for statement in statements for label in statement.labels}
     known = {**known, Refers.LABEL: labels}
-    for statement in all_statements(script):
+    for statement in statements:
         named = [(o.refers, v) for o, v in pairs(statement) if isinstance(v, Name) and o.refers in known]
         for (first, a), (second, b) in pairwise(named):
             right = a.text in known[first] or b.text in known[second]
@@ -74,7 +76,8 @@ def _swapped(script: Script, known: dict[Refers, set[str]]) -> Iterator[Diagnost
                 code="wrong-operand",
                 message=f"{quoted(a.text)} is a {second.value} and {quoted(b.text)} a {first.value}: "
                 f"`{op}` takes them the other way round",
-                primary=Label(span=Span(start=a.start, end=b.end)),
+                primary=Label(span=across(a, b)),
+                secondary=uses(a),
                 help=f"usage: `{INSTRUCTIONS[op].usage}`",
             )
 
@@ -156,7 +159,13 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
     said = no_units(name.text) if refers is Refers.VECTOR else None
     if said is not None:
         message = f"{quoted(name.text)} follows a number"
-        return Diagnostic(code="unit-written", message=message, primary=Label(span=name.span), help=said)
+        return Diagnostic(
+            code="unit-written",
+            message=message,
+            primary=Label(span=name.span),
+            secondary=uses(name),
+            help=said,
+        )
     message = _MESSAGES[refers].format(quoted(name.text))
     meant = alternatives(name.text, known[refers])
     help = told_names(meant)
@@ -166,7 +175,9 @@ def _unknown(name: Name, refers: Refers, known: dict[Refers, set[str]]) -> Diagn
     elif other is not None:
         message = f"{quoted(name.text)} is a {other.value}, not a {refers.value}"
     primary = Label(span=name.span)
-    return Diagnostic(code=_CODES[refers], message=message, primary=primary, help=help, meant=meant)
+    return Diagnostic(
+        code=_CODES[refers], message=message, primary=primary, secondary=uses(name), help=help, meant=meant
+    )
 
 
 def _unknown_error(number: Number) -> Diagnostic:
@@ -174,5 +185,6 @@ def _unknown_error(number: Number) -> Diagnostic:
         code="unknown-error-number",
         message=f"nothing raises error {int(number.value)}",
         primary=Label(span=number.span),
+        secondary=uses(number),
         help="errors: " + ", ".join(map(str, sorted(ERRORS))),
     )

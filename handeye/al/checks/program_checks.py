@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from handeye.al.checks.flow import check_flow
 from handeye.al.checks.here import check_here
 from handeye.al.checks.layout import check_layout
+from handeye.al.checks.parameters import check_parameters, unused_parameters
 from handeye.al.checks.restores import check_restores
 from handeye.al.checks.unused import check_unused, with_unused
 from handeye.al.checks.vision_requirements import check_sights
 from handeye.al.lower import Lowered
 from handeye.al.macros import Placed
 from handeye.al.statements import ByWord, Used
-from handeye.al.syntax import Script
+from handeye.al.syntax import Script, Statement
 from handeye.al.vectors import Vectors
 from handeye.diagnostics import Diagnostic
 from handeye.program.graph import Graph
@@ -26,6 +27,8 @@ class CompiledScript:
 
     source: Source
     script: Script
+    statements: Sequence[Statement]
+    """Those of its macros with parameters as they are called."""
     words: ByWord
     used: Used
     vectors: Vectors
@@ -39,6 +42,7 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
     found = check_flow(graph, whole.lowered.origins)
     found += check_sights(whole.words, taught)
     found += check_layout(whole.script, whole.source)
+    found += check_parameters(whole.script)
     found += check_restores(whole.lowered, graph)
     if "HERE" in whole.words:
         found += check_here(whole.placed, positions)
@@ -48,7 +52,10 @@ def check_whole(whole: CompiledScript, taught: Taught, positions: Container[str]
 def _unused(whole: CompiledScript, found: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Things written for nothing; not those in lines that are never carried out."""
     lost = {_line(whole.source, d) for d in found if d.code == "unreachable-code"}
-    unused = check_unused(whole.script, whole.words, whole.used, whole.source)
+    unused = [
+        *unused_parameters(whole.script),
+        *check_unused(whole.script, whole.statements, whole.words, whole.used, whole.source),
+    ]
     return [d for d in unused if _line(whole.source, d) not in lost and _is_for_us(whole.source, d)]
 
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from functools import cache
 
 from handeye.al.lower import Lowered
+from handeye.al.parameters import uses
 from handeye.al.syntax import Name, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.program.flow_operations import Save
 from handeye.program.graph import Graph
 from handeye.program.motion_operations import Move
-from handeye.source import Span
 
 
 def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
@@ -23,8 +23,8 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
         first.setdefault(save.text, save)
     bits = {name: 1 << number for number, name in enumerate(first)}
     everywhere = cache(lambda: _saved(graph, {number: bits[save.text] for number, save in saves.items()}))
-    lost: dict[Span, Name] = {}
-    right: set[Span] = set()
+    lost: dict[Statement, Name] = {}
+    right: set[Statement] = set()
     for number, shifts in lowered.shifts.items():
         if number not in graph.reached:
             continue
@@ -32,14 +32,14 @@ def check_restores(lowered: Lowered, graph: Graph) -> Iterator[Diagnostic]:
         for statement in shifts:
             name = _name(statement)
             if name.text in near or _follows(graph, number, name.text):
-                right.add(statement.span)
+                right.add(statement)
             elif name.text in bits and (saved := everywhere()[number]) is not None:
                 if saved & bits[name.text]:
-                    right.add(statement.span)
+                    right.add(statement)
                 else:
-                    lost[statement.span] = name
-    for span, name in lost.items():
-        if span not in right:
+                    lost[statement] = name
+    for statement, name in lost.items():
+        if statement not in right:
             yield _never_saved(name, first[name.text])
 
 
@@ -87,7 +87,8 @@ def _saved(graph: Graph, bits: dict[int, int]) -> list[int | None]:
 def _never_saved(name: Name, save: Name) -> Diagnostic:
     message = f"no `SAVE` of {quoted(name.text)} comes before this `RESTORE`: the goal is not shifted"
     here = Label(span=save.span, text="it is saved only here")
-    return Diagnostic(code="never-saved", message=message, primary=Label(span=name.span), secondary=(here,))
+    secondary = (here, *uses(name))
+    return Diagnostic(code="never-saved", message=message, primary=Label(span=name.span), secondary=secondary)
 
 
 def _name(statement: Statement) -> Name:

@@ -1,14 +1,14 @@
 """Check for what is defined but never used: labels, positions, macros."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache, partial
 
 from handeye.al.definition import Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.statements import ByWord, Used, all_statements
-from handeye.al.syntax import Name, Script
+from handeye.al.syntax import Name, Script, Statement
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.source import Source
 
@@ -24,10 +24,12 @@ _COMMENTED = re.compile(
 _TOO_FAR = ("search-begun-anew", "count-begun-anew")
 
 
-def check_unused(script: Script, words: ByWord, used: Used, source: Source) -> Iterator[Diagnostic]:
+def check_unused(
+    script: Script, statements: Iterable[Statement], words: ByWord, used: Used, source: Source
+) -> Iterator[Diagnostic]:
     """A warning for each; of a script without mistakes. Taught positions may be there for another script."""
     gone_to = {name.text for name in used[Refers.LABEL]}
-    for statement in all_statements(script):
+    for statement in statements:
         for label in statement.labels:
             if label.text not in gone_to:
                 message = f"no instruction jumps to label {quoted(label.text)}"
@@ -42,8 +44,9 @@ def check_unused(script: Script, words: ByWord, used: Used, source: Source) -> I
                 help = None if line is None else f"on line {line} it is in a comment, after a `;`"
                 message = f"{what} {quoted(name.text)} is defined but never used"
                 yield _unused(f"unused-{what}", name, message, help)
+    called = {statement.word.text for statement in all_statements(script) if statement.word is not None}
     for word, macro in script.macros.items():
-        if word not in words:
+        if word not in called:
             yield _unused("unused-macro", macro.name, f"macro {quoted(word)} is never used")
 
 

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator, Mapping
 from typing import Final
 
+from handeye.al.parameters import across
 from handeye.al.statements import ByWord
 from handeye.al.syntax import Name
 from handeye.diagnostics import Diagnostic, Label, quoted
 from handeye.program.program import Part
 from handeye.program.taught import Taught
-from handeye.source import Span
 
 Need = tuple[str, Callable[[Part], bool]]
 """Something that has to be taught of a part, and the question whether it is."""
@@ -61,7 +61,7 @@ def _unlike(words: ByWord) -> Iterator[Diagnostic]:
             yield Diagnostic(
                 code="compared-without-hold",
                 message=f"{quoted(before.text)} is taken with `HOLD`, after {quoted(after.text)}",
-                primary=Label(span=Span(start=before.start, end=after.end)),
+                primary=Label(span=across(before, after)),
                 help="the earlier picture comes first",
             )
         else:
