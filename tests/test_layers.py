@@ -235,6 +235,7 @@ def test_the_cell_knows_nothing_of_seeing_but_how_a_camera_is_built(module: str)
 def test_nobody_knows_a_task_but_by_its_name(module: str) -> None:
     assert {o for o in own(module) if o.split(".")[0] == "tasks"} <= {
         "tasks.__init__",
+        "tasks.inserting",
         "tasks.interface",
         "tasks.trial",
     }

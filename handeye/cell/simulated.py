@@ -54,6 +54,7 @@ class SimulatedCell(Clock):
         camera: SimulatedCamera | None = None,
         mechanisms: Sequence[Mechanism[Any]] = (),
         lines: Lines = SOUND,
+        stepper: Stepper | None = None,
         noise: np.random.Generator,
     ) -> None:
         """Switch a cell on; its devices are read for the first time.
@@ -61,6 +62,7 @@ class SimulatedCell(Clock):
         Args:
             mechanisms: whatever else acts on the model, in the order in which it does: threads, more arms.
             lines: those that its devices were given.
+            stepper: lets its physics go on; by default one that looks at nothing.
             noise: the generator that all sensors but the camera draw from.
 
         Raises:
@@ -90,7 +92,7 @@ class SimulatedCell(Clock):
         )
         """The cell as the working phase knows it."""
         self._most = max(1, round(_HELD / model.opt.timestep))
-        self._stepper = Stepper(model, data)
+        self._stepper = stepper or Stepper(model, data)
         mujoco.mj_forward(model, data)
         self._read()
 

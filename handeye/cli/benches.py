@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli import speed
+from handeye.cli import insertion, speed
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, put_json, say, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
@@ -26,6 +26,7 @@ def register(app: App) -> None:
     for command in (timing, overhead, language, vision, ik):
         bench.command(command)
     speed.register(bench)
+    insertion.register(bench)
     app.command(bench)
 
 

@@ -12,7 +12,10 @@ from handeye.tasks.interface import Task
 
 DEFAULT: Final = "water_pump"
 """The task that is meant where none is named."""
-_BUILT_IN: Final = {"water_pump": ("handeye.tasks.water_pump.task", "WATER_PUMP")}
+_BUILT_IN: Final = {
+    "water_pump": ("handeye.tasks.water_pump.task", "WATER_PUMP"),
+    "insertion": ("handeye.tasks.insertion.task", "INSERTION"),
+}
 """Where the tasks that come with handeye are found; they are imported when they are asked for."""
 _ELSEWHERE: Final = " (a task of your own is known to the Python program that calls `handeye.tasks.register`)"
 _REGISTERED: Final[dict[str, Task]] = {}

@@ -27,7 +27,7 @@ def test_the_water_pump_is_the_task_that_is_meant_where_none_is_named() -> None:
     ("name", "sentence"),
     [
         ("water_pmup", "no task is called `water_pmup`; did you mean `water_pump`?"),
-        ("clock", "no task is called `clock`; known: `water_pump`"),
+        ("clock", "no task is called `clock`; known: `insertion`, `water_pump`"),
     ],
 )
 def test_an_unknown_task_is_refused_with_the_nearest_name(

@@ -1,0 +1,1 @@
+"""One pin and one hole: the task of the insertion bench."""

@@ -1,0 +1,106 @@
+"""Scene of the insertion bench: the arm, a pin that stands in a holder, and a face with one hole."""
+
+import math
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.looks import MESH, SEEN
+from handeye.pose import Array
+from handeye.resources import scenes
+from handeye.tasks.insertion.world import BenchWorld
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.drawing import base_top, pin_seat
+from handeye.tasks.water_pump.scene.arm import add_arm
+from handeye.tasks.water_pump.scene.shapes import Bore, Shaper
+from handeye.units import INCH
+
+HOLE: Final = (25 * INCH, 38 * INCH)
+"""Where the program was taught that the hole is, m: among those of the pump's base."""
+HOLDER: Final = (15 * INCH, 35 * INCH)
+"""Where the pin stands, m: as in the pump's cell."""
+FACE: Final = base_top()
+"""Height of the face around the hole, m."""
+CORNERS: Final = 48
+"""Of a section of the nose: it is .005 mm slimmer between them."""
+WEDGES: Final = 24
+"""Around the hole: it is .02 mm wider between them. With that nose, the play is .057 to .063 mm of .057."""
+PUSH: Final = "push"
+"""Sensor of the force of the plate on the pin, which no device reads: the resultant of all their contacts, N, W."""
+_NET_FORCE: Final = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]
+"""What that sensor tells (force), of how many contacts (their resultant), and how many such."""
+_RIM: Final = 0.070
+"""Radius of the face around the hole, m."""
+_METAL: Final = ("solid", "tap", "bore", "base_land", "shoulder", "nose")
+"""Classes of shapes that rub as the world's parts do."""
+
+
+def build(world: BenchWorld) -> mujoco.MjModel:
+    """The compiled scene. Its arm is at joint zero, which joint 3 forbids: set a posture before stepping."""
+    spec = mujoco.MjSpec.from_file(str(scenes() / "water_pump" / "workcell.xml"))
+    add_arm(spec, world.pump)  # first: free bodies before it would shift its joints
+    shaper = Shaper(spec=spec)
+    for style in _METAL:
+        shaper.style(style).geom.friction[0] *= world.pump.friction["part"]
+    _add_room(shaper)
+    _add_plate(shaper, world)
+    _add_holder(shaper)
+    spec.add_sensor(
+        name=PUSH, type=mujoco.mjtSensor.mjSENS_CONTACT, intprm=_NET_FORCE,
+        objtype=mujoco.mjtObj.mjOBJ_BODY, objname="plate", reftype=mujoco.mjtObj.mjOBJ_BODY, refname="pin",
+    )  # fmt: skip
+    return spec.compile()
+
+
+def _add_room(shaper: Shaper) -> None:
+    d, body = dimensions(), shaper.spec.worldbody
+    width, depth = d.all("table.size")
+    body.add_light(pos=[0.2, 0.4, 2.0], dir=[0.3, 0.4, -1.0])
+    table = shaper.box(body, "solid", (0, 0, -d("table.thickness")), (width, depth, 0), "table", "table")
+    table.group = SEEN
+
+
+def _add_plate(shaper: Shaper, world: BenchWorld) -> None:
+    """A face with the hole: the nose meets wedges around it; the shoulder a flat land, as on the pump's base."""
+    d = dimensions()
+    at = [HOLE[0] + world.plate[0], HOLE[1] + world.plate[1], 0.0]
+    plate = shaper.spec.worldbody.add_body(name="plate", pos=at)
+    radius, depth = d("pin.nose_radius") + world.clearance / 2, d("base.screw_holes.depth")
+    hole = Bore(radius=radius, outer=_RIM, height=depth, above=world.chamfer, sectors=WEDGES)
+    for wedge in shaper.ring(plate, "plate", hole, (0, 0, FACE - depth), lambda _: "tap"):
+        wedge.group, wedge.material = SEEN, "machined"
+    shaper.box(plate, "base_land", (-_RIM, -_RIM, FACE - 0.010), (_RIM, _RIM, FACE))
+    shaper.hole(plate, "hole", (0, 0, FACE), radius)
+
+
+def _add_holder(shaper: Shaper) -> None:
+    """A holder like that of the pump's pins, with the pin in it; the pin's origin is in the plane of its shoulder."""
+    d, (x, y) = dimensions(), HOLDER
+    radius, chamfer, height = d("pin_holder.hole_radius"), d("pin_holder.chamfer"), d("pin_holder.height")
+    hole = Bore(radius=radius, outer=0.0125, height=0.021, above=chamfer)
+    holder = shaper.spec.worldbody.add_body(name="holder", pos=[x, y, 0.0])
+    for wedge in shaper.ring(holder, "holder", hole, (0, 0, height - hole.height), lambda _: "bore"):
+        wedge.group, wedge.material = SEEN, "enamel"
+    pin = shaper.spec.worldbody.add_body(name="pin", pos=[x, y, height + pin_seat(chamfer, radius)])
+    pin.add_freejoint(name="pin")
+    _add_pin(shaper, pin)
+
+
+def _add_pin(shaper: Shaper, body: mujoco.MjsBody) -> None:
+    """The aligning pin of the pump, with a rounder nose."""
+    d = dimensions()
+    r, length, bevel = d("pin.nose_radius"), d("pin.nose_length"), d("pin.nose_bevel")
+    nose = [(r - bevel, -length), (r, bevel - length), (r, 0.0)]
+    r, length, bevel = d("pin.body_radius"), d("pin.body_length"), d("pin.body_bevel")
+    shank = [(r, 0.0), (r, length - bevel), (r - bevel, length)]
+    for name, style, profile, corners in (("nose", "nose", nose, CORNERS), ("body", "shoulder", shank, 16)):
+        mesh = shaper.convex(f"pin_{name}", _turned(profile, corners))
+        geom = body.add_geom(shaper.style(style), type=MESH, meshname=mesh, group=SEEN)
+        geom.material = "pin"
+
+
+def _turned(profile: list[tuple[float, float]], corners: int) -> Array:
+    """Corners of a solid of revolution about z from corners (radius, z), m, shape (n, 3)."""
+    angles = 2 * math.pi * np.arange(corners) / corners
+    return np.array([(r * math.cos(a), r * math.sin(a), z) for r, z in profile for a in angles])

@@ -1,0 +1,76 @@
+"""Insertion as a task: one pin is fetched and put into one hole."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
+
+from handeye.arm.robots.stanford import STANFORD
+from handeye.judge.finding import Findings, at_most
+from handeye.tasks.inserting import Inserting, Witnessed
+from handeye.tasks.insertion.world import VARIATION, BenchWorld
+from handeye.tasks.interface import Words
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.park import PARK
+from handeye.variation import Variation, WorldSpec
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.rendering import RendererMaker
+    from handeye.cell.simulated import SimulatedCell
+    from handeye.cell.truth import Truth
+
+
+class Insertion(Inserting):
+    """Put one pin into one hole."""
+
+    name = "insertion"
+    arm = STANFORD
+    park = PARK
+    words = Words(product="the pin", done="The pin is in its hole.")
+    script = "insertion.al"
+    programs = MappingProxyType({"gentle": "insertion.al", "1973": "insertion_1973.al"})
+
+    def variation(self, seed: int) -> Variation:
+        return VARIATION
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        from handeye.tasks.insertion.scene import build
+
+        return build(BenchWorld.draw(spec))
+
+    def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
+        from handeye.tasks.insertion.cell import InsertionCell
+
+        return InsertionCell(BenchWorld.draw(spec))
+
+    def judge(self, truth: Truth) -> Findings:
+        from handeye.tasks.insertion.witness import SEATED, shoulder
+
+        high = shoulder(truth.data) * 1e3
+        return {"seat": at_most(high, SEATED * 1e3, "mm", "height of the pin's shoulder over the face")}
+
+    def caught(self, clearance: float, chamfer: float) -> float:
+        return clearance / 2 + chamfer + dimensions()("pin.nose_bevel")
+
+    def hole(self, clearance: float, chamfer: float) -> dict[str, float]:
+        return {"hole.clearance": clearance, "hole.chamfer": chamfer, "plate.x": 0.0, "plate.y": 0.0}
+
+    def off(self, truth: Truth, error: tuple[float, float]) -> dict[str, float]:
+        from handeye.tasks.insertion.scene import HOLE
+        from handeye.tasks.insertion.witness import tip
+
+        end = tip(truth.data)
+        return {f"plate.{axis}": float(end[k] - HOLE[k] + error[k]) for k, axis in enumerate("xy")}
+
+    def witnessed(self, cell: SimulatedCell) -> Witnessed:
+        from handeye.tasks.insertion.cell import InsertionCell
+        from handeye.tasks.insertion.witness import SEATED, shoulder
+
+        assert isinstance(cell, InsertionCell)
+        seen, right = cell.witness, shoulder(cell.truth.data) <= SEATED
+        return Witnessed(peak=seen.peak, first=seen.first, seated=seen.seated, right=right)
+
+
+INSERTION: Final = Insertion()

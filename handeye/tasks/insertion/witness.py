@@ -1,0 +1,55 @@
+"""Witness of an insertion: the truth of each physics step, for the referee and the bench."""
+
+import math
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.stepper import Stepper
+from handeye.pose import Array
+from handeye.tasks.insertion.scene import FACE, PUSH
+from handeye.tasks.water_pump.dimensions import dimensions
+
+SEATED: Final = 2e-4
+"""Height of the shoulder over the face up to which a pin is seated, m. Chosen: a hundredth of its way."""
+
+
+class Witness(Stepper):
+    """Makes the same steps as a stepper, and looks at pin and plate after each in which anything touches."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        super().__init__(model, data)
+        self._push = data.sensor(PUSH).data
+        self.peak = 0.0
+        """The greatest force between pin and plate in any step so far, N: of the resultant of all their contacts."""
+        self.first: float | None = None
+        """When they first touched, s by the cell's clock."""
+        self.seated: float | None = None
+        """When the pin was first seated, likewise."""
+
+    def _closely(self, steps: int) -> None:
+        for _ in range(steps):
+            mujoco.mj_step(self._model, self._data)
+            self._look()
+
+    def _look(self) -> None:
+        x, y, z = self._push
+        if not (x or y or z):
+            return
+        time = float(self._data.time)
+        self.first = time if self.first is None else self.first
+        self.peak = max(self.peak, math.hypot(x, y, z))
+        if self.seated is None and shoulder(self._data) <= SEATED:
+            self.seated = time
+
+
+def shoulder(data: mujoco.MjData) -> float:
+    """Height of the pin's shoulder over the face, m."""
+    return float(data.body("pin").xpos[2]) - FACE
+
+
+def tip(data: mujoco.MjData) -> Array:
+    """Where the middle of the nose's end is, shape (3,), m, W."""
+    pin = data.body("pin")
+    return np.asarray(pin.xpos - dimensions()("pin.nose_length") * pin.xmat.reshape(3, 3)[:, 2])
