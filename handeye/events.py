@@ -9,6 +9,7 @@ from msgspec import UNSET, UnsetType
 from handeye.ports.camera import Renderer
 from handeye.program.causes import Cause, InspectionCause, JointName, Recorded
 from handeye.program.guards import GuardKind
+from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.source import line_name
 from handeye.variation import WorldSpec
@@ -42,6 +43,13 @@ class RunStarted(Event, frozen=True, kw_only=True):
     versions: dict[str, str]
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code of whoever began the run took the place of, with the names of that code."""
+    without: tuple[Sense, ...] | UnsetType = UNSET
+    """Senses that the program did without."""
+
+    @property
+    def lacking(self) -> tuple[Sense, ...]:
+        """Senses that the program did without; empty where it had all."""
+        return self.without or ()
 
     @property
     def own_parts(self) -> dict[str, str]:

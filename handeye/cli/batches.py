@@ -18,6 +18,7 @@ from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
+    from handeye.program.senses import Sense
     from handeye.trials.batch.folder import BatchFolder
     from handeye.trials.batch.row import Row
     from handeye.trials.batch.trial import Trial
@@ -82,17 +83,20 @@ def assembly_trials(
     numbers = _numbers(len(chosen), only)
     _positive(workers, "worker")
     _limits(simulated_limit, wall_limit)
+    senses, errors = errors.senses, errors.errors()
     errors.spec(chosen[-1])
     record = compiled(default_script()) if plan is None else read_plan(plan)
     world = broken(errors.spec(chosen[0]), fault, record.program)
-    trial = Trial(plan=record, camera=camera, simulated_limit_s=simulated_limit, wall_limit_s=wall_limit)
+    trial = Trial(
+        plan=record, camera=camera, without=senses, simulated_limit_s=simulated_limit, wall_limit_s=wall_limit
+    )
     fresh: list[Row] = []
     with _kept(out, trial, world) as folder:
         tell = _progress(
             len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh
         )
         rows = carry_out(trial, jobs_of(world, numbers), processes(workers), folder=folder, told=tell)
-    found = figures(rows, _command(world, plan, camera), fresh=fresh, wall_s=timer.wall_s)
+    found = figures(rows, _command(world, plan, camera, senses), fresh=fresh, wall_s=timer.wall_s)
     if json:
         put_json(found)
     else:
@@ -182,14 +186,16 @@ def _left(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
-def _command(world: "WorldSpec", plan: Path | None, camera: str) -> "Callable[[Row], str]":
+def _command(
+    world: "WorldSpec", plan: Path | None, camera: str, senses: "tuple[Sense, ...]"
+) -> "Callable[[Row], str]":
     """What tells the command that carries a trial out again."""
     from msgspec.structs import replace
 
-    from handeye.see.facts.again import world_words
+    from handeye.see.facts.again import sense_words, world_words
 
     words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
-    made = [] if camera == "auto" else ["--camera", camera]
+    made = sense_words(senses) + ([] if camera == "auto" else ["--camera", camera])
 
     def command(row: "Row") -> str:
         return shlex.join(["handeye", *words, *world_words(replace(world, seed=row.seed)), *made])

@@ -77,11 +77,14 @@ def assemble(
 
     if report and out is None:
         raise InvalidInput("--report needs --out, the folder that the page is left in")
+    world, senses = world.apart()
     spec = world.spec
     started = time.process_time()
     plan = compiled(default_script())
     planning = time.process_time() - started
-    setup = Setup(plan=plan, world=broken(spec, fault, plan.program), camera=camera, judged=True)
+    setup = Setup(
+        plan=plan, world=broken(spec, fault, plan.program), camera=camera, judged=True, without=senses
+    )
     return work(
         Job(
             start=Checkpoint(setup=setup),
@@ -147,12 +150,14 @@ def run(
 
     _check_live(live, step)
     plan = read_plan(file)
+    wanted = world
+    world, senses = world.apart()
     if stage is not None and (first is not None or to is not None):
         raise InvalidInput("--stage excludes --from and --to")
     if world_of is None:
         spec = broken(world.spec, fault, plan.program)
-        setup = Setup(plan=plan, world=spec, camera=camera, judged=judge)
-    elif world != ANY_WORLD or fault or camera != "auto":
+        setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=senses)
+    elif wanted != ANY_WORLD or fault or camera != "auto":
         others = "--seed, --level, --without, --set, --fault and --camera"
         raise InvalidInput(f"{world_of} brings its own world; {others} do not go with --world-of")
     else:

@@ -1,6 +1,6 @@
 """Options that choose a world, the same on every command that builds one."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 import msgspec
@@ -9,6 +9,7 @@ from cyclopts import Group, Parameter
 from handeye.cli.common import whole
 from handeye.errors import InvalidInput
 from handeye.fault_options import StageNumber, faults, from_start_only
+from handeye.program.senses import SENSES, Sense
 from handeye.tasks import task
 from handeye.variation import WorldSpec, checked_seed
 from handeye.world_options import overrides
@@ -42,7 +43,9 @@ class ErrorOptions:
     without: Annotated[
         list[str] | None,
         Parameter(
-            help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names.",
+            help="Errors or groups of them to switch off, separated by commas; `handeye world` lists their names. "
+            "`assemble`, `run` and `trials assembly` take senses, too: vision, touch, search, force, centring; the "
+            "program goes by what it believes without them.",
             consume_multiple=False,
         ),
     ] = None
@@ -63,13 +66,32 @@ class ErrorOptions:
             InvalidInput: no such seed, name, unit or value.
         """
         checked_seed(seed)
-        off = [name.strip() for names in self.without or () for name in names.split(",")]
+        off = self._names()
         if "" in off:
             raise InvalidInput(
                 "--without needs names of errors, with one comma between two; `handeye world` lists them"
             )
+        lacking = next((name for name in off if name in SENSES), None)
+        if lacking is not None:
+            raise InvalidInput(
+                f"`{lacking}` is a sense and no error of the world: here, no program can go without it"
+            )
         wanted = overrides(task().variation(seed), off, self.settings or ())
         return WorldSpec(seed=seed, level=self.level, overrides=wanted)
+
+    @property
+    def senses(self) -> tuple[Sense, ...]:
+        """Senses to take away, each once."""
+        names = self._names()
+        return tuple(sense for sense in SENSES if sense in names)
+
+    def errors(self) -> "ErrorOptions":
+        """The same without the senses."""
+        names = [name for name in self._names() if name not in SENSES]
+        return replace(self, without=names or None)
+
+    def _names(self) -> list[str]:
+        return [name.strip() for names in self.without or () for name in names.split(",")]
 
     def words(self) -> list[str]:
         """The options as they would be typed."""
@@ -100,6 +122,10 @@ class WorldOptions:
             InvalidInput: no such seed, name, unit or value.
         """
         return self.errors.spec(self.seed or 0)
+
+    def apart(self) -> "tuple[WorldOptions, tuple[Sense, ...]]":
+        """The world, and senses that a program is to do without in it."""
+        return replace(self, errors=self.errors.errors()), self.errors.senses
 
     def words(self) -> list[str]:
         """The options as they would be typed."""

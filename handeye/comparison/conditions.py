@@ -41,6 +41,7 @@ def _conditions(begun: RunStarted) -> Iterator[tuple[str, str]]:
     yield "arm", f"{begun.arm} {begun.arm_digest}"
     yield from _world(begun)
     yield "camera", renderer_name(begun.camera)
+    yield "senses that are lacking", ", ".join(begun.lacking) or _NONE
     yield from ((f"own {part}", name) for part, name in begun.own_parts.items())
     yield from ((f"version of {name}", version) for name, version in begun.versions.items())
 

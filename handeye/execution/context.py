@@ -14,6 +14,8 @@ from handeye.mutable_records import put_back
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
 from handeye.pose import Array
+from handeye.program.guards import Guards
+from handeye.program.senses import Sense
 from handeye.program.world_model import WorldModel
 from handeye.touch.spiral import SearchPattern, spiral
 from handeye.vision.camera_model import CameraModel
@@ -31,6 +33,8 @@ class ExecutionContext:
     emit: Callable[[AnyEvent], None]
     search: SearchPattern = spiral
     """The places that a search tries."""
+    without: frozenset[Sense] = frozenset()
+    """Senses that the program does without; see `program.senses`."""
     vision: Stopwatch = field(default_factory=Stopwatch)
     """Processor time of vision; the working phase itself never reads a clock of the host."""
     state: ExecutionState = field(init=False)
@@ -52,6 +56,10 @@ class ExecutionContext:
     def felt_friction(self) -> Array:
         """What the hand feels here of the friction measured, a joint a column, shape (6, n); see `arm.friction`."""
         return felt_friction(self.arm, self.drive.state.q, self.drive.state.friction)
+
+    def watching(self, guards: Guards) -> Guards:
+        """Those of some guards whose senses there are."""
+        return tuple(guard for guard in guards if guard.sense() not in self.without)
 
     @property
     def planned(self) -> PlannedMotion:

@@ -22,6 +22,7 @@ from handeye.program.flow_operations import (
     Where,
 )
 from handeye.program.operation import Operation
+from handeye.program.senses import TESTED
 from handeye.program.world_model import place
 
 
@@ -29,10 +30,23 @@ def test_error(run: ExecutionContext, operation: Test) -> bool:
     """Test for an error of the last action, and clear it."""
     pending = run.state.pending
     occurred = pending is not None and pending.number == operation.number
+    if TESTED.get(operation.number) in run.without:
+        occurred = _is_hoped_for(run, operation)
     run.emit(ErrorTested(time=run.time, number=operation.number, occurred=occurred))
     if occurred:
         run.state.pending = None
     return occurred
+
+
+def _is_hoped_for(run: ExecutionContext, operation: Test) -> bool:
+    """True if an error that no sense can tell of leads on, and its absence to the operator or to a further try."""
+    assert run.state.at is not None
+    return not _gives_up(run, operation.raised) and _gives_up(run, run.plan.program.steps[run.state.at].next)
+
+
+def _gives_up(run: ExecutionContext, number: int | None) -> bool:
+    operation = None if number is None else run.plan.program.steps[number].operation
+    return operation is not None and (operation.calls is not None or isinstance(operation, Advance))
 
 
 def assign(run: ExecutionContext, operation: Assign) -> None:
@@ -56,7 +70,7 @@ def advance(run: ExecutionContext, _: Advance) -> Fault | None:
     found = run.state.search
     if found is None:
         return Fault(number=errors.SEARCH_EXHAUSTED, cause=NoSearch())
-    following = found.place(run.search, found.count + 1)
+    following = None if "search" in run.without else found.place(run.search, found.count + 1)
     if following is None:
         return Fault(
             number=errors.SEARCH_EXHAUSTED, cause=PlacesTried(places=found.count + 1, around=found.around)

@@ -2,6 +2,8 @@
 
 from typing import Final
 
+import numpy as np
+
 from handeye import errors
 from handeye.arm.kinematics import forward
 from handeye.execution.context import Action, ExecutionContext
@@ -33,7 +35,7 @@ def open_hand(run: ExecutionContext, operation: Open) -> Fault | None:
     run.state.grasping = False
     _to_gap(run, operation.gap)
     run.drive.hold(run.arm.hand.grasp.settle)
-    gap, touch = run.drive.sensed.gap, run.drive.sensed.touch
+    gap, touch = run.drive.sensed.gap, _touch(run)
     if not followed(gap, operation.gap):
         return _gap_wrong(GapAstray(gap=round(gap, 6), goal=operation.gap))
     if any(touch) and operation.gap - start > FREED:
@@ -59,7 +61,7 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
     start = drive.state.gap = drive.sensed.gap
     least = least_gap(operation.minimum)
     floor = min(least, drive.state.gap)
-    while not all(drive.sensed.touch) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
+    while not all(_touch(run)) and drive.sensed.gap > floor - 1e-4 and drive.state.gap > _SHUT:
         drive.state.gap -= grasp.speed * drive.period
         drive.hold(1)
     driven = _driven(start, drive.state.gap)
@@ -70,6 +72,8 @@ def close(run: ExecutionContext, operation: Close) -> Fault | None:
 
 def center(run: ExecutionContext, operation: Center) -> Fault | None:
     """Close on an object, moving the arm so that the object stays where it is."""
+    if "centring" in run.without:
+        return _close_instead(run, operation)
     fault = _begin_to_close(run)
     if fault is not None:
         return fault
@@ -80,7 +84,7 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     start = drive.state.gap = drive.sensed.gap
     centring = Centring(minimum=operation.minimum, speed=grasp.centring)
     while not centring.done:
-        step = centring.step(touch=drive.sensed.touch, gap=drive.sensed.gap, period=drive.period)
+        step = centring.step(touch=_touch(run), gap=drive.sensed.gap, period=drive.period)
         drive.state.gap += step.gap
         X_WT = translated(X_WT, step.hand * line)
         outcome = drive.shift(here, X_WT)
@@ -91,10 +95,24 @@ def center(run: ExecutionContext, operation: Center) -> Fault | None:
     if still is not None:
         return still
     least = least_gap(operation.minimum)
-    if centring.error:
+    if centring.error and "touch" not in run.without:
         return _nothing_centred(run, least)
-    run.state.finger_line = line
+    run.state.finger_line = (
+        line if "touch" not in run.without else np.zeros(3)
+    )  # nothing is measured along it
     return _thick_enough(run, least)
+
+
+def _close_instead(run: ExecutionContext, operation: Center) -> Fault | None:
+    """Close on an object, which comes to the middle of the hand."""
+    fault = close(run, Close(minimum=operation.minimum))
+    run.state.finger_line = forward(run.arm, run.drive.state.q)[:3, 1] if fault is None else None
+    return fault
+
+
+def _touch(run: ExecutionContext) -> tuple[bool, bool]:
+    """What the finger switches tell."""
+    return (False, False) if "touch" in run.without else run.drive.sensed.touch
 
 
 # -- what the senses say of it ------------------------------------------------------------------------
@@ -107,7 +125,7 @@ def _begin_to_close(run: ExecutionContext) -> Fault | None:
     """
     drive, already = run.drive, run.state.grasping
     run.state.grasping, drive.state.in_air = True, False
-    if already or not any(drive.sensed.touch):
+    if already or not any(_touch(run)):
         return None
     _to_gap(run, drive.sensed.gap + FREED)
     drive.hold(run.arm.hand.grasp.settle // 2)
@@ -121,8 +139,11 @@ def _driven(start: float, goal: float) -> float:
 
 
 def _still(run: ExecutionContext, start: float, driven: float) -> Fault | None:
-    """See that the gap has changed with fingers that were driven together by `driven` (m) from a gap of `start`."""
-    if not stood_still(start - run.drive.sensed.gap, driven):
+    """See that the gap has changed with fingers that were driven together by `driven` (m) from a gap of `start`.
+
+    Blind fingers are driven on where they hold something: of them it says nothing.
+    """
+    if "touch" in run.without or not stood_still(start - run.drive.sensed.gap, driven):
         return None
     return _gap_wrong(GapStill(gap=round(run.drive.sensed.gap, 6), driven=round(driven, 6)))
 
@@ -137,11 +158,11 @@ def _nothing_centred(run: ExecutionContext, least: float) -> Fault:
 
 def _held(run: ExecutionContext, least: float, maximum: float | None) -> Fault | None:
     """See that something is held, by the gap and by both switches."""
-    gap, touch = run.drive.sensed.gap, run.drive.sensed.touch
+    gap, told = run.drive.sensed.gap, all(_touch(run)) or "touch" in run.without
     thin = _thick_enough(run, least)
     if thin is not None:
         return thin
-    if not all(touch) and at_least(gap, FOLLOWED):
+    if not told and at_least(gap, FOLLOWED):
         return _switches_open(run)
     if maximum is not None and not at_most(gap, maximum):
         return Fault(number=errors.WRONG_THICKNESS, cause=GapTooLarge(gap=round(gap, 6), maximum=maximum))

@@ -59,8 +59,9 @@ def move(run: ExecutionContext, operation: Move) -> Fault | None:
         return Fault(number=errors.NO_SOLUTION, cause=trajectory.why.cause(run.arm, trajectory.name))
     samples = trajectory.sample(run.drive.period)
     along = directions(samples, run.arm, run.drive.state.q)
-    _tell_faint(run, operation.guards, along[0])
-    return _finish(run, run.drive.glide(samples, monitor(operation.guards), along), operation.guards)
+    guards = run.watching(operation.guards)
+    _tell_faint(run, guards, along[0])
+    return _finish(run, run.drive.glide(samples, monitor(guards), along), guards)
 
 
 def _trajectory(
@@ -86,9 +87,10 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
     start = run.drive.hand()[:3, 3]
     displacement = np.array(operation.displacement)
     distance = float(np.linalg.norm(displacement))
-    guard = monitor(operation.guards)
-    _tell_faint(run, operation.guards, displacement)
-    if not operation.complies:
+    guards = run.watching(operation.guards)
+    guard = monitor(guards)
+    _tell_faint(run, guards, displacement)
+    if not operation.complies or "force" in run.without:
         samples = change_samples(run.arm, run.drive.state.q, operation)
         if isinstance(samples, IKResult):
             return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
@@ -97,7 +99,7 @@ def change(run: ExecutionContext, operation: Change) -> Fault | None:
         outcome = run.drive.comply(_course(run, operation), guard)
     run.state.travel = float((run.drive.hand()[:3, 3] - start) @ displacement) / distance
     run.drive.state.in_air = False
-    return _finish(run, outcome, operation.guards)
+    return _finish(run, outcome, guards)
 
 
 def _course(run: ExecutionContext, operation: Change) -> Course:
@@ -127,10 +129,11 @@ def turn(run: ExecutionContext, operation: Turn) -> Fault | None:
     if isinstance(samples, IKResult):
         return Fault(number=errors.NO_SOLUTION, cause=samples.cause(run.arm))
     along = directions(samples, run.arm, run.drive.state.q)
-    _tell_faint(run, operation.guards, along[0])
-    outcome = run.drive.follow(samples, monitor(operation.guards), along)
+    guards = run.watching(operation.guards)
+    _tell_faint(run, guards, along[0])
+    outcome = run.drive.follow(samples, monitor(guards), along)
     run.drive.state.in_air = False
-    return _finish(run, outcome, operation.guards)
+    return _finish(run, outcome, guards)
 
 
 def _tell_faint(run: ExecutionContext, guards: Guards, along: Array) -> None:

@@ -6,6 +6,7 @@ from enum import StrEnum
 from typing import ClassVar, Final, NamedTuple
 
 from handeye import errors
+from handeye.program.senses import TESTED, Sense
 from handeye.record import Record, Vector3
 
 Bounds = tuple[float, float]
@@ -39,6 +40,11 @@ class Guard(Record, frozen=True, kw_only=True, tag_field="guard", tag=lambda nam
     error: ClassVar[int]
     """Raised when the motion ends without meeting it."""
     bounds: ClassVar[Mapping[str, Bounds]]
+
+    @classmethod
+    def sense(cls) -> Sense | None:
+        """The sense that it goes by; None: the current of the screwdriver's motor."""
+        return TESTED.get(cls.error)
 
     def exerted(self, along: Vector3 | None) -> "Exerted | None":
         """Least force or moment of the hand that meets it in a motion along a vector; None: neither does."""

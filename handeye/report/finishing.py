@@ -52,4 +52,6 @@ def outcome(
     result = summary(runner, pause, findings=found, host=meter.seconds(runner))
     others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
     limits = runner.setup.limits if found is not None and referee is None else None
-    return msgspec.structs.replace(result, limits=limits or UNSET, replaced=others or UNSET)
+    return msgspec.structs.replace(
+        result, limits=limits or UNSET, replaced=others or UNSET, without=runner.setup.without or UNSET
+    )

@@ -137,6 +137,7 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
         camera=camera_report(begun.camera, calibration),
         versions=begun.versions,
         replaced=deciding(begun.own_parts) or UNSET,
+        without=begun.without,
     )
     return KeptRun(result=result, faults=(*faults, *unread, *damaged), left=False)
 

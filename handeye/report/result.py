@@ -6,6 +6,7 @@ import msgspec
 from msgspec import UNSET, UnsetType
 
 from handeye.judge.finding import Finding, Relation
+from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.variation import WorldSpec
 
@@ -143,6 +144,8 @@ class Result(Record, frozen=True, kw_only=True):
     """Limits that somebody put in the place of the referee's own, by the names of its findings."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code of whoever began the run took the place of, with the names of that code."""
+    without: tuple[Sense, ...] | UnsetType = UNSET
+    """Senses that the program did without."""
 
     @property
     def cautions(self) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from handeye.events import (
 )
 from handeye.judge.finding import Findings, all_right
 from handeye.ports.camera import Renderer
+from handeye.program.senses import BELIEFS
 from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Status, Timing
 from handeye.runs.advance import Pause
@@ -76,7 +77,9 @@ def warnings(events: Iterable[AnyEvent]) -> Iterator[str]:
     """Tell what in a run may be other than it looks, a sentence each."""
     place = ""
     for event in events:
-        if isinstance(event, StepStarted):
+        if isinstance(event, RunStarted):
+            yield from (f"without {sense}: {BELIEFS[sense]}" for sense in event.lacking)
+        elif isinstance(event, StepStarted):
             place = event.place
         elif isinstance(event, GuardFaint):
             yield f"line {place}: {sentence(event)}"

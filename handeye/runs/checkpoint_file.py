@@ -17,6 +17,7 @@ from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.files import Kind, read_whole, write_whole
+from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.runs.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.runs.setup import Setup
@@ -64,6 +65,8 @@ class Head(Record, frozen=True, kw_only=True):
     """Limits that its findings stand against in the place of its own."""
     replaced: dict[str, str] | UnsetType = UNSET
     """Parts that code took the place of, with its names: the run goes on only with parts of the same names."""
+    without: tuple[Sense, ...] | UnsetType = UNSET
+    """Senses that the program does without."""
 
 
 class _Snapshot(Record, frozen=True, kw_only=True, omit_defaults=True):
@@ -105,6 +108,7 @@ def head_of(checkpoint: Checkpoint) -> Head:
         judged=setup.judged,
         limits=setup.limits or UNSET,
         replaced=setup.replaced or UNSET,
+        without=setup.without or UNSET,
     )
 
 
@@ -142,6 +146,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
         judged=head.judged,
         limits=head.limits or {},
         replaced=head.replaced or {},
+        without=head.without or (),
     )
     try:
         kind.check(setup)

@@ -58,6 +58,7 @@ class ProgramSystem(System):
             camera=None if self._eye is None else self._eye.drawing,
             emit=around.emit,
             search=around.parts.search or spiral,
+            without=frozenset(setup.without),
             vision=around.vision,
         )
         self.run.drive.halt, self.run.drive.watch = around.halt, around.watch
@@ -142,6 +143,7 @@ class ProgramSystem(System):
             camera=self._cell.renderer,
             versions=versions(),
             replaced=self._setup.replaced or UNSET,
+            without=self._setup.without or UNSET,
         )
 
     def step(self) -> None:

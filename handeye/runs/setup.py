@@ -4,6 +4,7 @@ import msgspec
 
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
+from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.tasks import DEFAULT
 from handeye.variation import WorldSpec
@@ -27,6 +28,8 @@ class Setup(Record, frozen=True, kw_only=True):
     """Limits that findings of the task's referee stand against in the place of its own, in their units."""
     replaced: dict[str, str] = msgspec.field(default_factory=dict)
     """Parts that code of whoever began the run takes the place of, with the names of that code."""
+    without: tuple[Sense, ...] = ()
+    """Senses that the program does without, in the order of `SENSES`."""
 
 
 def plan_of(setup: Setup) -> Plan:

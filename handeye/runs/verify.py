@@ -35,6 +35,7 @@ def setup_of(trace: Trace) -> Setup:
         camera=camera,
         task=begun.task,
         replaced=begun.own_parts,
+        without=begun.lacking,
     )
 
 

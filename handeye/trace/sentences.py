@@ -76,6 +76,7 @@ def sentence(event: Event) -> str:
             world += "".join(
                 f", {part} by {name}" for part, name in event.own_parts.items() if part != "camera"
             )
+            world += f", without {', '.join(event.lacking)}" if event.lacking else ""
             steps = counted(event.steps, "step")
             return (
                 f"{event.program}: {steps} on the {event.arm} arm, {world}"

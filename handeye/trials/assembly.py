@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from handeye.planfile.plan import Plan
+from handeye.program.senses import Sense
 from handeye.report.finishing import finished
 from handeye.report.judging import Limits, Referee, check_limits
 from handeye.report.result import Result
@@ -39,6 +40,7 @@ def run_plan(
     viewed: Callable[[int, int], None] = lambda *_: None,
     calibrate: bool = False,
     halt: Callable[[], bool] = lambda: False,
+    without: tuple[Sense, ...] = (),
 ) -> Finished:
     """Carry out a plan in a world, with no operator there, and have it judged.
 
@@ -50,6 +52,7 @@ def run_plan(
         viewed: told of each view in which the camera is calibrated: its number, of how many.
         calibrate: the camera is calibrated anew, whatever is kept of an earlier run.
         halt: the panic button, asked at every servo period.
+        without: senses that the program does without.
 
     Raises:
         InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
@@ -57,7 +60,14 @@ def run_plan(
         Halted: the panic button was hit before the working phase.
     """
     metered = meter or Meter()
-    setup = Setup(plan=plan, world=world, camera=camera, limits={**(limits or {})}, replaced=parts.names)
+    setup = Setup(
+        plan=plan,
+        world=world,
+        camera=camera,
+        limits={**(limits or {})},
+        replaced=parts.names,
+        without=without,
+    )
     runner = Runner(
         Checkpoint(setup=setup),
         halt=halt,

@@ -1,9 +1,11 @@
 """The command that carries out a run again."""
 
 import shlex
+from collections.abc import Sequence
 from typing import Final
 
 from handeye.planfile.store import written_digest
+from handeye.program.senses import Sense
 from handeye.resources import plans
 from handeye.see.recorded import Recorded
 from handeye.tasks import DEFAULT, known
@@ -23,7 +25,9 @@ def command(run: Recorded) -> str | None:
     else:
         judged = run.result is not None and run.result.assembled is not None
         words = ["run", "plan.json", *(["--judge"] if judged else [])]
-    return shlex.join(["handeye", *words, *world_words(head.world, head.task), *_camera(run)])
+    return shlex.join(
+        ["handeye", *words, *world_words(head.world, head.task), *sense_words(head.lacking), *_camera(run)]
+    )
 
 
 def is_shipped(digest: str) -> bool:
@@ -38,6 +42,11 @@ def is_shipped(digest: str) -> bool:
 def _camera(run: Recorded) -> list[str]:
     kind = _CAMERAS.get(run.trace.head.camera.method)
     return [] if kind is None else ["--camera", kind]
+
+
+def sense_words(senses: Sequence[Sense]) -> list[str]:
+    """The options that take senses away."""
+    return [word for sense in senses for word in ("--without", sense)]
 
 
 def world_words(world: WorldSpec, of: str = DEFAULT) -> list[str]:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from handeye.errors import InvalidInput
 from handeye.events import ExperimentMade, OperatorAnswered
 from handeye.markup import Markup
+from handeye.program.senses import BELIEFS
 from handeye.report.world_page import QuantityReport, report
 from handeye.see.facts.again import command
 from handeye.see.facts.faults import told_faults
@@ -57,6 +58,7 @@ def _facts(run: Recorded) -> Markup:
         ("plan", element("code", head.plan)),
         ("arm", joined_code(head.arm, head.arm_digest)),
         ("pictures by", renderer_name(head.camera)),
+        *((f"without {sense}", BELIEFS[sense]) for sense in head.lacking),
         *((f"{part} by", name) for part, name in head.own_parts.items()),
         ("versions", ", ".join(f"{name} {version}" for name, version in head.versions.items())),
         ("trace", f"format {run.trace.version}{', thinned' if run.trace.thinned else ''}"),

@@ -32,6 +32,7 @@ def head_of(trial: Trial, world: WorldSpec) -> Head:
         program=trial.plan.program.name,
         world=world,
         camera=trial.camera,
+        without=trial.without,
         simulated_limit_s=trial.simulated_limit_s,
         versions=versions(),
         code=code_digest(),

@@ -12,6 +12,7 @@ from handeye.line_file import LineFile
 from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import write_plan
+from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.trials.batch.row import Row
 from handeye.variation import WorldSpec
@@ -21,8 +22,8 @@ R = TypeVar("R", bound=Record)
 TRIALS: Final = "trials.jsonl"
 PLAN: Final = "plan.json"
 _NAMES: Final = {
-    "plan": "plan", "world": "worlds", "camera": "camera", "simulated_limit_s": "limit of simulated time",
-    "versions": "versions", "code": "program",
+    "plan": "plan", "world": "worlds", "camera": "camera", "without": "senses",
+    "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
 """What parts of a head are called."""
 
@@ -38,6 +39,8 @@ class Head(Record, frozen=True, kw_only=True):
     world: WorldSpec
     """The world of trial 0; that of trial k has a seed greater by k."""
     camera: str
+    without: tuple[Sense, ...] = ()
+    """Senses that the program does without."""
     simulated_limit_s: float
     versions: dict[str, str]
     code: str

@@ -11,6 +11,7 @@ import msgspec
 from handeye.events import AnyEvent, StepStarted, to_line
 from handeye.host_time import HostTimer
 from handeye.planfile.plan import Plan
+from handeye.program.senses import Sense
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
@@ -41,6 +42,8 @@ class Trial:
 
     plan: Plan
     camera: str = "auto"
+    without: tuple[Sense, ...] = ()
+    """Senses that the program does without."""
     simulated_limit_s: float = SIMULATED_LIMIT_S
     wall_limit_s: float = WALL_LIMIT_S
 
@@ -67,6 +70,7 @@ class Trial:
             meter=Meter(timer=timer),
             observers=watch.looking_on,
             halt=watch.over,
+            without=self.without,
         )
 
 
