@@ -222,11 +222,11 @@ class _Work:
 
     def _stepped_in_browser(self, stepper: Stepper, server: "Server", newest: "Newest") -> Pause:
         from handeye.view.driving import drive
-        from handeye.view.page import live_page
+        from handeye.view.stepping_page import stepping_page
 
         with self.progress.aside():
             note("making the page")
-            server.show(live_page(stepper.hands.runner, newest), newest)
+            server.show(stepping_page(stepper.hands.runner, newest), newest)
             say(server.access.address, whole=True)
             return drive(stepper, server.link, self.panic.aside)
 

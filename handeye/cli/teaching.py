@@ -18,7 +18,12 @@ from handeye.runs.scripts import taught as taught_for
 from handeye.source import read_source
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from handeye.runs.observer import Observer
+    from handeye.runs.runner import Runner
     from handeye.teaching.answers import Answer
+    from handeye.teaching.teacher import Teacher
     from handeye.teaching.workplace import Workplace
 
 TaughtFile = Annotated[
@@ -156,28 +161,55 @@ def teach(
     """
     from handeye.teaching.answers import converse
     from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
-    from handeye.teaching.teacher import Teacher
 
-    path = file if file.suffix == ".toml" else beside(file, ".toml")
-    text = read_source(path).text if path.exists() else ""
-    known = load_taught(path) if path.exists() else Taught()
     with PanicButton() as panic:
-        workplace = _workplace(panic, known, world=world, fault=fault, camera=camera, look=False, first=first)
-        teacher = Teacher(workplace=workplace, file=path, saved=text)
+        teacher = teacher_of(file, panic, world=world, fault=fault, camera=camera, first=first)
+        workplace = teacher.workplace
         lines = typed_lines(
             "teach> ",
             panic.aside,
             lambda: (*TEACH_COMMANDS, *workplace.taught.positions, *workplace.taught.parts),
         )
         failed = converse(TeachSession(teacher), lines, put_line if json else say, json=json)
+    refused = failed is not None and not sys.stdin.isatty()
+    return 2 if refused or left_unsaved(teacher) else 0
+
+
+def teacher_of(
+    file: Path,
+    panic: "Callable[[], bool]",
+    *,
+    world: WorldOptions,
+    fault: Faults,
+    camera: str,
+    first: Path | None,
+    observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
+) -> "Teacher":
+    """A cell, and the taught file that is given, or that stands beside a script.
+
+    Raises:
+        InvalidInput: a file or an option cannot be used.
+    """
+    from handeye.teaching.teacher import Teacher
+
+    path = file if file.suffix == ".toml" else beside(file, ".toml")
+    text = read_source(path).text if path.exists() else ""
+    known = load_taught(path) if path.exists() else Taught()
+    workplace = _workplace(
+        panic, known, world=world, fault=fault, camera=camera, look=False, first=first, observers=observers
+    )
+    return Teacher(workplace=workplace, file=path, saved=text)
+
+
+def left_unsaved(teacher: "Teacher") -> bool:
+    """Whether something was named that the file does not have; if so, it is told."""
     if teacher.unsaved:
         note(f"not saved: {', '.join(teacher.unsaved)}")
-    refused = failed is not None and not sys.stdin.isatty()
-    return 2 if refused or teacher.unsaved else 0
+    return bool(teacher.unsaved)
 
 
 def _workplace(
-    panic: PanicButton,
+    panic: "Callable[[], bool]",
     taught: Taught | None,
     *,
     world: WorldOptions,
@@ -186,6 +218,7 @@ def _workplace(
     look: bool,
     calibrate: bool = False,
     first: Path | None,
+    observers: "Callable[[Runner], Sequence[Observer]]" = lambda _: (),
 ) -> "Workplace":
     """The cell to work in.
 
@@ -201,7 +234,7 @@ def _workplace(
             f"{first} brings its own world; --seed, --level, --without, --set and --fault do not go with --from"
         )
     if first is not None:
-        return Workplace.at(read_checkpoint(first), taught, panic)
+        return Workplace.at(read_checkpoint(first), taught, panic, observers)
     known = taught_for(default_script()) if taught is None else taught
     try:
         return Workplace(
@@ -211,6 +244,7 @@ def _workplace(
             look=look,
             calibrate=calibrate,
             halt=panic,
+            observers=observers,
         )
     except Halted:
         raise KeyboardInterrupt from None

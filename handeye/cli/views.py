@@ -7,8 +7,10 @@ from typing import Annotated, Final
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Camera, Out, WholeNumber, compiled, note, say
+from handeye.cli.panic_button import PanicButton
 from handeye.cli.reports import page_of
 from handeye.cli.runs import Overwrite
+from handeye.cli.teaching import left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
 from handeye.errors import InvalidInput
 from handeye.planfile.store import read_plan
@@ -38,6 +40,12 @@ def view(
     demo: Annotated[
         bool, Parameter(negative="", help="A short program that takes no pictures, and goes by itself.")
     ] = False,
+    teach: Annotated[
+        Path | None,
+        Parameter(
+            help="Move the arm and name positions instead, as `handeye teach`: a taught file, or its script."
+        ),
+    ] = None,
     port: Annotated[WholeNumber, Parameter(help="Port of this computer; 0: any that is free.")] = 0,
     world: WorldOptions = ANY_WORLD,
     fault: Faults = None,
@@ -45,12 +53,12 @@ def view(
     out: Out = None,
     overwrite: Overwrite = False,
 ) -> int:
-    """Show the live cell in a browser, and step a run there; or show a run that was recorded.
+    """Show the live cell in a browser, and step a run or teach positions there; or show a run that was recorded.
 
     Prints the address to open, which nobody can guess and no other computer can reach. Any number of pages may look
     on; one drives. Nobody who looks on changes anything of the run, or slows it.
 
-    Exit codes are those of `run`; of a recorded run 0, when Ctrl-C ends it.
+    Exit codes are those of `run`, with --teach those of `teach`; of a recorded run 0, when Ctrl-C ends it.
     """
     from handeye import resources
     from handeye.cli.job import Job, work
@@ -61,6 +69,12 @@ def view(
 
     if demo and file is not None:
         raise InvalidInput("--demo brings its own program; give a plan or --demo")
+    if teach is not None:
+        if demo or file is not None or out is not None or overwrite:
+            raise InvalidInput(
+                "--teach carries out no plan and keeps no run; give it without plan, --demo and --out"
+            )
+        return _teach(teach, port, world, fault, camera)
     if file is not None and (file.is_dir() or file.suffix in _RECORDED):
         if world != ANY_WORLD or fault or camera != "auto" or out is not None or overwrite:
             raise InvalidInput(
@@ -97,3 +111,40 @@ def _play(run: Path, port: int) -> int:
         except KeyboardInterrupt:
             note("")
     return 0
+
+
+def _teach(file: Path, port: int, world: WorldOptions, fault: Faults, camera: str) -> int:
+    """Let positions be taught in a browser.
+
+    Raises:
+        InvalidInput: a file or an option cannot be used, or the port cannot be had.
+    """
+    from handeye.debugger.pace import Pace
+    from handeye.teaching.teach_commands import TeachSession
+    from handeye.view.link import Link
+    from handeye.view.server import Server
+    from handeye.view.teaching import Watch
+    from handeye.view.teaching import teach as teach_there
+    from handeye.view.teaching_page import teaching_page
+
+    link = Link()
+    watch = Watch(link, Pace(factor=1.0))  # whoever jogs the arm wants to see it go
+    with PanicButton() as panic, Server(link, port) as server:
+        teacher = teacher_of(
+            file,
+            lambda: panic() or link.panic(),
+            world=world,
+            fault=fault,
+            camera=camera,
+            first=None,
+            observers=watch,
+        )
+        assert watch.newest is not None
+        note("making the page")
+        server.show(teaching_page(teacher, watch.newest), watch.newest)
+        say(server.access.address, whole=True)
+        try:
+            teach_there(TeachSession(teacher), link, panic.aside)
+        finally:
+            unsaved = left_unsaved(teacher)
+    return 2 if unsaved else 0

@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -149,7 +150,8 @@ class Teacher:
 
     def _brake(self) -> None:
         self.afloat = False
-        self.workplace.run.drive.brake(0.1)
+        with suppress(Halted):  # the button is pressed again: the brakes are set, and stay so
+            self.workplace.run.drive.brake(0.1)
 
     # -- naming ---------------------------------------------------------------------------------------
 

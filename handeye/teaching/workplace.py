@@ -1,6 +1,6 @@
 """A cell in which plans are carried out one after the other; each begins with what those before it have left."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -17,6 +17,7 @@ from handeye.planning.scripts import PlannedScript
 from handeye.pose import Array
 from handeye.program.taught import Taught
 from handeye.runs.advance import Pause, advance
+from handeye.runs.observer import Observer
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
@@ -52,6 +53,7 @@ class Workplace:
         look: bool = False,
         calibrate: bool = False,
         halt: Callable[[], bool],
+        observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
     ) -> None:
         """Build the cell of a world.
 
@@ -59,15 +61,17 @@ class Workplace:
             look: set the camera up, so that plans can look.
             calibrate: anew, whatever is kept of that.
             halt: the panic button, asked at every servo period.
+            observers: makes those who look on, for the runner of each plan.
 
         Raises:
             InvalidInput: the camera cannot work as asked.
             Halted: the panic button was hit while the camera was set up.
         """
-        self.taught, self.halt = taught, halt
-        start = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
-        setup = Setup(plan=start, world=world, camera=camera, task=task)
-        self.runner = Runner(Checkpoint(setup=setup), halt=halt, calibrate=calibrate)
+        self.taught, self.halt, self.observers = taught, halt, observers
+        plan = _plan(_PICTURE if look else _NOTHING, taught, known_task(task))
+        setup = Setup(plan=plan, world=world, camera=camera, task=task)
+        start = Checkpoint(setup=setup)
+        self.runner = Runner(start, halt=halt, observers=observers, calibrate=calibrate)
         if self.runner.trouble is not None:
             raise InvalidInput(self.runner.trouble)
         self.begun = beginning(self.runner.events)
@@ -76,7 +80,13 @@ class Workplace:
         """States to go back to, the newest last."""
 
     @classmethod
-    def at(cls, checkpoint: Checkpoint, taught: Taught | None, halt: Callable[[], bool]) -> "Workplace":
+    def at(
+        cls,
+        checkpoint: Checkpoint,
+        taught: Taught | None,
+        halt: Callable[[], bool],
+        observers: Callable[[Runner], Sequence[Observer]] = lambda _: (),
+    ) -> "Workplace":
         """The cell as a run has left it, with what that run knew; `taught` instead of what its plan was made with.
 
         Raises:
@@ -87,8 +97,8 @@ class Workplace:
         made.taught = taught or Taught(
             positions=program.positions, parts=program.parts, fixtures=program.fixtures, held=program.held
         )
-        made.halt, made.before = halt, []
-        made.runner = Runner(checkpoint, halt=halt)
+        made.halt, made.observers, made.before = halt, observers, []
+        made.runner = made._runner(checkpoint)
         made.begun = beginning(checkpoint.events)
         return made
 
@@ -153,8 +163,12 @@ class Workplace:
         start = Checkpoint(
             setup=setup, snapshot=snapshot, events=(self._started(plan),)
         )  # fmt: skip
-        self.runner = Runner(start, halt=self.halt)
+        self.runner = self._runner(start)
         return self._go()
+
+    def _runner(self, start: Checkpoint) -> Runner:
+        """What takes the place of the present runner."""
+        return Runner(start, halt=self.halt, observers=self.observers)
 
     def _started(self, plan: Plan) -> RunStarted:
         begun = self.runner.events[0]
@@ -193,7 +207,7 @@ class Workplace:
         """
         if not self.before:
             raise InvalidInput("there is nothing to undo")
-        self.runner = Runner(self.before.pop(), halt=self.halt)
+        self.runner = self._runner(self.before.pop())
 
 
 def _plan(text: str, taught: Taught, task: Task) -> Plan:

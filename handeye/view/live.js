@@ -1,8 +1,9 @@
-(() => {
+// The cell and the talk with the server; what is said there, and what comes of it, is for another script to know.
+const live = (() => {
   "use strict";
   const byId = (id) => document.getElementById(id);
   const facts = JSON.parse(byId("facts").textContent);
-  const poses = new Map(), breaks = new Map();
+  const poses = new Map(), heard = {};
   const KEPT = 2000; // rows that are kept of what was told
   let player = null, socket = null, drives = false, left = false;
 
@@ -55,7 +56,7 @@
     return [...told, `the hand presses with (${force.map((n) => (n / 0.27801385).toFixed(1)).join(", ")}) oz`];
   }
 
-  // -- the stepper ------------------------------------------------------------------------------------
+  // -- the talk ---------------------------------------------------------------------------------------
 
   function tell(text) {
     const told = byId("told"), atEnd = told.scrollTop + told.clientHeight >= told.scrollHeight - 4;
@@ -64,53 +65,23 @@
     if (atEnd) told.scrollTop = told.scrollHeight;
   }
 
-  function stand({ script, line, stage_number: number, stage }) {
-    document.querySelector("#script li.on")?.classList.remove("on");
-    if (line === null) return;
-    const row = byId(`line-${Math.max(facts.files.indexOf(script), 0)}-${line}`);
-    row?.classList.add("on");
-    if (row) bring(row);
-    if (stage) byId("state").textContent = `stage ${number}, ${stage}`;
-  }
-
-  /** Scroll the script, and nothing else, until a row can be seen. */
-  function bring(row) {
-    const box = byId("script"), top = row.getBoundingClientRect().top - box.getBoundingClientRect().top;
-    if (top < 0 || top > box.clientHeight - 2 * row.clientHeight) box.scrollTop += top - box.clientHeight / 3;
-  }
-
   const HEARD = {
-    under_way: (step) => { stand(step); tell(`${String(step.line).padStart(5)} ${step.text.replace(/\s+/g, " ")}`); },
-    reply: (reply, { shown, called, pace }) => {
-      tell(`> ${reply.command}\n${shown}`);
-      stand(reply);
-      const { pause } = reply;
-      if (pause) byId("state").textContent = pause.sentence;
-      byId("answers").hidden = !called;
-      byId("pace").value = pace === null ? "free" : `${pace}x`;
-      if (reply.breaks) marked(reply.command.startsWith("break "), reply.breaks);
-    },
-    television: (figure) => {
-      byId("television").innerHTML = figure; // markup of the server, which has escaped all text in it
-      byId("television").hidden = !figure;
-    },
+    television: (figure) => fill("television", figure),
     refused: (sentence) => tell(sentence),
     viewers: (count, { drives: mine, free }) => {
       drives = mine;
       byId("looking").textContent = `${count} looking; ${mine ? "you drive" : free ? "nobody drives" : "somebody else drives"} `;
       byId("drive").hidden = mine;
-      for (const button of document.querySelectorAll(".say, #pace, #line")) button.disabled = !mine;
+      const driven = ".controls :is(button, select, input):not(#panic), .jogs button, #line";
+      for (const each of document.querySelectorAll(driven)) each.disabled = !mine;
     },
     left: () => { left = true; byId("state").textContent = "the run has been left"; },
   };
 
-  /** Mark the lines with breakpoints: one that was set, or all that there are. */
-  function marked(more, told) {
-    if (!more) breaks.clear();
-    for (const { number, stop } of told) {
-      if (stop.stop === "AtLine") breaks.set(`line-${facts.files.indexOf(stop.file ?? "")}-${stop.line}`, number);
-    }
-    for (const row of document.querySelectorAll("#script li")) row.classList.toggle("break", breaks.has(row.id));
+  /** Markup of the server, which has escaped all text in it. */
+  function fill(name, markup) {
+    byId(name).innerHTML = markup;
+    byId(name).hidden = !markup;
   }
 
   function send(wish) {
@@ -125,7 +96,7 @@
     socket.addEventListener("message", ({ data }) => {
       if (typeof data !== "string") { moment(data); return; }
       const told = JSON.parse(data);
-      for (const [name, act] of Object.entries(HEARD)) if (name in told) act(told[name], told);
+      for (const [name, act] of Object.entries({ ...HEARD, ...heard })) if (name in told) act(told[name], told);
     });
     socket.addEventListener("open", () => { byId("told").textContent = ""; byId("state").textContent = ""; });
     socket.addEventListener("close", () => {
@@ -137,22 +108,20 @@
 
   // -- beginning --------------------------------------------------------------------------------------
 
-  for (const button of document.querySelectorAll(".say")) button.addEventListener("click", () => say(button.value));
-  byId("panic").addEventListener("click", () => send({ do: "panic" }));
-  byId("drive").addEventListener("click", () => send({ do: "drive" }));
-  byId("pace").addEventListener("change", () => say(`pace ${byId("pace").value}`));
-  byId("form").addEventListener("submit", (event) => {
-    event.preventDefault();
-    say(byId("line").value);
-    byId("line").value = "";
-  });
-  byId("script").addEventListener("click", ({ target }) => {
-    const row = target.closest("li");
-    if (!row || !drives) return;
-    const [, file, line] = row.id.split("-");
-    const name = facts.files[Number(file)];
-    say(breaks.has(row.id) ? `delete ${breaks.get(row.id)}` : `break ${name ? `${name}:` : ""}${line}`);
-  });
-  draw();
-  listen();
+  /** Begin, with what is to be done when something is told: functions by the names of its fields. */
+  function begin(more) {
+    Object.assign(heard, more);
+    for (const button of document.querySelectorAll(".say")) button.addEventListener("click", () => say(button.value));
+    byId("panic").addEventListener("click", () => send({ do: "panic" }));
+    byId("drive").addEventListener("click", () => send({ do: "drive" }));
+    byId("form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      say(byId("line").value);
+      byId("line").value = "";
+    });
+    draw();
+    listen();
+  }
+
+  return { byId, facts, say, tell, fill, begin, driving: () => drives };
 })();

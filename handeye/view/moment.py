@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.events import AnyEvent
+from handeye.events import AnyEvent, beginning
 from handeye.execution.servo_period import ServoPeriod
 from handeye.pose import Array
 from handeye.runs.observer import Observer
@@ -46,6 +46,11 @@ class Newest(Observer):
     """Keeps the newest moment and picture of a run, for whoever may come and look; they are read from any thread."""
 
     def __init__(self, runner: Runner) -> None:
+        self._begun: float | None = None
+        self.follow(runner)
+
+    def follow(self, runner: Runner) -> None:
+        """Look on at a runner from now on; one that goes on in the cell of another goes on with its time, too."""
         cell = runner.system.cell
         self.frames = NoFrames() if cell is None else Frames(cell.truth, runner.task.arm)
         self._runner = runner
@@ -70,5 +75,10 @@ class Newest(Observer):
     def _now(self, force: Array | None) -> Moment:
         poses = self.frames.poses()
         poses[~self.frames.there()] = np.nan
-        time = self._runner.elapsed if self._runner.events else 0.0
-        return Moment(time=time, gap=self._gap, force=force, joints=self._joints, poses=poses)
+        return Moment(time=self._elapsed(), gap=self._gap, force=force, joints=self._joints, poses=poses)
+
+    def _elapsed(self) -> float:
+        """s since the first of the runs began."""
+        if self._begun is None and self._runner.events:
+            self._begun = beginning(self._runner.events)
+        return 0.0 if self._begun is None else round(self._runner.time - self._begun, 6)

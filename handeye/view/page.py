@@ -1,18 +1,18 @@
-"""The page of a live run: the report's view and script, fed by the server, and what drives the stepper."""
+"""The page of a live cell: view and script of the report, fed by the server; what was told; a line to say something."""
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
 from handeye.markup import Markup
-from handeye.program.program import Program
 from handeye.runs.runner import Runner
 from handeye.see import player
 from handeye.see.page.document import head, packed, resource
 from handeye.see.page.elements import element
 from handeye.see.page.moments import json_markup
-from handeye.see.page.source import listing
 from handeye.see.player import scene, tracks
 from handeye.trace.messages import Poses
 from handeye.view.moment import FIGURES, Newest
@@ -20,25 +20,29 @@ from handeye.view.moment import FIGURES, Newest
 _MARK: Final = "<!doctype html>\n"
 _POLICY: Final = ("connect-src 'self'", "base-uri 'none'", "form-action 'none'")
 """What the page may do beside the report's: talk with its server, and no more."""
-_BUTTONS: Final = (
-    ("continue", "Run"),
-    ("pause", "Pause"),
-    ("step", "Step"),
-    ("stage", "Next stage"),
-    ("back", "Back"),
-    ("back stage", "Back a stage"),
-)
-_ANSWERS: Final = (("proceed", "Proceed"), ("retry", "Retry"), ("skip", "Skip"), ("abort", "Abort"))
-_PACES: Final = (("1x", "1 ×"), ("4x", "4 ×"), ("free", "as fast as it goes"))
 
 
-def live_page(runner: Runner, newest: Newest) -> bytes:
-    """The page of a run in a cell, as one file that fetches nothing.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Face:
+    """What a page of the live cell is for: its controls, and what stands beside the cell."""
+
+    title: str
+    controls: Sequence[Markup]
+    aside: Markup
+    listener: str
+    """Who hears the lines: `stepper`."""
+    script: str
+    """The file with its script."""
+    facts: dict[str, Any] = field(default_factory=dict)
+    """What its script has to know."""
+
+
+def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
+    """The page of a live cell, as one file that fetches nothing.
 
     Raises:
         InvalidInput: the task shows no scene.
     """
-    program: Any = runner.listing
     model = runner.task.scene(runner.setup.world)
     names = newest.frames.names
     facts = {
@@ -46,36 +50,37 @@ def live_page(runner: Runner, newest: Newest) -> bytes:
         "figures": FIGURES,
         "joints": len(newest.frames.joints),
         "lowest": scene.lowest(model),
-        "files": ["", *program.required],
-        "begun": newest.moment.time,
+        **face.facts,
     }
-    scripts = [player.script(), _own("live.js")]
+    scripts = [player.script(), _own("live.js"), _own(face.script)]
     style = resource("page.css") + _own("live.css")
     body = element(
         "body",
-        _header(program),
-        element("main", element("div", _viewer(), _aside(program), class_="beside")),
+        _header(face.title),
+        element("main", element("div", _viewer(face), _aside(face), class_="beside")),
         element("script", json_markup(facts), id="facts", type="application/json"),
         packed("scene", scene.scene_bytes(model)),
         packed("tracks", _first_tracks(names, newest.moment.poses)),
         *(element("script", Markup(script)) for script in scripts),
         class_="live",
     )
-    return (
-        _MARK
-        + element("html", head(f"{program.name}: live", style, scripts, *_POLICY), body, lang="en")
-        + "\n"
-    ).encode()
+    top = head(f"{face.title}: live", style, scripts, *_POLICY)
+    return (_MARK + element("html", top, body, lang="en") + "\n").encode()
 
 
-def _header(program: Program) -> Markup:
+def buttons(said: Sequence[tuple[str, str]]) -> Iterator[Markup]:
+    """Buttons that say a line: the line, and what stands on it."""
+    return (element("button", shown, type="button", value=line, class_="say") for line, shown in said)
+
+
+def _header(title: str) -> Markup:
     state = element("p", "connecting", id="state", role="status")
     drive = element("button", "Take the drive", id="drive", type="button")
     looking = element("span", id="looking")
-    return element("div", element("h1", program.name), state, element("p", looking, drive), class_="title")
+    return element("div", element("h1", title), state, element("p", looking, drive), class_="title")
 
 
-def _viewer() -> Markup:
+def _viewer(face: Face) -> Markup:
     canvas = element(
         "canvas", id="view", tabindex="0", role="img",
         aria_label="the cell as it now is; arrows walk round it, plus and minus come nearer and go farther",
@@ -84,48 +89,27 @@ def _viewer() -> Markup:
     views = element("div", id="views", role="group", aria_label="view", class_="views")
     return element(
         "div", element("div", canvas, class_="screen"), element("p", id="instead", hidden=True), figures, views,
-        _controls(), _talk(), class_="viewer",
+        *face.controls, _talk(face.listener), class_="viewer",
     )  # fmt: skip
 
 
-def _controls() -> Markup:
-    buttons = (element("button", shown, type="button", value=said, class_="say") for said, shown in _BUTTONS)
-    answers = (element("button", shown, type="button", value=said, class_="say") for said, shown in _ANSWERS)
-    paces = (element("option", shown, value=said, selected=said == "free") for said, shown in _PACES)
-    pace = element("select", *paces, id="pace", aria_label="pace")
-    panic = element("button", "Panic", id="panic", type="button")
-    called = element(
-        "div", *answers, id="answers", role="group", aria_label="answers for the operator", hidden=True
-    )
-    return element("div", *buttons, pace, panic, called, class_="controls")
-
-
-def _talk() -> Markup:
-    told = element("pre", id="told", role="log", aria_label="what the stepper tells", tabindex="0")
+def _talk(listener: str) -> Markup:
+    told = element("pre", id="told", role="log", aria_label=f"what the {listener} tells", tabindex="0")
     line = element(
         "input",
         id="line",
         type="text",
         maxlength="1000",
-        aria_label="command of the stepper",
+        aria_label=f"command of the {listener}",
         autocomplete="off",
     )
     return element("div", told, element("form", line, id="form"), class_="talk")
 
 
-def _aside(program: Program) -> Markup:
-    """What stands beside the cell: the television, once there is a picture, and the script."""
+def _aside(face: Face) -> Markup:
+    """What stands beside the cell: the television, once there is a picture, and what the face has."""
     television = element("div", id="television", role="region", aria_label="television", hidden=True)
-    script = element(
-        "div",
-        listing(program),
-        id="script",
-        class_="source",
-        tabindex="0",
-        role="region",
-        aria_label="script",
-    )
-    return element("div", television, script, class_="aside")
+    return element("div", television, face.aside, class_="aside")
 
 
 def _first_tracks(names: tuple[str, ...], poses: Poses) -> bytes:

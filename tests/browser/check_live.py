@@ -1,4 +1,5 @@
-"""The live cell in a browser: run, pause, step, back, break, panic, an operator called, a second page, a reload.
+"""The live cell in a browser: run, pause, step, back, break, panic, an operator called, a second page, a reload; an arm
+that is jogged and positions that are recorded; a run that was carried out.
 
 Not collected with the tests, for it needs a Chromium: `python3 run.py test browser`. What is pressed is found by its
 name, as people find it.
@@ -47,8 +48,11 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
         yield browser
 
 
-def opened(browser: Browser, address: str) -> Page:
-    """A page of the live cell, drawn and connected."""
+LIVE = "document.getElementById('view')?.player && document.getElementById('looking').textContent"
+
+
+def opened(browser: Browser, address: str, ready: str = LIVE) -> Page:
+    """A page, drawn and, of the live cell, connected."""
     target = browser.pipe.ask("Target.createTarget", url="about:blank")["targetId"]
     session = browser.pipe.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
     page = Page(browser.pipe, session)
@@ -56,15 +60,15 @@ def opened(browser: Browser, address: str) -> Page:
         page.ask(f"{domain}.enable")
     page.resize(1280, 900)
     page.ask("Page.navigate", url=address)
-    page.wait("document.getElementById('view')?.player && document.getElementById('looking').textContent")
+    page.wait(f"Boolean({ready})")
     return page
 
 
 def press(page: Page, name: str) -> None:
     """Press the button of a name that can be seen."""
     page.evaluate(
-        "[...document.querySelectorAll('button')].find("
-        f"button => button.textContent === '{name}' && button.checkVisibility() && !button.disabled).click()"
+        "[...document.querySelectorAll('button')].find(button => (button.ariaLabel ?? button.textContent) === "
+        f"'{name}' && button.checkVisibility() && !button.disabled).click()"
     )
 
 
@@ -138,6 +142,59 @@ def test_others_look_on_take_the_drive_and_reload(browser: Browser, tmp_path: Pa
         press(first, "Run")
         first.wait(f"/the program has ended/.test({TOLD})")
         assert first.errors == second.errors == []
+
+
+def test_positions_are_taught_from_a_page(browser: Browser, tmp_path: Path) -> None:
+    with served(tmp_path, "--teach", str(tmp_path / "job.al")) as address:
+        page = opened(browser, address)
+
+        def answered(sentence: str) -> None:
+            page.wait(
+                f"/{sentence}/.test({TOLD}) && /is held/.test(document.getElementById('state').textContent)"
+            )
+
+        answered("lists the commands")
+        press(page, "z −")
+        answered("table z -.5[^>]+hand +at")
+        press(page, "boom +")
+        answered("j3 [+].5[^>]+boom")
+        press(page, "Open 2 in")
+        answered("gap 2.00 in")
+        page.evaluate("document.getElementById('name').value = 'ABOVE'")
+        press(page, "Record")
+        answered("ABOVE is ")
+        page.wait(
+            "[...document.querySelectorAll('#taught li.new')].some(line => /^ABOVE/.test(line.textContent))"
+        )
+        press(page, "turn z +")
+        answered("table turn z [+]5[^>]+hand")
+        press(page, "Undo")
+        answered("the last motion is undone")
+        type_in(page, "push x 5 60")
+        answered("the arm is held and cannot be pushed")
+        press(page, "Float")
+        page.wait("/brakes are off/.test(document.getElementById('state').textContent)")
+        type_in(page, "push x 1 60")
+        page.wait("/the arm moves/.test(document.getElementById('state').textContent)")
+        press(page, "Where")
+        page.wait(f"/`where` was not carried out/.test({TOLD})")
+        press(page, "Panic")
+        answered("stopped by the panic button; the brakes are set")
+        press(page, "Save")
+        answered("ABOVE written to ")
+        (tmp_path / "teach.png").write_bytes(page.screenshot())
+        assert page.errors == []
+    assert "ABOVE = {" in (tmp_path / "job.toml").read_text()
+
+
+def test_a_run_that_was_carried_out_plays(browser: Browser, tmp_path: Path) -> None:
+    with served(tmp_path, str(resources.demo())) as address:
+        page = opened(browser, address, ready="document.getElementById('view').player !== undefined")
+        press(page, "Play")
+        page.wait("document.getElementById('view').player.time > 20")
+        assert page.evaluate("Number(document.getElementById('time').value)") > 20
+        assert page.errors == []
+        assert all(url.startswith(address[:20]) for url in page.requests)
 
 
 def test_the_demo_takes_no_pictures() -> None:

@@ -1,8 +1,9 @@
 """Somebody who types at the arm program, and the cell behind it."""
 
 from pathlib import Path
+from typing import Any
 
-from handeye.program.taught import load_taught
+from handeye.program.taught import Taught, load_taught
 from handeye.resources import plans
 from handeye.teaching.answers import Answer, text
 from handeye.teaching.commands import ReplSession
@@ -13,9 +14,10 @@ from handeye.variation import WorldSpec
 TAUGHT = load_taught(plans() / "water_pump.toml")
 
 
-def workplace() -> Workplace:
+def workplace(taught: Taught = TAUGHT, **more: Any) -> Workplace:
     """The cell of world 0, in which nothing has been done."""
-    return Workplace(world=WorldSpec(seed=0), camera="ray", taught=TAUGHT, halt=lambda: False)
+    known: dict[str, Any] = {"halt": lambda: False, **more}
+    return Workplace(world=WorldSpec(seed=0), camera="ray", taught=taught, **known)
 
 
 class Console:

@@ -5,6 +5,7 @@ import json
 import socket
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from threading import Event, Thread
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from handeye.see.facts.seen import SeenPicture
 from handeye.view.driving import drive
 from handeye.view.link import Link
 from handeye.view.moment import Newest
-from handeye.view.server import LARGEST, Server
+from handeye.view.server import BEHIND, LARGEST, Server
 from handeye.view.television import Television
 
 PAGE = b"<!doctype html>the page"
@@ -208,6 +209,43 @@ def test_nothing_goes_that_panic_could_stop(theatre: Theatre) -> None:
     viewer = theatre.viewer()
     say(viewer, do="panic")
     assert heard(viewer, "refused")["refused"] == "nothing goes that the panic button could stop"
+
+
+# -- the run does not wait ------------------------------------------------------------------------------
+
+
+def test_the_run_goes_on_while_nothing_can_be_sent(theatre: Theatre) -> None:
+    theatre.viewer()
+    held, on = Event(), Event()
+
+    def hold() -> None:
+        """Keep the thread of the server from doing anything else."""
+        held.set()
+        on.wait(60)
+
+    theatre.server._call(hold)
+    assert held.wait(60)
+    running = Thread(target=theatre.go, args=("step 2", "continue"))
+    running.start()
+    running.join(30)
+    gone_on = not running.is_alive()
+    on.set()
+    running.join()
+    assert gone_on
+
+
+def test_whoever_takes_in_too_little_is_let_go(theatre: Theatre) -> None:
+    viewer = theatre.viewer()
+
+    def tell_much() -> None:
+        """Tell more, at once, than anybody could take in."""
+        for _ in range(BEHIND + 1):
+            theatre.server._tell("{}")
+
+    theatre.server._call(tell_much)
+    with pytest.raises(ConnectionClosed):
+        heard(viewer, "never")
+    assert theatre.viewer()
 
 
 # -- what nobody should send ----------------------------------------------------------------------------
