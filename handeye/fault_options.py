@@ -29,7 +29,7 @@ def _fault(catalogue: Catalogue, text: str, stage: StageNumber) -> Fault:
     if not name or (at and not where) or (equals and not value):
         raise InvalidInput(f"{quoted(text)} names no fault; write NAME, NAME=VALUE or NAME@STAGE")
     kind = catalogue.kind(name)
-    return Fault(name=name, value=_value(kind, value), stage=stage(where) if at else None)
+    return Fault(name=name, value=_value(kind, value), stage=stage(where) if at else kind.usual_stage)
 
 
 def _value(kind: FaultKind, text: str) -> float | None:

@@ -70,6 +70,8 @@ class FaultKind:
     """None: it has no value."""
     from_start: bool = False
     """It can be there only from the beginning: nothing could bring it about while the cell works."""
+    usual_stage: int | None = None
+    """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
     expected: Expected = UNKNOWN
 
     @property
@@ -90,13 +92,13 @@ class FaultKind:
         return UNITS[self.unit]
 
     def usual(self, stage: int | None = None) -> Fault:
-        """The fault at its usual size.
+        """The fault at its usual size, from a stage on, by its number, or from its usual one.
 
         Raises:
             InvalidInput: it cannot set in with a stage.
         """
         value = None if self.size is None else self.size.usual * self.measure.size
-        fault = Fault(name=self.name, value=value, stage=stage)
+        fault = Fault(name=self.name, value=value, stage=stage or self.usual_stage)
         self.check(fault)
         return fault
 

@@ -255,14 +255,14 @@ def test_every_fault_is_listed_with_its_size(
     names = [
         line.split()[0].split("=")[0] for line in out.splitlines() if line[:3].strip() and line[:2] == "  "
     ]
-    assert (code, names) == (0, list(task().faults(0).kinds))
+    assert (code, names) == (0, [*task().faults(0).kinds, "panic"])
     assert max(map(len, out.splitlines())) <= int(columns)
 
 
 def test_faults_are_listed_for_programs(command: Command) -> None:
     _, out, _ = command("faults", "--list", "--json", "--seed", str(SEVENTH))
     known = {fault["name"]: fault for fault in json.loads(out)["faults"]}
-    assert list(known) == list(task().faults(SEVENTH).kinds)
+    assert list(known) == [*task().faults(SEVENTH).kinds, "panic"]
     assert known["gap_potentiometer.off"]["size"] == {"unit": "in", "usual": 0.5, "limits": [-4.0, 4.0]}
     assert known["lamp.dead"]["size"] is None
     assert known["gap_potentiometer.off"]["must"].startswith(

@@ -11,6 +11,7 @@ CATALOGUE = Catalogue(
     FaultKind(name="lamp.dead", meaning="The lamp stays dark."),
     FaultKind(name="gap.off", meaning="It reads more.", size=Size(unit="in", usual=0.5, limits=(-4.0, 4.0))),
     FaultKind(name="gasket.missing", meaning="There is none.", from_start=True),
+    FaultKind(name="base.removed", meaning="Somebody takes it away.", usual_stage=4),
 )
 
 
@@ -23,6 +24,8 @@ CATALOGUE = Catalogue(
         ("gap.off=-1", Fault(name="gap.off", value=-INCH)),
         ("gap.off=2mm@1", Fault(name="gap.off", value=0.002, stage=1)),
         ("gasket.missing", Fault(name="gasket.missing")),
+        ("base.removed", Fault(name="base.removed", stage=4)),
+        ("base.removed@2", Fault(name="base.removed", stage=2)),
     ],
 )
 def test_a_fault_is_named_with_its_size_and_its_stage(text: str, fault: Fault) -> None:
@@ -38,7 +41,10 @@ def test_a_stage_may_have_any_name() -> None:
     ("texts", "sentence"),
     [
         (["lamp.daed"], "there is no fault `lamp.daed`; did you mean `lamp.dead`?"),
-        (["bell"], "there is no fault `bell`; known: `gap.off`, `gasket.missing`, `lamp.dead`"),
+        (
+            ["bell"],
+            "there is no fault `bell`; known: `base.removed`, `gap.off`, `gasket.missing`, `lamp.dead`",
+        ),
         (["lamp"], "`lamp` is a group of faults: `lamp.dead`"),
         (["lamp.dead=3"], "the fault `lamp.dead` has no value; leave out `=3`"),
         (["gap.off=wide"], "gap.off cannot be `wide`, which is not a number"),

@@ -65,7 +65,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             posture: shape (n,), rad or m.
             noise: of the sensors.
             lines: `potentiometer.N`, `tachometer.N`, `drive.N`, `brake.N`; and `force.x`, `force.y`, `force.z`, on
-                which the drives are put off zero by what a force at the hand (N, world axes) is to each.
+                which the drives are put off zero by what a force at the hand (N, world axes) is to each; and `servo`,
+                on which 1 is the computer's word that a torque is there: without it the torque does not arrive.
         """
         self.name = prefix.rstrip("/")
         names = [f"{prefix}j{number}" for number in range(1, len(arm.joints) + 1)]
@@ -107,6 +108,8 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
             torque = finite(
                 np.array(torque, dtype=float), "the torque"
             )  # a copy, which nobody else can change
+            if not self._lines.carried("servo", 1.0):
+                return
         self._torque = torque
         self.watchdog.answer(braked=torque is None)
 

@@ -64,7 +64,8 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     ) -> None:
         """A camera that looks at the state `data`, as it is when a picture is taken, and never changes it.
 
-        `rng`: noise of the tube and of the mount; `lines`: `picture`.
+        `rng`: noise of the tube and of the mount; `lines`: `picture`; `turret`, the lens that it is told (m);
+        `camera.pan` and `camera.tilt`, where the mount really stands (rad).
         """
         self._data = data
         self._lines = lines
@@ -79,7 +80,8 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
         self._focus = math.inf
 
     def lens(self, focal_length: float) -> float:
-        chosen = self._model.lens(focal_length).focal_length
+        wanted = self._model.lens(focal_length).focal_length
+        chosen = self._lines.carried("turret", wanted)
         if chosen == self._lens:
             return 0.0
         self._lens = chosen
@@ -149,7 +151,12 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
 
     def true_view(self) -> View:
         """True view at present. For the referee and for tests: the program has `pots` only."""
-        return self._model.view(self._lens, *self._stand)
+        pan, tilt = self._stand
+        return self._model.view(
+            self._lens,
+            self._lines.carried("camera.pan", pan),
+            self._lines.carried("camera.tilt", tilt),
+        )
 
     def shown(self, points_W: Array) -> Array:
         """True picture points, shape (n, 2), of points, shape (n, 3), m, but for the drift. For referee and tests."""

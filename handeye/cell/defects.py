@@ -69,6 +69,16 @@ class Scaled(Effect):
         return np.asarray(values * self.by)
 
 
+@dataclass(frozen=True, slots=True)
+class Missing(Effect):
+    """Nothing arrives for so many seconds."""
+
+    seconds: float
+
+    def on(self, values: Values, first: Values, seconds: float) -> Values:
+        return np.asarray(values * 0) if seconds < self.seconds else values
+
+
 DEAD: Final = Scaled(0.0)
 """Nothing arrives."""
 

@@ -19,6 +19,9 @@ class Mechanism(ABC, Generic[S]):
     changes: ClassVar[tuple[str, ...]] = ()
     """Fields of the MuJoCo model that it changes as it runs: they belong to the state of the cell."""
 
+    def begin_stage(self, number: int) -> None:
+        """Let happen what is due with a stage of the program, by its number from 1, or was with one before it."""
+
     def before(self, seconds: float) -> None:
         """Do what is due before time passes (s)."""
 

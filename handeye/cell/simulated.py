@@ -117,6 +117,11 @@ class SimulatedCell(Clock):
     def now(self) -> float:
         return float(self._data.time)
 
+    def begin_stage(self, number: int) -> None:
+        """Begin a stage of the program, by its number from 1: faults may set in with it."""
+        for part in self._mechanisms:
+            part.begin_stage(number)
+
     def advance(self, seconds: float) -> None:
         """Let time pass.
 

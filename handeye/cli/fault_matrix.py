@@ -58,10 +58,10 @@ def faults(
 
     Exit code 0: no fault was undetected; 3: one was; 2: bad input; 130: interrupted.
     """
-    from handeye.trials.faults import chosen
+    from handeye.trials.faults import chosen, with_panic
 
     spec = world.spec
-    catalogue = task().faults(spec.seed)
+    catalogue = with_panic(task().faults(spec.seed))
     if every and only:
         raise InvalidInput("--all excludes --only")
     if listed:

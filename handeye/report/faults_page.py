@@ -20,6 +20,8 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
     """None: it has no value."""
     from_start: bool
     """It can be there only from the beginning."""
+    usual_stage: int | None
+    """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
     expected: Expected
     must: str
     """What must happen with it, a sentence."""
@@ -68,6 +70,7 @@ def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
         meaning=kind.meaning,
         size=kind.size,
         from_start=kind.from_start,
+        usual_stage=kind.usual_stage,
         expected=kind.expected,
         must=_must(kind.expected),
         matrix=kind.name in catalogue.matrix,
@@ -100,4 +103,6 @@ def _head(fault: FaultReport) -> Text:
         )
     if fault.matrix:
         row.append("  in the matrix", "green")
+    if fault.usual_stage is not None:
+        row.append(f"  @{fault.usual_stage} where no stage is named", "dim")
     return row.append("  from the beginning only", "dim") if fault.from_start else row

@@ -148,7 +148,7 @@ class ProgramSystem(System):
 
     def step(self) -> None:
         assert self.state.at is not None
-        self._cell.lines.begin_stage(self.plan.program.steps[self.state.at].stage + 1)
+        self._cell.begin_stage(self.plan.program.steps[self.state.at].stage + 1)
         self.executor.step()
 
     def answer(self, choice: Choice) -> None:

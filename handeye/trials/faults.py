@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 
@@ -15,6 +15,7 @@ from handeye.report.result import Result
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
 from handeye.trials.brakes import brakes_hold
+from handeye.trials.panic import PanicInStage
 from handeye.trials.seeds import in_processes
 from handeye.variation import WorldSpec
 
@@ -26,6 +27,20 @@ fault should have been noticed; stopped, and the brakes were not on; with a wron
 
 UNDETECTED: tuple[Outcome, ...] = ("unnoticed", "unbraked", "silent")
 """Outcomes that a fault must never have."""
+
+
+PANIC: Final = FaultKind(
+    name="panic",
+    meaning="Somebody hits the panic button while the arm moves. A run is given it by Ctrl-C, and not by --fault.",
+    usual_stage=4,
+    expected=Expected(calls=("stopped by the panic button; the brakes are set",)),
+)
+"""No fault of a cell: the button of whoever stands beside it."""
+
+
+def with_panic(catalogue: Catalogue) -> Catalogue:
+    """The faults of a task, and the panic button."""
+    return Catalogue(*catalogue.kinds.values(), PANIC, matrix=(*catalogue.matrix, PANIC.name))
 
 
 class FaultTrial(Record, frozen=True, kw_only=True):
@@ -84,9 +99,15 @@ def try_faults(
 
 
 def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
-    """What a run in a world with one fault comes to."""
-    (fault,), done = world.faults, run_plan(plan, world=world, camera=camera)
-    catalogue, braked = task(done.result.task).faults(world.seed), brakes_hold(done.runner.cell)
+    """What a run in a world with one fault comes to, or one in which somebody hits the panic button."""
+    (fault,), catalogue = world.faults, with_panic(task().faults(world.seed))
+    if fault.name == PANIC.name:
+        button = PanicInStage((fault.stage or 1) - 1)
+        sound = msgspec.structs.replace(world, faults=())
+        done = run_plan(plan, world=sound, camera=camera, halt=button.down, observers=button.watching)
+    else:
+        done = run_plan(plan, world=world, camera=camera)
+    braked = brakes_hold(done.runner.cell)
     return trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
 
 

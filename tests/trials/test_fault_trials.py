@@ -4,6 +4,8 @@ import json
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import msgspec
 import numpy as np
@@ -12,13 +14,26 @@ from conftest import Command
 from results import result
 
 from handeye.errors import InvalidInput
-from handeye.events import StepStarted
+from handeye.events import StageStarted, StepStarted
+from handeye.execution.servo_period import ServoPeriod
 from handeye.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.report.pauses import pause_sentence
 from handeye.report.result import Result
+from handeye.runs.advance import Pause
+from handeye.runs.runner import Runner
 from handeye.tasks import task
 from handeye.trials import faults as fault_trials
 from handeye.trials.brakes import brakes_hold
-from handeye.trials.faults import FaultTrial, chosen, counted_outcomes, matrix_of, outcome, trial_of
+from handeye.trials.faults import (
+    FaultTrial,
+    chosen,
+    counted_outcomes,
+    matrix_of,
+    outcome,
+    trial_of,
+    with_panic,
+)
+from handeye.trials.panic import PanicInStage
 from handeye.variation import WorldSpec
 
 STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
@@ -125,7 +140,7 @@ def test_the_matrix_that_is_interrupted_tells_what_has_ended(
     place = tmp_path / "kept.jsonl"
     code, out, err = command("faults", "--out", str(place))
     assert (code, "1 faults: 1 unnoticed; 1 undetected" in out) == (130, True)
-    assert f"1 of {len(task().faults(0).matrix)} faults, about " in err
+    assert f"1 of {len(task().faults(0).matrix) + 1} faults, about " in err
     assert json.loads(place.read_text())["outcome"] == "unnoticed"
 
 
@@ -143,3 +158,22 @@ def test_a_fault_that_goes_undetected_has_an_exit_code_of_its_own(
 def test_what_cannot_be_tried_is_bad_input(command: Command, words: tuple[str, ...]) -> None:
     code, out, err = command("faults", *words)
     assert (code, out, err.count("\n")) == (2, "", 1)
+
+
+def test_the_panic_button_is_hit_once_in_the_middle_of_its_stage() -> None:
+    button = PanicInStage(1, periods=2)
+    button.watching(cast("Runner", SimpleNamespace(stages=("a", "b"))))
+    hit = []
+    for stage in "ab":
+        button.event(StageStarted(time=0.0, stage=stage))
+        for _ in range(4):
+            hit.append(button.down())
+            button.tick(cast("ServoPeriod", None))
+    assert hit == [False] * 6 + [True, False]
+
+
+def test_the_panic_button_is_in_the_matrix_and_named_by_what_the_operator_is_told() -> None:
+    catalogue = with_panic(task().faults(0))
+    assert "panic" in catalogue.matrix
+    told = pause_sentence(Pause(kind="panic"))
+    assert catalogue.kind("panic").expected.calls == (told,)

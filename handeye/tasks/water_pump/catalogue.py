@@ -5,6 +5,7 @@ from typing import Final
 
 from handeye.faults import Catalogue
 from handeye.tasks.water_pump.device_faults import device_faults
+from handeye.tasks.water_pump.mishaps import mishap_faults
 from handeye.tasks.water_pump.noticing import expected
 from handeye.tasks.water_pump.part_faults import part_faults
 
@@ -21,6 +22,7 @@ MATRIX: Final = (
     "tachometer.2.dead",
     "drive.2.weak",
     "brake.2.slips",
+    "servo.late",
     "screwdriver.motor.dead",
     "screwdriver.current.dead",
     "screwdriver.missing",
@@ -29,30 +31,48 @@ MATRIX: Final = (
     "lamp.dead",
     "picture.dark",
     "picture.frozen",
+    "camera.bumped",
+    "turret.stuck",
+    "light.shadow",
+    "light.off",
     "base.missing",
     "base.turned",
     "base.reversed",
+    "base.far",
+    "base.moved.x",
+    "base.removed",
     "pin.1.missing",
+    "pin.1.dropped",
     "pin.2.thick",
     "hole.2.blocked",
     "hole.3.blocked",
     "thread.1.scarred",
+    "thread.1.stripped",
+    "thread.3.crosses",
+    "thread.6.full",
     "gasket.missing",
     "gasket.doubled",
     "gasket.off.x",
+    "gasket.turned",
+    "gasket.dropped",
     "gasket.reversed",
     "top.missing",
     "top.off.y",
+    "top.tilted",
+    "top.dropped",
     "top.reversed",
     "screw.3.missing",
     "screw.1.burred",
+    "screw.2.slotless",
     "rotor.jammed",
+    "arm.pushed.y",
 )
 """By what `handeye faults` tries a program: of like faults of several joints, pins, screws and holes one."""
 
 
 def catalogue(seed: int) -> Catalogue:
-    """What can be broken in the world of a seed: devices, then parts."""
+    """What can be broken in the world of a seed, and what can happen to it: devices, parts, mishaps."""
     devices, parts = device_faults(), part_faults(seed)
     kinds = (*(fault.kind for fault in devices), *(fault.kind for fault in parts))
+    kinds += tuple(fault.kind for fault in mishap_faults())
     return Catalogue(*(replace(kind, expected=expected(kind.name)) for kind in kinds), matrix=MATRIX)

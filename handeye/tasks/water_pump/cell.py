@@ -15,6 +15,7 @@ from handeye.cell.simulated import SimulatedCell
 from handeye.tasks.water_pump.clamping import Clamping
 from handeye.tasks.water_pump.device_faults import defects
 from handeye.tasks.water_pump.eye import DRAWING
+from handeye.tasks.water_pump.mishaps import Mishaps, due
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
@@ -44,6 +45,8 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         watchdog=arm.watchdog, lines=lines,
     )  # fmt: skip
     threads = Threads(model, data, world, driver, lines)
+    faults = world.drawn.spec.faults
+    mishaps = (Mishaps(model, data, faults),) if due(faults) else ()
     return SimulatedCell(
         model,
         data,
@@ -54,7 +57,7 @@ def build_cell(world: PumpWorld, *, camera: str | RendererMaker = "auto", rest: 
         camera=SimulatedCamera(
             data, world.camera, world.generator("camera"), make_renderer(camera, model), DRAWING, lines
         ),
-        mechanisms=(threads, Clamping(model, data, threads, allowed=rest)),
+        mechanisms=(*mishaps, threads, Clamping(model, data, threads, allowed=rest)),
         lines=lines,
         noise=noise,
     )

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Final
 
-from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Scaled, Shifted, Stuck
+from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Missing, Scaled, Shifted, Stuck
 from handeye.faults import Fault, FaultKind, Size
 from handeye.tasks.water_pump.variation import JOINT_UNITS
+from handeye.units import JIFFY
 
 _FINGERS: Final = ("finger_switch.plus_y", "finger_switch.minus_y")
 _JUMP: Final = {
@@ -41,7 +42,7 @@ class DeviceFault:
 @cache
 def device_faults() -> tuple[DeviceFault, ...]:
     """All of them, in the order they are listed."""
-    return (*_switches(), *_hand(), *_force(), *_joints(), *_screwdriver(), *_sight())
+    return (*_switches(), *_hand(), *_force(), *_joints(), *_servo(), *_screwdriver(), *_sight())
 
 
 def defects(faults: Sequence[Fault]) -> tuple[Defect, ...]:
@@ -58,9 +59,10 @@ def _fault(
     lines: str | Sequence[str],
     effect: Effect | Callable[[float], Effect],
     size: Size | None = None,
+    stage: int | None = None,
 ) -> DeviceFault:
     made = effect if callable(effect) else lambda _: effect
-    kind = FaultKind(name=name, meaning=meaning, size=size)
+    kind = FaultKind(name=name, meaning=meaning, size=size, usual_stage=stage)
     return DeviceFault(kind=kind, lines=(lines,) if isinstance(lines, str) else lines, effect=made)
 
 
@@ -126,6 +128,13 @@ def _joints() -> Iterator[DeviceFault]:
         )  # fmt: skip
 
 
+def _servo() -> Iterator[DeviceFault]:
+    yield _fault(
+        "servo.late", "The computer is late: no torque arrives at the drives for so many servo periods.", "servo",
+        lambda periods: Missing(periods * JIFFY), Size(unit="", usual=60.0, limits=(1.0, 36000.0)), stage=3,
+    )  # fmt: skip
+
+
 def _screwdriver() -> Iterator[DeviceFault]:
     current, motor = "screwdriver.current", "screwdriver.motor"
     yield _fault(
@@ -145,3 +154,14 @@ def _sight() -> Iterator[DeviceFault]:
     yield _fault("lamp.dead", "The lamp on the hand stays dark.", "lamp", DEAD)
     yield _fault("picture.frozen", "Every picture is the first one after this set in.", PICTURE, Stuck())
     yield _fault("picture.dark", "Every picture is black.", PICTURE, DEAD)
+    yield _fault(
+        "camera.bumped", "The camera has been bumped: it looks so far aside and down of where its mount is told.",
+        ("camera.pan", "camera.tilt"), Shifted, Size(unit="deg", usual=1.0, limits=(-20.0, 20.0)), stage=1,
+    )  # fmt: skip
+    yield _fault(
+        "turret.stuck",
+        "The lens stays that was turned to first after this set in.",
+        "turret",
+        Stuck(),
+        stage=1,
+    )

@@ -13,13 +13,17 @@ from handeye.errors import (
     FEATURES_NOT_SEEN,
     FORCE_WRONG,
     GAP_WRONG,
+    GASKET_WRONG,
+    JOINT_LIMIT,
     JOINT_SENSE_WRONG,
+    NO_SOLUTION,
     NOTHING_HELD,
     PART_NOT_SEEN,
     PICTURE_WRONG,
     SEARCH_EXHAUSTED,
     SERVO_LAG,
     SWITCH_WRONG,
+    WATCHDOG,
     WRONG_HEIGHT,
 )
 from handeye.faults import UNKNOWN, Expected
@@ -35,6 +39,12 @@ ASTRAY: Final = (
 )
 """A joint that was off from the beginning: both its senses agree, the camera is calibrated with it, and only what
 stands in the cell shows it."""
+_GRASP, _PINS, _GASKET, _TOP = (
+    "feel for the grasp", "insert the aligning pins", "put on the gasket", "put on the top",
+)  # fmt: skip
+_DRIVER: Final = "drive the first two screws"
+_GASKET_LOST: Final = "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+_TOP_LOST: Final = "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
 
 
 def _lost(screw: int) -> str:
@@ -58,10 +68,20 @@ def _screws() -> Iterator[tuple[str, Expected]]:
     for screw, hole in enumerate(SCREWED, 1):
         yield f"screw.{screw}.missing", Expected(calls=(f"NO SCREW AT S{screw}",))
         yield f"screw.{screw}.burred", Expected(calls=(*_misfit(screw), _loose(screw)))
+        yield f"screw.{screw}.slotless", Expected(calls=(_loose(screw),))
+        yield f"thread.{hole}.stripped", Expected(calls=(_loose(screw),))
+        yield f"thread.{hole}.crosses", Expected(calls=(_high(screw),))
         if hole not in PINNED:
             yield f"hole.{hole}.blocked", Expected(calls=(*_misfit(screw), _high(screw)))
+            yield f"thread.{hole}.full", Expected(errors=(SEARCH_EXHAUSTED,), stages=_driving(screw))
     for hole in PINNED:
-        yield f"hole.{hole}.blocked", Expected(errors=(SEARCH_EXHAUSTED,))
+        for name in (f"hole.{hole}.blocked", f"thread.{hole}.full"):
+            yield name, Expected(errors=(SEARCH_EXHAUSTED,), stages=(_PINS,))
+
+
+def _driving(screw: int) -> tuple[str, ...]:
+    """The stage in which a screw is driven."""
+    return (_DRIVER,) if screw <= 2 else ("drive the last four screws",)
 
 
 def _potentiometers() -> Iterator[tuple[str, Expected]]:
@@ -87,18 +107,46 @@ EXPECTED: Final[dict[str, Expected]] = {
     ),
     "screwdriver.current": Expected(errors=(CURRENT_WRONG,)),
     "screwdriver.motor": Expected(errors=(CURRENT_WRONG,), calls=(_loose(1),)),
-    "screwdriver.missing": Expected(errors=(NOTHING_HELD,)),
+    "screwdriver.missing": Expected(errors=(NOTHING_HELD,), stages=(_DRIVER,)),
+    "servo": Expected(errors=(WATCHDOG,)),
     "magnet": Expected(calls=(_lost(1),)),
     "bit": Expected(calls=(_loose(1),)),
     "lamp": Expected(at_setup=True),
     "picture": Expected(errors=(PICTURE_WRONG,), at_setup=True),
+    "camera": Expected(
+        errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, GASKET_WRONG),
+        harmless="The hand feels for the base around where it was seen.",
+    ),
+    "turret": Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG)),
+    "light": Expected(
+        errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG, GASKET_WRONG),
+        harmless="The eye adjusts itself to what light there is.",
+    ),
+    "arm.pushed": Expected(
+        errors=(FORCE_WRONG, SERVO_LAG),
+        calls=ASTRAY,
+        harmless="The drives bear a push that is over before the hand feels for anything.",
+    ),
+    "base.far": Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT)),
+    "base.moved": Expected(
+        errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
+        stages=(_GRASP,),
+        harmless="The hand feels for the base around where it was seen.",
+    ),
+    "base.removed": Expected(errors=(SEARCH_EXHAUSTED,), stages=(_PINS,)),
     "base.missing": Expected(errors=(PART_NOT_SEEN,)),
     "base.turned": Expected(
         errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN),
         harmless="The job is for a base that lies anyhow within the arm's reach.",
     ),
     "base.reversed": Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN)),
-    "gasket.missing": Expected(errors=(NOTHING_HELD,)),
+    "gasket.missing": Expected(errors=(NOTHING_HELD,), stages=(_GASKET,)),
+    "gasket.turned": Expected(
+        errors=(SEARCH_EXHAUSTED, GASKET_WRONG),
+        calls=("THE GASKET LIES OFF ITS PLACE", "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"),
+        harmless="Fingers that close on the gasket turn it straight.",
+    ),
+    "gasket.dropped": Expected(errors=(NOTHING_HELD, WRONG_HEIGHT), calls=(_GASKET_LOST,), stages=(_GASKET,)),
     "gasket.doubled": Expected(errors=(WRONG_HEIGHT,)),
     "gasket.thick": Expected(errors=(WRONG_HEIGHT,)),
     "gasket.off.x": Expected(calls=("THE GASKET LIES OFF ITS PLACE",)),
@@ -107,21 +155,29 @@ EXPECTED: Final[dict[str, Expected]] = {
         calls=("THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE",),
         harmless="The search finds the pins with a gasket that is held a quarter inch off.",
     ),
-    "gasket.reversed": Expected(calls=("THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST",)),
-    "top.missing": Expected(errors=(NOTHING_HELD,)),
+    "gasket.reversed": Expected(calls=(_GASKET_LOST,)),
+    "top.missing": Expected(errors=(NOTHING_HELD,), stages=(_TOP,)),
+    "top.dropped": Expected(errors=(NOTHING_HELD,), calls=(_TOP_LOST,), stages=(_TOP,)),
+    "top.tilted": Expected(
+        errors=(NOTHING_HELD, WRONG_HEIGHT, SEARCH_EXHAUSTED),
+        stages=(_TOP,),
+        harmless="Fingers that close on two flats set the top straight.",
+    ),
     "top.off": Expected(
         errors=(SEARCH_EXHAUSTED,),
         harmless="CENTER takes the top where it stands, and the search finds the pins along the fingers.",
     ),
-    "top.reversed": Expected(calls=("NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST",)),
-    "pin.1.missing": Expected(errors=(NOTHING_HELD,)),
-    "pin.2.missing": Expected(errors=(NOTHING_HELD,)),
-    "pin.1.thick": Expected(errors=(SEARCH_EXHAUSTED,)),
-    "pin.2.thick": Expected(errors=(SEARCH_EXHAUSTED,)),
+    "top.reversed": Expected(calls=(_TOP_LOST,)),
+    "pin": Expected(errors=(NOTHING_HELD,), stages=(_PINS,)),
+    "pin.1.thick": Expected(errors=(SEARCH_EXHAUSTED,), stages=(_PINS,)),
+    "pin.2.thick": Expected(errors=(SEARCH_EXHAUSTED,), stages=(_PINS,)),
     "rotor": Expected(calls=("THE ROTOR IS HARD TO TURN",)),
-    "thread": Expected(
-        harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
-    ),
+    **{
+        f"thread.{hole}.scarred": Expected(
+            harmless="A screw that comes in straight goes home in a scarred thread, too; the referee cautions."
+        )
+        for hole in SCREWED
+    },
     **dict(_potentiometers()),
     **dict(_screws()),
 }

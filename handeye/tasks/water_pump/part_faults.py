@@ -30,12 +30,18 @@ GONE: Final = {
     "pin1": (0.05, 0.1), **{f"screw{k}": (0.05 * k - 0.1, 0.05) for k in range(7)},
 }  # fmt: skip
 """Places (m) for what is missing: on the tray under the floor, where nothing can meet it."""
-_OVER: Final = 0.12
+OVER: Final = 0.12
 """m over the tray: what hangs below a part's origin."""
+
 _JAM: Final = 20.0
 """N m of friction: more than the arm can turn."""
 _THREAD: Final = "thread"
 _SCARRED: Final = "scarred"
+_CROSSES: Final = "crosses"
+_CARD: Final = 0.08
+"""m: half the side of a card that throws a shadow."""
+_FOREMOST: Final = 3
+"""Priority in a contact over all shapes of the scene."""
 METAL: Final = ((0.004, 1.0), (0.999, 0.9999, 0.0001, 0.5, 2.0))
 """Stiffness of what ends a hole. Measured: a thread drives its screw straight through MuJoCo's own limit of a joint."""
 _AWAY: Final = Size(unit="mm", usual=6.0, limits=(-50.0, 50.0))
@@ -56,7 +62,16 @@ def part_faults(seed: int) -> tuple[PartFault, ...]:
 
 @cache
 def _part_faults(count: int) -> tuple[PartFault, ...]:
-    return (*_base(), *_gasket(), *_top(), *_pins(), *_screws(count), *_holes(count), *_screwdriver())
+    return (
+        *_base(),
+        *_gasket(),
+        *_top(),
+        *_pins(),
+        *_screws(count),
+        *_holes(count),
+        *_screwdriver(),
+        *_light(),
+    )
 
 
 def break_parts(spec: mujoco.MjSpec, faults: Sequence[Fault], seed: int) -> None:
@@ -79,6 +94,10 @@ def _base() -> Iterator[PartFault]:
         Size(unit="deg", usual=35.0, limits=(-360.0, 360.0)),
     )  # fmt: skip
     yield _fault(
+        "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
+        _shift("base", (0.0, 1.0)), Size(unit="in", usual=12.0, limits=(-60.0, 60.0)),
+    )  # fmt: skip
+    yield _fault(
         "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre())
     )
 
@@ -94,6 +113,11 @@ def _gasket() -> Iterator[PartFault]:
     )  # fmt: skip
     yield from _moved(part, "the gasket")
     yield _fault(
+        "gasket.turned", "The gasket lies turned about the vertical on its stand.",
+        lambda spec, angle: _turn(spec, part, middle, _yaw(spec, part) + angle),
+        Size(unit="deg", usual=12.0, limits=(-90.0, 90.0)),
+    )  # fmt: skip
+    yield _fault(
         f"{part}.reversed", "The gasket lies end for end.", lambda spec, _: _reverse(spec, part, middle)
     )
 
@@ -101,6 +125,10 @@ def _gasket() -> Iterator[PartFault]:
 def _top() -> Iterator[PartFault]:
     yield _fault("top.missing", "No top lies on its stand.", _missing("top"))
     yield from _moved("top", "the top")
+    yield _fault(
+        "top.tilted", "A chip so high lies under one end of the top, on its stand.", _chip,
+        Size(unit="mm", usual=6.0, limits=(0.1, 15.0)),
+    )  # fmt: skip
     yield _fault(
         "top.reversed", "The top lies end for end.", lambda spec, _: _reverse(spec, "top", (0.0, 0.0))
     )
@@ -134,6 +162,10 @@ def _screws(count: int) -> Iterator[PartFault]:
             f"screw.{number}.burred", f"A burr makes the point of screw {number} so much thicker, in radius: from .35 "
             "mm on it enters no tapped hole.", _thick_point(screw), Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
+        yield _fault(
+            f"screw.{number}.slotless", f"The head of screw {number} has no slot: the bit slips on it.",
+            _slippery(f"screw_head{number - 1}"),
+        )  # fmt: skip
 
 
 def _holes(count: int) -> Iterator[PartFault]:
@@ -147,18 +179,50 @@ def _holes(count: int) -> Iterator[PartFault]:
             f"A screw was crossed in tapped hole {number} before: another crosses there more easily.",
             _as_drawn,
         )
+        yield _fault(
+            f"{_THREAD}.{number}.{_CROSSES}",
+            f"Whatever screw comes into tapped hole {number} crosses, however straight it stands.",
+            _as_drawn,
+        )
+        yield _fault(
+            f"{_THREAD}.{number}.stripped",
+            f"The thread of tapped hole {number} is worn away: a screw slides in and holds nothing.",
+            _strip(number - 1),
+        )
+        yield _fault(
+            f"{_THREAD}.{number}.full",
+            f"The shank of a broken screw fills tapped hole {number} up to its mouth.",
+            _fill(number - 1),
+        )
 
 
 def _screwdriver() -> Iterator[PartFault]:
     yield _fault("screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"))
-    yield _fault("bit.smooth", "The bit does not rub on what it turns.", _smooth)
+    yield _fault("bit.smooth", "The bit does not rub on what it turns.", _slippery("bit"))
+
+
+def _light() -> Iterator[PartFault]:
+    yield _fault(
+        "light.shadow",
+        "A card in the way of the light throws the edge of its shadow across the base.",
+        _shade,
+    )
 
 
 def scarred_threads(faults: Sequence[Fault]) -> frozenset[int]:
     """The tapped holes, from 0, in which faults have had a screw crossed."""
+    return _threads(faults, _SCARRED)
+
+
+def crossing_threads(faults: Sequence[Fault]) -> frozenset[int]:
+    """The tapped holes, from 0, in which by faults every screw crosses."""
+    return _threads(faults, _CROSSES)
+
+
+def _threads(faults: Sequence[Fault], what: str) -> frozenset[int]:
     names = (fault.name.split(".") for fault in faults)
     return frozenset(
-        int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (_THREAD, _SCARRED)
+        int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (_THREAD, what)
     )
 
 
@@ -166,13 +230,13 @@ def scarred_threads(faults: Sequence[Fault]) -> frozenset[int]:
 
 
 def _as_drawn(spec: mujoco.MjSpec, _: float) -> None:
-    """Change nothing: threads are no shapes, see `scarred_threads`."""
+    """Change nothing: threads are no shapes, see `scarred_threads` and `crossing_threads`."""
 
 
 def _missing(part: str) -> Change:
     def change(spec: mujoco.MjSpec, _: float) -> None:
         x, y = GONE[part]
-        spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + _OVER)
+        spec.body(part).pos[:] = (x, y, spec.geom("tray").pos[2] + OVER)
 
     return change
 
@@ -229,8 +293,41 @@ def _jam(spec: mujoco.MjSpec, _: float) -> None:
     spec.joint("rotor").frictionloss = _JAM
 
 
-def _smooth(spec: mujoco.MjSpec, _: float) -> None:
-    spec.geom("bit").friction[:] = 0.0
+def _slippery(shape: str) -> Change:
+    def change(spec: mujoco.MjSpec, _: float) -> None:
+        """Let nothing rub on a shape: its friction counts in every contact, and not the greater one of the two."""
+        geom = spec.geom(shape)
+        geom.friction[:], geom.priority = 0.0, _FOREMOST
+
+    return change
+
+
+def _strip(hole: int) -> Change:
+    def change(spec: mujoco.MjSpec, _: float) -> None:
+        """Let a screw slide and turn in a hole as it will."""
+        spec.equality(f"thread{hole}").active = False
+
+    return change
+
+
+def _chip(spec: mujoco.MjSpec, high: float) -> None:
+    """Lay a chip under the end of the top that is farther from its hub, and lift the top to over it."""
+    d = dimensions()
+    (x, y), stand = d.all("top_stand.grasp"), d("top_stand.height")
+    chip = spec.body("top_stand").add_geom(
+        spec.find_default("solid"), name="chip", type=spec.geom("hub").type, material="steel"
+    )
+    chip.pos[:], chip.size[:] = (x - 0.07, y, stand + high / 2), (0.008, 0.02, high / 2)
+    spec.body("top").pos[2] += high
+
+
+def _shade(spec: mujoco.MjSpec, _: float) -> None:
+    """Hang a card half way between the light and the base; light comes past one of its edges to the base's middle."""
+    light, base = next(each for each in spec.lights if each.name == "key").pos, spec.body("base").pos
+    card = spec.worldbody.add_geom(
+        name="card", type=spec.geom("hub").type, contype=0, conaffinity=0, group=2, rgba=[0.2, 0.2, 0.2, 1.0]
+    )
+    card.pos[:], card.size[:] = (light + base) / 2 + (_CARD, 0.0, 0.0), (_CARD, _CARD, 0.0005)
 
 
 def _thick_nose(pin: str) -> Change:
@@ -253,13 +350,13 @@ def _thick_point(screw: str) -> Change:
     return change
 
 
-def _block(hole: int) -> Change:
+def _block(hole: int, plug_name: str = "plug") -> Change:
     def change(spec: mujoco.MjSpec, depth: float) -> None:
         """Fill the hole with metal up to a depth below its mouth, and let no screw in its thread go deeper."""
         x, y, mouth = spec.site(f"base_hole{hole}").pos
         floor = base_top() - dimensions()("base.screw_holes.depth")
         plug = spec.body("base").add_geom(
-            spec.find_default("face"), name=f"plug{hole}", type=spec.geom("bit").type
+            spec.find_default("face"), name=f"{plug_name}{hole}", type=spec.geom("bit").type
         )
         plug.fromto[:], plug.size[0] = (
             (x, y, floor, x, y, mouth - depth),
@@ -269,3 +366,7 @@ def _block(hole: int) -> Change:
         slide.range[0], slide.solref_limit[:], slide.solimp_limit[:] = -depth, *METAL
 
     return change
+
+
+def _fill(hole: int) -> Change:
+    return lambda spec, _: _block(hole, "stub")(spec, 0.0)

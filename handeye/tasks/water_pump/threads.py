@@ -25,7 +25,7 @@ from handeye.cell.truth import Truth
 from handeye.pose import Array, Pose, pose, translated
 from handeye.record import Record
 from handeye.tasks.water_pump.carriers import Carriers
-from handeye.tasks.water_pump.part_faults import scarred_threads
+from handeye.tasks.water_pump.part_faults import crossing_threads, scarred_threads
 from handeye.tasks.water_pump.pump_world import PumpWorld
 
 CAPTURE: Final = 0.0004  # m, tip to axis. The bore leaves the point .35 mm of play.
@@ -94,6 +94,7 @@ class Threads(Mechanism[ThreadsState]):
         self._carriers = Carriers(model, data)
         holes, scarred = range(self._carriers.count), scarred_threads(world.drawn.spec.faults)
         self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in scarred) for k in holes)
+        self._crossing = crossing_threads(world.drawn.spec.faults)
         self._phase = world.thread_phase
         self._friction = THREAD_FRICTION * world.friction["thread"]
         self._base = model.body("base").id
@@ -206,7 +207,7 @@ class Threads(Mechanism[ThreadsState]):
     def take(self, screw: int, hole: int, X_WS: Pose) -> None:
         """Replace a loose screw by the carrier of a hole, which is then where the screw is."""
         scarred = self.holes[hole].scarred
-        crossed = self._tilt(X_WS) > (SCARRED if scarred else SQUARE)
+        crossed = hole in self._crossing or self._tilt(X_WS) > (SCARRED if scarred else SQUARE)
         self._carriers.fill(hole, X_WS, self._rate(screw))
         self._put(screw, pose(np.eye(3), self._data.site_xpos[self._tray[screw]]), np.zeros(6))
         self._set(hole, Thread(screw=screw, crossed=crossed, scarred=crossed or scarred))

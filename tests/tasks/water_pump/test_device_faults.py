@@ -33,8 +33,12 @@ FAULTS: tuple[Fault, ...] = tuple(fault.kind.usual() for fault in device_faults(
 def carried() -> list[tuple[str, bool]]:
     """Lines that all faults together break, and whether each has carried something when every device has worked."""
     cell = build_cell(PumpWorld.draw(WorldSpec(seed=3, faults=FAULTS)), camera="ray")
-    tick(cell.devices, Drive(torque=np.zeros(6), gap=0.03, grip=10.0))
+    cell.begin_stage(11)
+    for _ in range(2):
+        tick(cell.devices, Drive(torque=np.zeros(6), gap=0.03, grip=10.0))
+        cell.advance(1.2)  # after which the computer is no longer late
     assert cell.devices.camera is not None
+    cell.devices.camera.lens(0.05)
     cell.devices.camera.digitise()
     state = cell.truth.states["lines"]
     assert isinstance(state, LinesState)

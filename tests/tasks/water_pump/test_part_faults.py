@@ -72,7 +72,8 @@ def test_the_seventh_screw_can_be_missing_too() -> None:
         fault.kind.name for fault in part_faults(0)
     }
     assert names == {f"{thing}.7.{what}" for thing, what in (
-        ("screw", "missing"), ("screw", "burred"), ("hole", "blocked"), ("thread", "scarred"),
+        ("screw", "missing"), ("screw", "burred"), ("hole", "blocked"), ("thread", "scarred"), ("thread", "crosses"),
+            ("thread", "stripped"), ("thread", "full"), ("screw", "slotless"),
     )}  # fmt: skip
 
 

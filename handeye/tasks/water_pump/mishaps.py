@@ -1,0 +1,318 @@
+"""Mishaps: what happens to the pump's cell while it works, by somebody's hand or by chance.
+
+Each begins with a stage and lasts a stated time. What is taken away or lost lies from that moment on the tray under
+the floor, where nothing meets it: nobody simulates the hand that takes it. A push is a force; so is the hand that moves
+the base, a spring to a point that goes at a constant speed, and friction drags along what stands on the base.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.sleep import wake
+from handeye.cell.state import finite
+from handeye.faults import Fault, FaultKind, Size
+from handeye.pose import Array
+from handeye.record import Record
+from handeye.tasks.water_pump.part_faults import GONE, OVER
+from handeye.tasks.water_pump.scene.arm import ARM
+from handeye.units import INCH
+
+PUSH: Final = 2.0
+"""s for which somebody pushes the arm."""
+MOVE: Final = 1.0
+"""s in which somebody moves the base."""
+HAND: Final = (4000.0, 60.0, 150.0)
+"""N/m, N s/m and N: spring and damper of that somebody's hand, and its greatest force. Measured: it moves the base by 2
+mm less than it means to."""
+LIFTED: Final = 0.02
+"""m: a part that has come up by so much is held by the hand, and not by what it stood in."""
+UPON: Final = 0.15
+"""m from the middle of the base, along the table: what is there, and higher than the table, stands on it."""
+_STACK: Final = ("gasket", "top", "pin0", "pin1")
+
+
+class MishapState(Record, frozen=True, kw_only=True):
+    """State of a mishap."""
+
+    seconds: float | None = None
+    """Since it began; None: it has not."""
+    place: tuple[float, float, float] | None = None
+    """m: where its part was then, if it is one that happens to a part."""
+    over: bool = False
+    """It has happened."""
+
+
+class MishapsState(Record, frozen=True, kw_only=True):
+    """States of all mishaps, in their order."""
+
+    mishaps: tuple[MishapState, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A scene that things happen to."""
+
+    model: mujoco.MjModel
+    data: mujoco.MjData
+
+    def dofs(self, part: str) -> slice:
+        """Where the speeds of a free part are in the simulator's."""
+        start = int(self.model.body_dofadr[self.model.body(part).id])
+        return slice(start, start + 6)
+
+    def place(self, part: str) -> Array:
+        """Where a free part is, m; the array is the simulator's own."""
+        start = int(self.model.jnt_qposadr[self.model.body_jntadr[self.model.body(part).id]])
+        return np.asarray(self.data.qpos[start : start + 3])
+
+    def shift(self, part: str, way: Array) -> None:
+        """Put a free part elsewhere, at rest."""
+        self.place(part)[:] += way
+        self.data.qvel[self.dofs(part)] = 0.0
+        wake(self.data, self.dofs(part).start)
+
+    def to_tray(self, part: str) -> Array:
+        """The way of a part to its place on the tray, m, shape (3,)."""
+        (x, y), tray = GONE[part], self.model.geom("tray").id
+        return np.array([x, y, self.data.geom_xpos[tray][2] + OVER]) - self.place(part)
+
+
+class Mishap(ABC):
+    """Something that happens once."""
+
+    __slots__ = ()
+
+    @property
+    def watched(self) -> str | None:
+        """The part whose place it must know, as it was when it began."""
+        return None
+
+    @abstractmethod
+    def act(self, scene: Scene, state: MishapState) -> bool:
+        """Do what is due in the next moment; True when it is over."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pushed(Mishap):
+    """Somebody pushes the hand of the arm."""
+
+    force: tuple[float, float, float]
+    """N, along the axes of the table."""
+
+    def act(self, scene: Scene, state: MishapState) -> bool:
+        over = (state.seconds or 0.0) >= PUSH
+        body = scene.model.body(f"{ARM}link6").id
+        scene.data.xfrc_applied[body, :3] = (0.0, 0.0, 0.0) if over else self.force
+        return over
+
+
+@dataclass(frozen=True, slots=True)
+class Moved(Mishap):
+    """Somebody moves the base along the table."""
+
+    way: tuple[float, float]
+    """m"""
+
+    @property
+    def watched(self) -> str:
+        return "base"
+
+    def act(self, scene: Scene, state: MishapState) -> bool:
+        assert state.place is not None
+        seconds, (spring, damper, most) = state.seconds or 0.0, HAND
+        goal = np.add(state.place[:2], np.multiply(self.way, seconds / MOVE))
+        away = goal - scene.place("base")[:2]
+        late = np.divide(self.way, MOVE) - scene.data.qvel[scene.dofs("base")][:2]
+        force = spring * away + damper * late
+        force *= min(1.0, most / max(float(np.hypot(*force)), 1e-9))
+        over = seconds >= MOVE
+        scene.data.xfrc_applied[scene.model.body("base").id, :2] = 0.0 if over else force
+        return over
+
+
+@dataclass(frozen=True, slots=True)
+class TakenAway(Mishap):
+    """Somebody takes the base away, and all that stands on it."""
+
+    def act(self, scene: Scene, state: MishapState) -> bool:
+        way, middle = scene.to_tray("base"), scene.place("base").copy()
+        for part in ("base", *_STACK):
+            aside, high = scene.place(part)[:2] - middle[:2], scene.place(part)[2] - middle[2]
+            if np.hypot(*aside) < UPON and high >= 0:
+                scene.shift(part, way)
+        return True
+
+
+@dataclass(frozen=True, slots=True)
+class Dropped(Mishap):
+    """A part is lost from the hand as soon as it has been lifted."""
+
+    part: str
+
+    @property
+    def watched(self) -> str:
+        return self.part
+
+    def act(self, scene: Scene, state: MishapState) -> bool:
+        assert state.place is not None
+        if scene.place(self.part)[2] < state.place[2] + LIFTED:
+            return False
+        scene.shift(self.part, scene.to_tray(self.part))
+        return True
+
+
+@dataclass(frozen=True, slots=True)
+class LightOut(Mishap):
+    """The lamp of the cell goes out; what light the room has stays."""
+
+    def act(self, scene: Scene, state: MishapState) -> bool:
+        scene.model.light_diffuse[:] = 0.0
+        return True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MishapFault:
+    """A fault by which something happens."""
+
+    kind: FaultKind
+    make: Callable[[float], Mishap]
+    """What happens, by its value."""
+
+
+@cache
+def mishap_faults() -> tuple[MishapFault, ...]:
+    """All of them, in the order they are listed."""
+    return (*_light(), *_pushes(), *_base(), *_losses())
+
+
+def _fault(
+    name: str,
+    meaning: str,
+    make: Callable[[float], Mishap],
+    stage: int | None = None,
+    size: Size | None = None,
+) -> MishapFault:
+    kind = FaultKind(name=name, meaning=meaning, size=size, usual_stage=stage)
+    return MishapFault(kind=kind, make=make)
+
+
+def _light() -> Iterator[MishapFault]:
+    meaning = "The lamp of the cell goes out; what light the room has stays."
+    yield _fault("light.off", meaning, lambda _: LightOut(), stage=6)
+
+
+def _pushes() -> Iterator[MishapFault]:
+    size = Size(unit="N", usual=40.0, limits=(-300.0, 300.0))
+    pushes: dict[str, Callable[[float], Mishap]] = {
+        "x": lambda force: Pushed((force, 0.0, 0.0)),
+        "y": lambda force: Pushed((0.0, force, 0.0)),
+        "z": lambda force: Pushed((0.0, 0.0, force)),
+    }
+    for axis, push in pushes.items():
+        meaning = f"Somebody pushes the hand along table {axis} for {PUSH:g} s."
+        yield _fault(f"arm.pushed.{axis}", meaning, push, stage=3, size=size)
+
+
+def _base() -> Iterator[MishapFault]:
+    size = Size(unit="in", usual=1.0, limits=(-6.0, 6.0))
+    moves: dict[str, Callable[[float], Mishap]] = {
+        "x": lambda way: Moved((way, 0.0)),
+        "y": lambda way: Moved((0.0, way)),
+    }
+    for axis, move in moves.items():
+        meaning = f"Somebody moves the base along table {axis} within {MOVE:g} s, with what stands on it."
+        yield _fault(f"base.moved.{axis}", meaning, move, stage=2, size=size)
+    meaning = "Somebody takes the base away, and all that stands on it."
+    yield _fault("base.removed", meaning, lambda _: TakenAway(), stage=4)
+
+
+def _losses() -> Iterator[MishapFault]:
+    parts = {"pin.1": ("pin0", "aligning pin 1"), "pin.2": ("pin1", "aligning pin 2")}
+    for name, (part, told) in {
+        **parts,
+        "gasket": ("gasket", "the gasket"),
+        "top": ("top", "the top"),
+    }.items():
+        meaning = f"The hand loses {told} as soon as it has lifted it by {LIFTED / INCH:.1f} in."
+        yield _fault(f"{name}.dropped", meaning, _dropping(part))
+
+
+def _dropping(part: str) -> Callable[[float], Mishap]:
+    return lambda _: Dropped(part)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Due:
+    """A mishap and when it is due."""
+
+    mishap: Mishap
+    stage: int | None
+    """Number of the stage with which it begins, from 1; None: with the cell."""
+
+
+def due(faults: Sequence[Fault]) -> tuple[Due, ...]:
+    """What happens by faults; other faults let nothing happen."""
+    known = {fault.kind.name: fault.make for fault in mishap_faults()}
+    return tuple(
+        Due(mishap=known[fault.name](fault.value or 0.0), stage=fault.stage)
+        for fault in faults
+        if fault.name in known
+    )
+
+
+class Mishaps(Mechanism[MishapsState]):
+    """Whatever happens to a cell while it works."""
+
+    name = "mishaps"
+    kind = MishapsState
+    changes = ("light_diffuse",)
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, faults: Sequence[Fault]) -> None:
+        self._scene, self.due = Scene(model, data), due(faults)
+        self._states = [MishapState() for _ in self.due]
+        self._begin(lambda stage: stage is None)
+
+    def begin_stage(self, number: int) -> None:
+        self._begin(lambda stage: stage is not None and stage <= number)
+
+    def _begin(self, now: Callable[[int | None], bool]) -> None:
+        for place, (due, state) in enumerate(zip(self.due, self._states, strict=True)):
+            if state.seconds is None and now(due.stage):
+                self._states[place] = MishapState(seconds=0.0, place=self._place(due.mishap.watched))
+
+    def _place(self, part: str | None) -> tuple[float, float, float] | None:
+        if part is None:
+            return None
+        x, y, z = self._scene.place(part).tolist()
+        return x, y, z
+
+    def before(self, seconds: float) -> None:
+        for place, (due, state) in enumerate(zip(self.due, self._states, strict=True)):
+            if state.seconds is not None and not state.over:
+                over = due.mishap.act(self._scene, state)
+                self._states[place] = MishapState(
+                    seconds=state.seconds + seconds, place=state.place, over=over
+                )
+
+    def state(self) -> MishapsState:
+        return MishapsState(mishaps=tuple(self._states))
+
+    def check(self, state: MishapsState) -> None:
+        if len(state.mishaps) != len(self.due):
+            raise ValueError("other things happen in it")
+        for due, own in zip(self.due, state.mishaps, strict=True):
+            finite(own.place or (), "what happens in it")
+            if not 0 <= (own.seconds or 0.0) < np.inf:
+                raise ValueError("something happened in it when it cannot have")
+            if (own.seconds is None or due.mishap.watched is None) != (own.place is None):
+                raise ValueError("something happened in it to another part")
+
+    def restore(self, state: MishapsState) -> None:
+        self._states = list(state.mishaps)
