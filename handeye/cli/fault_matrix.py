@@ -42,7 +42,7 @@ def faults(
         str | None, Parameter(help="Let what can set in while the cell works set in with this stage.")
     ] = None,
     world: WorldOptions = ANY_WORLD,
-    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
+    workers: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
     camera: Camera = "auto",
     json: Json = False,
     out: Annotated[Path | None, Parameter(help="File for the outcomes, one JSON object a line.")] = None,
@@ -67,11 +67,11 @@ def faults(
     if listed:
         return _list(catalogue, json=json)
     kinds = chosen(catalogue, tuple(catalogue.kinds) if every else only or ())
-    if jobs < 1:
-        raise InvalidInput(f"at least one process is needed; {jobs} is too few")
+    if workers < 1:
+        raise InvalidInput(f"at least one worker is needed; {workers} is too few")
     plan = compiled(default_script())
     number = None if stage is None else stage_of(plan.program)(stage)
-    return _tried(plan, spec, kinds, number, jobs=jobs, camera=camera, json=json, out=out)
+    return _tried(plan, spec, kinds, number, workers=workers, camera=camera, json=json, out=out)
 
 
 def _list(catalogue: "Catalogue", *, json: bool) -> int:
@@ -90,7 +90,7 @@ def _tried(
     kinds: "list[FaultKind]",
     stage: int | None,
     *,
-    jobs: int,
+    workers: int,
     camera: str,
     json: bool,
     out: Path | None,
@@ -99,11 +99,11 @@ def _tried(
     from handeye.trials.faults import counted_outcomes, matrix_of, try_faults
 
     tally = Tally(len(kinds), "faults")
-    note(f"{len(kinds)} runs, {jobs} at a time")
+    note(f"{len(kinds)} runs, {workers} at a time")
     with kept(out, OUTCOMES, by="name") as tried:
         try:
             with tally:
-                for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, jobs=jobs):
+                for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, workers=workers):
                     tried.append(trial)
                     if not json:
                         with tally.aside():

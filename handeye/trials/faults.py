@@ -85,7 +85,7 @@ def chosen(catalogue: Catalogue, names: Sequence[str]) -> list[FaultKind]:
 
 
 def try_faults(
-    plan: Plan, world: WorldSpec, kinds: Sequence[FaultKind], *, stage: int | None, camera: str, jobs: int
+    plan: Plan, world: WorldSpec, kinds: Sequence[FaultKind], *, stage: int | None, camera: str, workers: int
 ) -> Iterator[FaultTrial]:
     """Carry a plan out once with each fault at its usual size, in the order that runs end.
 
@@ -95,7 +95,7 @@ def try_faults(
     """
     given = [kind.usual(None if kind.from_start else stage) for kind in kinds]
     worlds = [msgspec.structs.replace(world, faults=(fault,)) for fault in given]
-    yield from in_processes(partial(_tried, plan, camera), worlds, jobs)
+    yield from in_processes(partial(_tried, plan, camera), worlds, workers)
 
 
 def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
