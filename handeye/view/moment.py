@@ -61,7 +61,7 @@ class Newest(Observer):
 
     def event(self, event: AnyEvent) -> None:
         if isinstance(event, NEWS):
-            self.television = television(self._runner)
+            self._look()
 
     def tick(self, period: ServoPeriod) -> None:
         sensed = period.sensed
@@ -70,7 +70,13 @@ class Newest(Observer):
 
     def undone(self, events: int) -> None:
         self.moment = self._now(None)
-        self.television = television(self._runner)
+        self._look()
+
+    def _look(self) -> None:
+        """See what the television shows; where that is as before, it stays the same value, which is sent once."""
+        seen = television(self._runner)
+        if seen.shows != self.television.shows:
+            self.television = seen
 
     def _now(self, force: Array | None) -> Moment:
         poses = self.frames.poses()

@@ -26,6 +26,11 @@ class Television:
     picture: SeenPicture | None = None
     """The picture that the program took or examined last, timed by the cell's clock; None: it has taken none."""
 
+    @property
+    def shows(self) -> tuple[float, str, Sequence[Finding]] | None:
+        """What tells it from others: the picture and what was found in it."""
+        return None if self.picture is None else (self.picture.time, self.picture.name, self.picture.findings)
+
     @cached_property
     def message(self) -> str:
         """The same for pages: markup, none where there is no picture."""

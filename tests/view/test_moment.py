@@ -5,11 +5,16 @@ import pytest
 from short_runs import begin
 from toy_system import begin_toy
 
+from handeye.events import ErrorRaised
+from handeye.execution.servo_period import ServoPeriod
+from handeye.ports.workcell import Sensed
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
+from handeye.see.facts.seen import SeenPicture
 from handeye.trace.frames import Frames
 from handeye.view.moment import FIGURES, Moment, Newest
+from handeye.view.television import Television
 
 pytestmark = pytest.mark.slow
 FEEL = """\
@@ -85,3 +90,37 @@ def test_a_moment_is_sent_as_32_bit_numbers() -> None:
 def test_a_system_without_a_cell_has_moments_too() -> None:
     newest = Newest(Runner(begin_toy()))
     assert newest.moment.poses.shape == (0, 7)
+
+
+def test_what_is_copied_is_neither_changed_nor_kept() -> None:
+    newest, q, wrench = Newest(Runner(begin_toy())), np.ones(6), np.full(6, 2.0)
+    sensed = Sensed(
+        time=1.0, q=q, qd=np.zeros(6), gap=0.0, touch=(False, False), tool_torque=0.0, braked=False
+    )
+    for array in (q, wrench):
+        array.setflags(write=False)
+    newest.tick(ServoPeriod(sensed=sensed, effort=np.zeros(6), wrench=wrench))
+    for array in (q, wrench):
+        array.setflags(write=True)
+        array += 1
+    assert newest.moment.joints.tolist() == [1] * 6
+    assert newest.moment.force is not None
+    assert newest.moment.force.tolist() == [2] * 3
+
+
+def test_an_error_that_is_none_of_the_eye_sends_no_picture_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    pictures = [Television(picture()), Television(picture()), Television(picture("LATER"))]
+    monkeypatch.setattr("handeye.view.moment.television", lambda _: pictures.pop(0))
+    newest = Newest(Runner(begin_toy()))
+    before = newest.television
+    newest.event(ErrorRaised(time=2.0, number=23, cause=None))
+    assert newest.television is before
+    newest.undone(0)
+    assert newest.television.picture is not None
+    assert newest.television.picture.name == "LATER"
+
+
+def picture(name: str = "NEAR") -> SeenPicture:
+    """A picture in which nothing was found."""
+    points = np.zeros((3, 4), dtype=np.uint8)
+    return SeenPicture(time=1.0, name=name, lens=0.05, picture=points, marks=(), findings=())

@@ -6,7 +6,7 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
-from short_runs import begin
+from short_runs import begin, traced
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
@@ -74,8 +74,8 @@ def watch(server: Server, seen: list[int], number: int) -> None:
 
 
 def test_the_trace_of_a_watched_run_is_the_same_to_the_byte(tmp_path: Path) -> None:
-    unwatched, _ = recorded(tmp_path / "alone", ["continue"], 0)
+    traced(begin(FEEL), tmp_path / "alone")  # no server, and no observer that copies for one
     steered = ["pace 100x", "step", "show", "back", "step 2", "break 5", "continue", "continue"]
     watched, seen = recorded(tmp_path / "watched", steered, 20)
-    assert watched == unwatched
+    assert watched == (tmp_path / "alone" / TRACE).read_bytes()
     assert min(seen) > 0
