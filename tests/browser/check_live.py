@@ -189,7 +189,7 @@ def test_positions_are_taught_from_a_page(browser: Browser, tmp_path: Path) -> N
 
 def test_a_run_that_was_carried_out_plays(browser: Browser, tmp_path: Path) -> None:
     with served(tmp_path, str(resources.demo())) as address:
-        page = opened(browser, address, ready="document.getElementById('view').player !== undefined")
+        page = opened(browser, address, ready="document.getElementById('view')?.player")
         press(page, "Play")
         page.wait("document.getElementById('view').player.time > 20")
         assert page.evaluate("Number(document.getElementById('time').value)") > 20
