@@ -58,6 +58,7 @@ CHEAP = {
     "export mjcf": "export mjcf ✓ -o ✓",
     "export glb": "export glb ✓ -o ✓.jpg",
     "trials assembly": "trials assembly --seeds ✓",
+    "trials compare": "trials compare ✓ ✓",
     "trials base": "trials base ✓",
     "trials gasket": "trials gasket 1 --set ✓",
     "trials breaking": "trials breaking ✓",
@@ -69,6 +70,7 @@ CHEAP = {
     "bench ik": "bench ik --times 0",
     "bench speed": "bench speed --worlds 0",
     "bench growth": "bench growth --most 0",
+    "bench insertion": "bench insertion ✓",
 }
 """A line for each command that costs next to nothing: what would build a cell says only what is wrong with the line."""
 ENCODINGS = ["utf-8", "cp1252", "latin-1", "ascii"]

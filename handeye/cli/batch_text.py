@@ -1,17 +1,35 @@
-"""The figures of a batch as lines for a terminal."""
+"""The figures of a batch for a terminal."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
 if TYPE_CHECKING:
+    from handeye.trials.batch.comparing import Paired
     from handeye.trials.batch.figures import Failure, Figures
+    from handeye.trials.batch.rates import Rate
 
 
-def lines(found: "Figures") -> Iterator[str]:
-    """All that is told of a batch, its failures with the commands that carry them out again."""
+def page(found: "Figures") -> RenderableType:
+    """All that is told of a batch."""
+    parts = [
+        table
+        for table in (_operations(found), _stages(found), _searches(found), _margins(found))
+        if table.rows
+    ]
+    spaced = [part for table in parts for part in (table, Text())]
+    return Group(*spaced, *(Text(line) for line in failures(found)), Text(verdict(found)))
+
+
+def failures(found: "Figures") -> Iterator[str]:
+    """The failures, each with the command that carries it out again, and their causes counted."""
     for failure in found.failures:
         yield from _failure(failure)
-    yield verdict(found)
+    for cause in found.causes:
+        yield f"{cause.count} of {found.n}: {_place(cause.stage)}: {cause.cause}"
 
 
 def verdict(found: "Figures") -> str:
@@ -27,13 +45,84 @@ def verdict(found: "Figures") -> str:
     return f"{text}\nassembled: {percent(*found.wilson95)} (Wilson, 95 %), at least {percent(found.p_s)} (exact, 95 %)"
 
 
+def comparison(first: str, found: "Iterable[Paired]") -> RenderableType:
+    """Batches beside the first one."""
+    counts = (
+        "pairs",
+        "assembled",
+        "first",
+        "only first",
+        "only this",
+        "p",
+        "noticed",
+        "silent",
+        "broken off",
+    )
+    table = _table((f"beside {first}",), *counts)
+    for each in found:
+        table.add_row(each.name, *map(str, (each.pairs, each.assembled, each.first_assembled, each.only_first,
+                      each.only_this)), f"{each.p:.2g}", *map(str, (each.told, each.silent, each.failed)))  # fmt: skip
+    return table
+
+
 def percent(*parts: float) -> str:
     """Parts of one as percentages: `88.6 to 99.1 %`."""
     return f"{' to '.join(f'{100 * part:.1f}' for part in parts)} %"
 
 
+def _operations(found: "Figures") -> Table:
+    table = _table(("contact operation",), "done", "Wilson, 95 %", "at least")
+    for name, rate in found.operations.items():
+        table.add_row(name, f"{rate.successes} of {rate.trials}", *_sure(rate))
+    return table
+
+
+def _sure(rate: "Rate") -> tuple[str, str]:
+    if rate.wilson95 is None or rate.p_s is None:
+        return "", ""
+    return percent(*rate.wilson95), percent(rate.p_s)
+
+
+def _stages(found: "Figures") -> Table:
+    table = _table(("stage",), "trials", "5 %", "median", "95 %")
+    for stage in found.stages:
+        seconds = (f"{value:.1f} s" for value in (stage.p5_s, stage.median_s, stage.p95_s))
+        table.add_row(stage.stage, str(stage.n), *seconds)
+    return table
+
+
+def _searches(found: "Figures") -> Table:
+    table = _table(("search around",), "searches", "found", "places: median", "95 %", "most")
+    for each in found.searches:
+        table.add_row(
+            each.at, str(each.n), str(each.found), f"{each.median:g}", f"{each.p95:.1f}", str(each.most)
+        )
+    return table
+
+
+def _margins(found: "Figures") -> Table:
+    table = _table(("margin to the limit of", "unit"), "median", "5 %", "worst", "seed", "deviations")
+    for each in found.margins:
+        deviations = "" if each.deviations is None else f"{each.deviations:.3g}"
+        figures = (f"{value:.3g}" for value in (each.median, each.p5, each.worst))
+        table.add_row(each.finding, each.unit, *figures, str(each.worst_seed), deviations)
+    return table
+
+
+def _table(words: tuple[str, ...], *figures: str) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in words:
+        table.add_column(title)
+    for title in figures:
+        table.add_column(title, justify="right", no_wrap=True)
+    return table
+
+
 def _failure(failure: "Failure") -> Iterator[str]:
-    stage = f"“{failure.stage}”" if failure.stage not in ("", "referee") else failure.stage
-    place = f"{stage}, line {failure.line}" if failure.line else stage
+    place = _place(failure.stage) + (f", line {failure.line}" if failure.line else "")
     yield f"trial {failure.trial}, seed {failure.seed}: {failure.verdict}, {place}: {failure.detail}"
     yield f"  {failure.command}"
+
+
+def _place(stage: str) -> str:
+    return f"“{stage}”" if stage not in ("", "referee") else stage or "no stage"

@@ -2,16 +2,17 @@
 
 import re
 import shlex
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, say
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.errors import InvalidInput
+from handeye.files import write_over
 from handeye.host_time import HostTimer
 from handeye.plain_text import counted
 from handeye.planfile.store import read_plan
@@ -19,6 +20,8 @@ from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     from handeye.program.senses import Sense
+    from handeye.trace.table_files import Format
+    from handeye.trials.batch.figures import Figures
     from handeye.trials.batch.folder import BatchFolder
     from handeye.trials.batch.row import Row
     from handeye.trials.batch.trial import Trial
@@ -63,12 +66,16 @@ def assembly_trials(
             "it was broken off."
         ),
     ] = None,
+    tables: Annotated[
+        Literal["csv", "parquet"] | None,
+        Parameter(help="With --out: the figures as tables, in the folder `tables` there."),
+    ] = None,
     json: Json = False,
 ) -> int:
     """Assemble in many worlds and count: how often, how sure that is, and what failed where.
 
     The figures are the same for any number of workers. A trial whose process is killed is tried once more; an
-    exception counts as a failure.
+    exception counts as a failure. With --out the figures are drawn on a page, too: figures.html in the folder.
 
     Exit code 0: no silent failure; 3: in some world the program said done and the referee disagreed; 2: bad input; 130:
     interrupted.
@@ -78,6 +85,8 @@ def assembly_trials(
     from handeye.trials.batch.figures import figures
     from handeye.trials.batch.trial import Trial
 
+    if tables and out is None:
+        raise InvalidInput("--tables needs --out, the folder that they are left in")
     timer = HostTimer()
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
@@ -97,14 +106,59 @@ def assembly_trials(
         )
         rows = carry_out(trial, jobs_of(world, numbers), processes(workers), folder=folder, told=tell)
     found = figures(rows, _command(world, plan, camera, senses), fresh=fresh, wall_s=timer.wall_s)
+    if out is not None:
+        _leave(out, rows, found, tables, _title(trial, world))
     if json:
         put_json(found)
     else:
-        from handeye.cli.batch_text import lines
+        from handeye.cli.batch_text import page
 
-        for line in lines(found):
-            say(line, whole=True)
+        screen.print(page(found), soft_wrap=True)
     return 3 if found.silent_failures else 0
+
+
+def _leave(out: Path, rows: "Sequence[Row]", found: "Figures", tables: "Format | None", title: str) -> None:
+    """Leave the page of a batch in its folder, and its tables."""
+    from handeye.trace.table_files import write_tables
+    from handeye.trials.batch.page import PAGE, batch_page
+    from handeye.trials.batch.tables import tables as tables_of
+
+    write_over(out / "figures.html", batch_page(title, rows, found), PAGE)
+    if tables is not None:
+        units = "Figures are in the unit of their column"
+        write_tables(out / "tables", tables_of(rows, found), tables, units)
+
+
+def _title(trial: "Trial", world: "WorldSpec") -> str:
+    lacking = f", without {', '.join(trial.without)}" if trial.without else ""
+    return f"{trial.plan.program.name} in worlds from {world} on{lacking}"
+
+
+def compare_trials(
+    first: Annotated[Path, Parameter(help="Folder of a batch.")],
+    /,
+    *others: Annotated[Path, Parameter(help="Folders of batches that are compared with it.")],
+    json: Json = False,
+) -> int:
+    """Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
+
+    Only seeds that both have count. `p` is of McNemar's exact test: how likely pairs that differ fall so unevenly if
+    neither batch is better.
+    """
+    from handeye.trials.batch.comparing import paired
+    from handeye.trials.batch.folder import read_batch
+
+    if not others:
+        raise InvalidInput("at least two batches are compared; name another folder")
+    names = [str(path) for path in (first, *others)]
+    found = paired(names, [read_batch(path) for path in (first, *others)])
+    if json:
+        put_json(found)
+    else:
+        from handeye.cli.batch_text import comparison
+
+        screen.print(comparison(names[0], found), soft_wrap=True)
+    return 0
 
 
 def _chosen(n: int | None, seed: int | None, seeds: str | None) -> range:

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.batches import assembly_trials
+from handeye.cli.batches import assembly_trials, compare_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
 from handeye.cli.world_options import (
     ANY_WORLD,
@@ -34,6 +34,7 @@ def register(app: App) -> None:
     """Add the commands to the command line."""
     trials = App(name="trials", help="Try in many worlds and count.")
     trials.command(assembly_trials, name="assembly")
+    trials.command(compare_trials, name="compare")
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")

@@ -98,6 +98,8 @@ class Task(ABC):
     photographs: tuple[str, ...] = ()
     """Cameras of the scene whose view of the end is kept for people."""
     period: Period | None = None
+    contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    """Positions at which the hand, or what it holds, meets something, by the name of the operation."""
     trials: Mapping[str, Trial[Any]] = MappingProxyType({})
     """Trials in many worlds without carrying out a program."""
 

@@ -1,7 +1,7 @@
 """The folder in which the tables of a trace are handed to other programs."""
 
 import csv
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Final, Literal, get_args
@@ -17,6 +17,7 @@ from handeye.trace.trace import Trace
 
 Format = Literal["csv", "parquet"]
 README: Final = "README.md"
+_SI: Final = "Figures are in SI units"
 _BEGINS: Final = "# Tables of a run of handeye\n"
 EXPORT: Final = FolderKind(
     name="tables of handeye",
@@ -38,11 +39,24 @@ def export_tables(
         InvalidInput: they cannot be written there, a package is missing, or the trace cannot be read.
     """
     check_folder(path, EXPORT, overwrite=overwrite)
-    written = _WRITERS[kind]
     made = tables(trace())
-    files = {f"{table.name}.{kind}": written(table) for table in made}
-    write_folder(path, {README: _readme(made, kind).encode(), **files})
+    write_tables(path, made, kind)
     return made
+
+
+def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _SI) -> None:
+    """Write tables to a folder, in the place of tables that are there, with a README that tells their columns.
+
+    Args:
+        units: a sentence on the units of figures.
+
+    Raises:
+        InvalidInput: they cannot be written there, or a package is missing.
+    """
+    check_folder(path, EXPORT, overwrite=True)
+    written = _WRITERS[kind]
+    files = {f"{table.name}.{kind}": written(table) for table in made}
+    write_folder(path, {README: _readme(made, kind, units).encode(), **files})
 
 
 def csv_bytes(table: Table) -> bytes:
@@ -86,11 +100,9 @@ def parquet_bytes(table: Table) -> bytes:
 _WRITERS: Final[Mapping[Format, Callable[[Table], bytes]]] = {"csv": csv_bytes, "parquet": parquet_bytes}
 
 
-def _readme(made: Iterable[Table], kind: Format) -> str:
+def _readme(made: Iterable[Table], kind: Format, units: str) -> str:
     """What the files hold, column by column."""
-    return "\n".join(
-        [_BEGINS, "Figures are in SI units; a cell without one is empty.", *_told(made, kind), ""]
-    )
+    return "\n".join([_BEGINS, f"{units}; a cell without a figure is empty.", *_told(made, kind), ""])
 
 
 def _told(made: Iterable[Table], kind: Format) -> Iterator[str]:

@@ -11,14 +11,24 @@ import pytest
 from results import result
 from short_runs import FEEL, plan_of
 
-from handeye.errors import InvalidInput
+from handeye.errors import SEARCH_EXHAUSTED, InvalidInput
+from handeye.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
+from handeye.program.taught import load_taught
 from handeye.report.result import Check
+from handeye.resources import plans
+from handeye.tasks import task
+from handeye.trace.table_files import csv_bytes
 from handeye.trials.batch.batch import carry_out, head_of, jobs_of
+from handeye.trials.batch.comparing import paired
+from handeye.trials.batch.contacts import Contact, SearchEnd, contacts, searches
+from handeye.trials.batch.distributions import margins
 from handeye.trials.batch.engines import processes
 from handeye.trials.batch.figures import figures
 from handeye.trials.batch.folder import BatchFolder, read_batch
+from handeye.trials.batch.page import batch_page
 from handeye.trials.batch.rates import mcnemar, rate
 from handeye.trials.batch.row import Row
+from handeye.trials.batch.tables import tables
 from handeye.trials.batch.trial import Job, Trial, row_of
 from handeye.trials.workers import Answer
 from handeye.variation import WorldSpec
@@ -188,3 +198,106 @@ def test_what_a_trial_leaves_can_be_read_by_other_programs(tmp_path: Path) -> No
     folder.close()
     head, first = map(json.loads, (tmp_path / "trials.jsonl").read_text().splitlines())
     assert (head["format"], head["world"]["seed"], first["result"]["assembled"]) == ("handeye batch", 5, True)
+
+
+# -- figures ------------------------------------------------------------------------------------------
+
+PROGRAM = plan_of("SEARCH .2\nL: MOVE T1\nAOJ L\nMOVE P1\nMOVE T2\nOPEN 1\n").program
+WHERE = {"pin": ("T1", "T2")}
+
+
+def happened(*what: str) -> list[AnyEvent]:
+    """Steps by their texts, tries and errors."""
+    numbers = {step.text: number for number, step in enumerate(PROGRAM.steps)}
+    made: list[AnyEvent] = []
+    for each in what:
+        if each.startswith("try"):
+            made.append(SearchAdvanced(time=0.0, count=int(each[3:]), offset=(0.0, 0.0)))
+        elif each == "error":
+            made.append(ErrorRaised(time=0.0, number=SEARCH_EXHAUSTED, cause=None))
+        else:
+            made.append(StepStarted(time=0.0, step=numbers[each], line=1, text=each))
+    return made
+
+
+def test_a_contact_operation_lasts_until_the_hand_goes_elsewhere() -> None:
+    events = happened("SEARCH .2", "MOVE T1", "AOJ L", "try1", "MOVE T1", "MOVE P1", "MOVE T2")
+    for completed in (True, False):
+        assert [*contacts(PROGRAM, events, WHERE, completed=completed)] == [
+            Contact(operation="pin", at="T1", done=True),
+            Contact(operation="pin", at="T2", done=completed),
+        ]
+
+
+def test_a_search_counts_its_places_and_ends_in_vain_at_the_last() -> None:
+    tried = happened("SEARCH .2", "MOVE T1", "AOJ L", "try1", "MOVE T1", "AOJ L", "try2", "MOVE T1")
+    assert [*searches(PROGRAM, tried)] == [SearchEnd(at="T1", places=3, found=True)]
+    assert [*searches(PROGRAM, [*tried, *happened("error")])] == [SearchEnd(at="T1", places=3, found=False)]
+    assert [*searches(PROGRAM, happened("SEARCH .2", "OPEN 1"))] == []
+
+
+def test_the_finding_with_the_least_margin_for_its_spread_is_the_next_to_fail() -> None:
+    def judged(seed: int, tilt: float, clamp: float) -> Row:
+        checks = {
+            "tilt": msgspec.structs.replace(FAR, ok=True, value=tilt, limit=3),
+            "clamp": msgspec.structs.replace(
+                FAR, ok=True, value=clamp, limit=40, relation="at least", unit="N"
+            ),
+        }
+        found = result(completed=True, assembled=True, checks=checks)
+        return Row(trial=seed, seed=seed, ended="ended", result=found)
+
+    tilt, clamp = margins([judged(1, 1.0, 80.0), judged(2, 2.0, 82.0)])
+    assert (tilt.finding, tilt.median, tilt.worst, tilt.worst_seed, tilt.deviations) == (
+        "tilt",
+        1.5,
+        1.0,
+        2,
+        3.0,
+    )
+    assert (clamp.finding, clamp.worst, clamp.worst_seed, clamp.deviations) == ("clamp", 40.0, 1, 41.0)
+
+
+def test_failures_are_counted_by_stage_and_cause() -> None:
+    rows = [
+        *carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine()),
+        row(Job(trial=1, world=WorldSpec(seed=99))),
+    ]
+    found = figures(rows, lambda each: f"again {each.seed}")
+    assert [(each.stage, each.count, each.command) for each in found.causes] == [
+        ("check the gasket", 2, "again 6"), ("referee", 1, "again 7"),
+    ]  # fmt: skip
+
+
+def test_batches_are_compared_over_the_seeds_that_both_have() -> None:
+    first = carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine())
+    other = [msgspec.structs.replace(each, result=STOPPED) for each in first[:3]]
+    head = head_of(TRIAL, WORLD)
+    (found,) = paired(["first", "other"], [(head, first), (head, tuple(other))])
+    assert (found.pairs, found.first_assembled, found.assembled, found.only_first, found.only_this, found.told) == (
+        3, 1, 0, 1, 0, 3,
+    )  # fmt: skip
+    with pytest.raises(
+        InvalidInput, match=r"^other has no seed in common with the first batch; they are compared "
+    ):
+        paired(["first", "other"], [(head, first[:1]), (head, first[1:])])
+
+
+def test_page_and_tables_have_all_figures_and_nothing_from_outside() -> None:
+    rows = carry_out(TRIAL, jobs_of(WORLD, range(4)), Engine())
+    found = figures(rows, lambda each: f"handeye assemble --seed {each.seed}")
+    page = batch_page("it", rows, found).decode()
+    assert ("2 of 4 assembled" in page, "handeye assemble --seed 7" in page, "://" in page) == (
+        True,
+        True,
+        False,
+    )
+    made = {table.name: table for table in tables(rows, found)}
+    assert [*made] == ["trials", "margins", "failures"]
+    assert made["failures"]["seed"].tolist() == [6, 7]
+    assert csv_bytes(made["trials"]).startswith(b"trial,seed,verdict,")
+
+
+def test_contact_operations_of_the_pump_happen_at_positions_that_are_taught() -> None:
+    taught = load_taught(plans() / "water_pump.toml").positions
+    assert {each for positions in task().contacts.values() for each in positions} <= {*taught}

@@ -34,6 +34,16 @@ PERIOD: Final = Period(
 """Bolles and Paul, STAN-CS-73-396."""
 
 
+CONTACTS: Final = {
+    "grasp": ("WEB",),
+    "pin": ("T1", "T2"),
+    "gasket": ("GON",),
+    "top": ("TOPON",),
+    "screw": ("H0", "H1", "H2", "H3", "H4", "H5"),
+    "rotor": ("CRANK",),
+}
+
+
 class WaterPump(Task):
     """Put gasket and top on the base of an automobile water pump, and screw them down."""
 
@@ -45,6 +55,7 @@ class WaterPump(Task):
     eye = Eye(drawing=DRAWING, looks=LOOKS)
     photographs = ("studio", "pump")
     period = PERIOD
+    contacts = CONTACTS
 
     def __init__(self) -> None:
         self.trials = {"base": BaseTrial(), "gasket": GasketTrial()}

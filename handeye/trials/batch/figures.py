@@ -4,7 +4,15 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 
 from handeye.record import Record
-from handeye.trials.batch.rates import rate
+from handeye.trials.batch.distributions import (
+    Margin,
+    SearchPlaces,
+    StageTime,
+    margins,
+    search_places,
+    stage_times,
+)
+from handeye.trials.batch.rates import Rate, rate
 from handeye.trials.batch.row import Row, Verdict
 
 
@@ -25,6 +33,16 @@ class Failure(Record, frozen=True, kw_only=True):
     """Carries it out again."""
 
 
+class Cause(Record, frozen=True, kw_only=True):
+    """Failures in the same stage for the same cause."""
+
+    stage: str
+    cause: str
+    count: int
+    command: str
+    """Carries the first of them out again."""
+
+
 class Figures(Record, frozen=True, kw_only=True):
     """What the trials of a batch come to. But for the host's seconds, equal batches have equal figures."""
 
@@ -43,6 +61,14 @@ class Figures(Record, frozen=True, kw_only=True):
     p_s: float | None
     """Lower bound of the same, 95 % one-sided, exact."""
     failures: tuple[Failure, ...]
+    causes: tuple[Cause, ...]
+    """Of the failures, the most frequent first."""
+    operations: dict[str, Rate]
+    """Success of each contact operation: the program went on behind it."""
+    stages: tuple[StageTime, ...]
+    searches: tuple[SearchPlaces, ...]
+    margins: tuple[Margin, ...]
+    """To the limits of the referee; the next to fail first."""
     cpu_s: float
     """Of all trials."""
     wall_s: float
@@ -63,6 +89,7 @@ def figures(
     counts = Counter(row.verdict for row in rows)
     sure = rate(counts["assembled"], len(rows))
     simulated = sum(_simulated_s(row) for row in fresh)
+    failures = tuple(_failure(row, command) for row in rows if row.verdict != "assembled")
     return Figures(
         n=len(rows),
         assembled=counts["assembled"],
@@ -72,7 +99,12 @@ def figures(
         killed=sum(row.killed for row in rows),
         wilson95=sure.wilson95,
         p_s=sure.p_s,
-        failures=tuple(_failure(row, command) for row in rows if row.verdict != "assembled"),
+        failures=failures,
+        causes=_causes(failures),
+        operations=_operations(rows),
+        stages=tuple(stage_times(rows)),
+        searches=tuple(search_places(rows)),
+        margins=margins(rows),
         cpu_s=round(sum(row.cpu_s for row in rows), 3),
         wall_s=round(wall_s, 3),
         real_time_factor=round(simulated / wall_s, 3) if fresh and wall_s > 0 else None,
@@ -81,6 +113,22 @@ def figures(
 
 def _simulated_s(row: Row) -> float:
     return 0.0 if row.result is None else row.result.timing.real_time_factor * row.result.timing.run_wall_s
+
+
+def _operations(rows: Sequence[Row]) -> dict[str, Rate]:
+    done: dict[str, list[bool]] = {}
+    for contact in (contact for row in rows for contact in row.contacts):
+        done.setdefault(contact.operation, []).append(contact.done)
+    return {name: rate(sum(each), len(each)) for name, each in done.items()}
+
+
+def _causes(failures: Sequence[Failure]) -> tuple[Cause, ...]:
+    counts = Counter((failure.stage, failure.cause) for failure in failures)
+    first = {(failure.stage, failure.cause): failure.command for failure in reversed(failures)}
+    return tuple(
+        Cause(stage=stage, cause=cause, count=count, command=first[stage, cause])
+        for (stage, cause), count in counts.most_common()
+    )
 
 
 def _failure(row: Row, command: Callable[[Row], str]) -> Failure:

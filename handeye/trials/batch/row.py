@@ -7,6 +7,7 @@ import msgspec
 from handeye.errors import ERRORS
 from handeye.record import Record
 from handeye.report.result import Result
+from handeye.trials.batch.contacts import Contact, SearchEnd
 
 Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit"]
 """How a trial ended: by its program; by an exception; because its process was killed; at a limit of simulated seconds,
@@ -35,6 +36,9 @@ class Row(Record, frozen=True, kw_only=True):
     """Of the script, where the program stopped."""
     events: str = ""
     """Sixteen hexadecimal digits that stand for everything that happened."""
+    contacts: tuple[Contact, ...] = ()
+    """Contact operations that were begun."""
+    searches: tuple[SearchEnd, ...] = ()
     killed: Annotated[int, msgspec.Meta(ge=0)] = 0
     """How often its process was killed."""
     wall_s: float = 0.0

@@ -15,7 +15,9 @@ from handeye.program.senses import Sense
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
+from handeye.runs.setup import plan_of
 from handeye.trials.assembly import Finished, run_plan
+from handeye.trials.batch.contacts import contacts, searches
 from handeye.trials.batch.row import Ended, Row
 from handeye.trials.workers import Answer
 from handeye.variation import WorldSpec
@@ -105,11 +107,14 @@ def events_digest(events: list[AnyEvent]) -> str:
 def _facts(done: Finished, watch: "_Watch") -> dict[str, object]:
     """What a row tells of a run that was not broken off by an exception."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
+    program, where = plan_of(done.runner.setup).program, done.runner.task.contacts
     return {
         "ended": watch.ended,
         "result": done.result,
         "line": None if done.result.completed or not steps else steps[-1].place,
         "events": events_digest(done.runner.events),
+        "contacts": tuple(contacts(program, done.runner.events, where, completed=done.result.completed)),
+        "searches": tuple(searches(program, done.runner.events)),
     }
 
 
