@@ -16,6 +16,16 @@ COMMAND = re.compile(r"(?:`|^\$ )handeye ([a-z]+)(?: ([a-z]+)\b)?", re.MULTILINE
 """A command behind a prompt or a backquote, with the word after it."""
 OPTION = re.compile(r"(?<![\w-])--[a-z][\w-]*")
 WITH_PYTEST = {"--update"}
+OF_CLUSTERS = {
+    "--host",
+    "--port",
+    "--nworkers",
+    "--nthreads",
+    "--scheduler-file",
+    "--ntasks",
+    "--cpus-per-task",
+}
+"""Those of `dask` and `srun`."""
 
 
 def options(commands: App) -> Iterator[str]:
@@ -46,7 +56,7 @@ def test_every_command_a_page_names_exists(page: Path) -> None:
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_every_option_a_page_names_exists(page: Path) -> None:
     named = set(OPTION.findall(page.read_text(encoding="utf-8")))
-    assert named - OPTIONS - WITH_PYTEST == set()
+    assert named - OPTIONS - WITH_PYTEST - OF_CLUSTERS == set()
 
 
 def test_the_readme_names_every_command() -> None:

@@ -21,6 +21,7 @@ from handeye.runs.scripts import default_script
 if TYPE_CHECKING:
     from handeye.program.senses import Sense
     from handeye.trace.table_files import Format
+    from handeye.trials.batch.engines import Engine
     from handeye.trials.batch.figures import Figures
     from handeye.trials.batch.folder import BatchFolder
     from handeye.trials.batch.row import Row
@@ -50,8 +51,13 @@ def assembly_trials(
     only: Annotated[WholeNumber | None, Parameter(help="Carry out trial K alone, from 0.")] = None,
     workers: Annotated[WholeNumber, Parameter(name=["--workers", "--jobs"], help="Trials at a time.")] = 2,
     engine: Annotated[
-        Literal["process"], Parameter(help="Where trials go: processes of this computer.")
+        Literal["process", "dask"],
+        Parameter(help="What carries trials out: processes of this computer, or workers of dask."),
     ] = "process",
+    scheduler: Annotated[
+        str | None,
+        Parameter(help="With --engine dask: address of a scheduler; by default, workers are begun here."),
+    ] = None,
     camera: Camera = "auto",
     simulated_limit: Annotated[
         float, Parameter(help="Seconds of the cell's clock after which a trial counts as failed.")
@@ -81,12 +87,13 @@ def assembly_trials(
     interrupted.
     """
     from handeye.trials.batch.batch import carry_out, jobs_of
-    from handeye.trials.batch.engines import processes
     from handeye.trials.batch.figures import figures
     from handeye.trials.batch.trial import Trial
 
     if tables and out is None:
         raise InvalidInput("--tables needs --out, the folder that they are left in")
+    if scheduler is not None and engine != "dask":
+        raise InvalidInput("--scheduler goes with --engine dask")
     timer = HostTimer()
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
@@ -104,7 +111,9 @@ def assembly_trials(
         tell = _progress(
             len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh
         )
-        rows = carry_out(trial, jobs_of(world, numbers), processes(workers), folder=folder, told=tell)
+        rows = carry_out(
+            trial, jobs_of(world, numbers), _engine(engine, workers, scheduler), folder=folder, told=tell
+        )
     found = figures(rows, _command(world, plan, camera, senses), fresh=fresh, wall_s=timer.wall_s)
     if out is not None:
         _leave(out, rows, found, tables, _title(trial, world))
@@ -115,6 +124,17 @@ def assembly_trials(
 
         screen.print(page(found), soft_wrap=True)
     return 3 if found.silent_failures else 0
+
+
+def _engine(name: str, workers: int, scheduler: str | None) -> "Engine":
+    """What carries trials out."""
+    from handeye.trials.batch.engines import processes
+
+    if name == "process":
+        return processes(workers)
+    from handeye.trials.batch.dask_engine import dask_workers
+
+    return dask_workers(workers, scheduler)
 
 
 def _leave(out: Path, rows: "Sequence[Row]", found: "Figures", tables: "Format | None", title: str) -> None:

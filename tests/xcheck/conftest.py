@@ -3,6 +3,7 @@
 from importlib.util import find_spec
 
 _TOOLS = {
+    "test_dask.py": ("distributed",),
     "test_rerun.py": ("rerun",),
     "test_toolbox.py": ("roboticstoolbox",),
     "test_parquet.py": ("pyarrow", "pandas", "duckdb"),

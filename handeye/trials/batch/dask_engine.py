@@ -1,0 +1,97 @@
+"""Trials on workers of dask: processes here, or of a cluster whose scheduler listens somewhere."""
+
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from typing import Any, Final
+
+from handeye.errors import InvalidInput
+from handeye.extras import MissingExtra
+from handeye.trials.batch.engines import Engine
+from handeye.trials.batch.row import Row
+from handeye.trials.batch.trial import Job, Trial
+from handeye.trials.workers import TRIES, Answer
+from handeye.versions import code_digest
+
+HOST: Final = "127.0.0.1"
+"""Workers here listen on this computer alone."""
+
+
+def dask_workers(count: int, scheduler: str | None) -> Engine:
+    """Workers of dask.
+
+    Args:
+        count: how many are begun here, where there is no scheduler.
+        scheduler: address of a scheduler whose workers are there already.
+    """
+    return lambda trial, jobs: _answers(trial, jobs, count, scheduler)
+
+
+def _answers(
+    trial: Trial, jobs: Sequence[Job], count: int, scheduler: str | None
+) -> Generator[Answer[Job, Row], None, None]:
+    """What comes of trials, in the order they end.
+
+    A trial whose worker is killed is begun once more by the scheduler, which does not tell.
+
+    Raises:
+        MissingExtra: dask is not installed.
+        InvalidInput: no scheduler answers, or a worker has another handeye.
+    """
+    try:
+        from distributed import KilledWorker, as_completed
+    except ImportError:
+        raise MissingExtra("trials assembly --engine dask", "distributed", "cluster") from None
+    if not jobs:
+        return
+    with _client(count, scheduler) as client:
+        there = client.scatter(trial, broadcast=True)  # once to each worker, and not with each trial
+        code = code_digest()
+        given = {client.submit(_tried, there, code, job, pure=False): job for job in jobs}
+        for done in as_completed([*given], loop=client.loop):
+            job = given.pop(done)
+            try:
+                yield Answer(item=job, value=done.result())
+            except KilledWorker:
+                yield Answer(item=job, killed=TRIES)
+            done.release()
+
+
+def _tried(trial: Trial, code: str, job: Job) -> Row:
+    """Carry out a trial on a worker.
+
+    Raises:
+        InvalidInput: the worker has another handeye than whoever asks.
+    """
+    if code_digest() != code:
+        raise InvalidInput("a worker has another handeye than this computer; install the same on all")
+    return trial(job)
+
+
+@contextmanager
+def _client(count: int, scheduler: str | None) -> Iterator[Any]:
+    from distributed import Client
+
+    with ExitStack() as closing:
+        address = closing.enter_context(_cluster(count)) if scheduler is None else scheduler
+        try:
+            client = Client(address, timeout="10s", set_as_default=False)
+        except (OSError, ValueError, TimeoutError):
+            raise InvalidInput(f"no scheduler of dask answers at {address}") from None
+        yield closing.enter_context(client)
+
+
+@contextmanager
+def _cluster(count: int) -> Iterator[str]:
+    """Workers here; the address of their scheduler."""
+    import dask
+    from distributed import LocalCluster
+
+    with dask.config.set({"distributed.scheduler.allowed-failures": TRIES - 1}):
+        cluster = LocalCluster(
+            n_workers=count, threads_per_worker=1, host=HOST, dashboard_address=None, silence_logs="CRITICAL"
+        )
+        try:
+            yield cluster.scheduler_address
+        finally:
+            with suppress(TimeoutError):  # all is done; a busy computer is slow to end processes
+                cluster.close()
