@@ -13,11 +13,12 @@ from handeye.files import Kind, check_place, write_over
 from handeye.variation import checked_seed
 
 if TYPE_CHECKING:
-    from handeye.trials.insertion import Condition
+    from handeye.trials.insertion import Condition, InsertionTrial
     from handeye.trials.insertion_figures import Bench
 
 GRID_N: Final = 10
 """Trials of each condition of the grid."""
+PROGRAMS: Final = {"gentle": "the bench's own program", "1973": "the search of the listing of 1973"}
 MOST_SD: Final = 5.0
 """mm: beyond it most holes would be beyond the search."""
 
@@ -65,11 +66,12 @@ def insertion(
     Peak force is the greatest between pin and plate in any physics step, by the simulator's truth; the program never
     knows it.
 
+    Ctrl-C ends it, and what has ended is told.
+
     Exit code 0: no silent failure; 3: in some trial the program said done, and the pin was not in its hole.
     """
     from handeye.trials.insertion import trials
     from handeye.trials.insertion_figures import Bench
-    from handeye.trials.insertion_page import page
 
     jobs = min(4, os.cpu_count() or 1) if workers is None else workers
     for count, what in ((n, "trial"), (jobs, "process")):
@@ -78,19 +80,28 @@ def insertion(
     if out is not None:
         check_place(out, _kind(out))
     conditions = _conditions(clearance, chamfer, sd, search)
-    found = []
-    with Tally(n * len(conditions), "insertions") as tally:
-        for trial in trials(conditions, n, seed=checked_seed(seed), workers=jobs):
-            found.append(trial)
-            tally.one_more()
-    bench = Bench.of(conditions, found)
+    found: list[InsertionTrial] = []
+    try:
+        with Tally(n * len(conditions), "insertions") as tally:
+            for trial in trials(conditions, n, seed=checked_seed(seed), workers=jobs):
+                found.append(trial)
+                tally.one_more()
+    finally:  # what has ended when it is broken off, too
+        if found:
+            tried = Bench.of(conditions, found)
+            _tell(tried, f"Worlds from {seed} on; {PROGRAMS[search]}.", json=json, out=out)
+    return 3 if any(trial.outcome == "silent" for trial in found) else 0
+
+
+def _tell(bench: "Bench", title: str, *, json: bool, out: Path | None) -> None:
+    from handeye.trials.insertion_page import page
+
     if out is not None:
-        _write(out, bench, f"{n} trials of each condition, worlds from {seed} on, search: {search}")
+        _write(out, bench, title)
     if json:
         put_json({"figures": list(bench.figures())})
     else:
         screen.print(page(bench))
-    return 3 if any(trial.outcome == "silent" for trial in found) else 0
 
 
 def _conditions(

@@ -136,27 +136,22 @@ def trials(conditions: Sequence[Condition], n: int, *, seed: int, workers: int) 
     """
     for condition in conditions:
         bench().variation(seed).check(WorldSpec(seed=seed, overrides=Overrides(set=condition.hole)))
-    shares = [
-        (seed + world, min(TRIALS_A_WORLD, n - world * TRIALS_A_WORLD))
-        for world in range(math.ceil(n / TRIALS_A_WORLD))
+    lasts = [
+        InsertionTrial(condition=index, seed=seed + world, number=min(TRIALS_A_WORLD, n - first) - 1)
+        for index in range(len(conditions))
+        for world, first in enumerate(range(0, n, TRIALS_A_WORLD))
     ]
     work = partial(trials_in_world, tuple(conditions))
-    found = map(work, shares) if workers == 1 or len(shares) == 1 else in_processes(work, shares, workers)
+    found = map(work, lasts) if workers == 1 or len(lasts) == 1 else in_processes(work, lasts, workers)
     for share in found:
         yield from share
 
 
-def trials_in_world(conditions: Sequence[Condition], share: tuple[int, int]) -> list[InsertionTrial]:
-    """Trials of each condition in one world: its seed, and how many."""
-    seed, count = share
-    starts = {
-        each.search: fetched(each.plan, seed) for each in {each.search: each for each in conditions}.values()
-    }
-    return [
-        tried(condition, starts[condition.search], InsertionTrial(condition=index, seed=seed, number=number))
-        for index, condition in enumerate(conditions)
-        for number in range(count)
-    ]
+def trials_in_world(conditions: Sequence[Condition], last: InsertionTrial) -> list[InsertionTrial]:
+    """The trials of a condition in a world, up to the last one."""
+    condition = conditions[last.condition]
+    begun = fetched(condition.plan, last.seed)
+    return [tried(condition, begun, replace(last, number=number)) for number in range(last.number + 1)]
 
 
 def fetched(plan: Plan, seed: int) -> Runner:

@@ -27,8 +27,9 @@ _TITLES: Final = (
     "clearance, mm", "chamfer, mm", "error sd, mm", "step, in", "seated", "Wilson 95 %", "told", "silent", "peak, N",
     "≤ 20 N", "felt, N", "contact to seated, s",
 )  # fmt: skip
+_HOLE: Final = "Clearance in diameter, chamfer, sigma of the hole's place along each axis: mm."
 _MEANING: Final = (
-    "peak: force between pin and plate, true at each physics step; felt: by the hand. "
+    "Peak: force between pin and plate, true at each physics step; felt: by the hand. "
     "Spreads: median / 95 % / most. Times are simulated, of the trials that were seated."
 )
 
@@ -37,13 +38,23 @@ _MEANING: Final = (
 
 
 def page(bench: Bench) -> RenderableType:
-    """A table with a line for each condition."""
-    shown = Table(box=None, pad_edge=False, header_style="bold")
-    for title in _TITLES:
-        shown.add_column(title, justify="right")
-    for figures in bench.figures():
-        shown.add_row(*_cells(figures))
-    return Group(shown, Text(), Text(_MEANING, style="dim"))
+    """Two tables with a line for each condition: how often it is seated; how hard, and how long. 80 columns suffice."""
+    figures = list(bench.figures())
+    often = _table(("step, in", "seated", "Wilson 95 %", "told", "silent"))
+    hard = _table(("peak, N", "≤ 20 N", "felt, N", "contact to seated, s"))
+    for each in figures:
+        clearance, chamfer, sd, step, seated, interval, told, silent, peak, gentle, _, seconds = _cells(each)
+        felt = "-" if each.felt_n is None else f"{each.felt_n.most:.1f}"
+        often.add_row(clearance, chamfer, sd, step, seated, interval, told, silent)
+        hard.add_row(clearance, chamfer, sd, peak, gentle, felt, seconds)
+    return Group(often, Text(), hard, Text(), Text(f"{_HOLE} {_MEANING} Felt: the most.", style="dim"))
+
+
+def _table(titles: tuple[str, ...]) -> Table:
+    table = Table(box=None, pad_edge=False, collapse_padding=True, header_style="bold")
+    for title in ("clearance", "chamfer", "sd", *titles):
+        table.add_column(title, justify="right", no_wrap=True)
+    return table
 
 
 def _cells(figures: Figures) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """The insertion bench: what is tried, what comes of it, and what is told of that."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -97,7 +98,7 @@ def test_a_program_that_says_done_with_the_pin_on_the_face_is_a_silent_failure(s
 
 
 def test_the_gentle_search_presses_less_than_half_as_hard_as_that_of_1973(exact: InsertionTrial) -> None:
-    (hard,) = trials_in_world((Condition(sd=0.0, search="1973"),), (FIRST.seed, 1))
+    (hard,) = trials_in_world([Condition(sd=0.0, search="1973")], FIRST)
     assert hard.outcome == "seated"
     assert hard.peak > 2 * exact.peak
 
@@ -220,6 +221,20 @@ def test_one_setting_is_tried_where_one_is_named(command: Command) -> None:
 def test_it_is_written_as_its_name_says(command: Command, name: str, begins: bytes) -> None:
     command("bench", "insertion", "--n", "4", "--sd", "1", "--out", name)
     assert Path(name).read_bytes().startswith(begins)
+
+
+def test_what_has_ended_is_told_when_it_is_broken_off(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken_off(*_: object, **__: object) -> Iterator[InsertionTrial]:
+        yield from many(3).trials
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(insertion, "trials", broken_off)
+    code, out, _ = command("bench", "insertion", "--sd", "1", "--out", "b.csv")
+    assert code == 130
+    assert "3 of 3" in out
+    assert len(Path("b.csv").read_text(encoding="utf-8").splitlines()) == 4
 
 
 @pytest.mark.parametrize(
