@@ -62,6 +62,7 @@ CHEAP = {
     "trials base": "trials base ✓",
     "trials gasket": "trials gasket 1 --set ✓",
     "trials breaking": "trials breaking ✓",
+    "trials chaos": "trials chaos --schedule ✓",
     "cache": "cache",
     "bench timing": "bench timing --set ✓",
     "bench overhead": "bench overhead --set ✓",

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from cyclopts import App, Parameter
 
 from handeye.cli.batches import assembly_trials, compare_trials
+from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
 from handeye.cli.world_options import (
     ANY_WORLD,
@@ -38,6 +39,7 @@ def register(app: App) -> None:
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")
+    trials.command(chaos_trials, name="chaos")
     app.command(trials)
 
 

@@ -24,6 +24,11 @@ def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Fi
     return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
 
 
+def findings_so_far(runner: Runner) -> Findings:
+    """What the task's referee finds of the work as it stands, which need not be done."""
+    return runner.task.judge(runner.cell.truth)
+
+
 def checked_findings(referee: str, findings: object) -> Findings:
     """Findings that a referee of somebody's own gave; the referee is told by its name.
 

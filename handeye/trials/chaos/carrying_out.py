@@ -1,0 +1,183 @@
+"""Carrying out a schedule: interrupted where it says so, taken up again from disk, and ended by its operator."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+from handeye.events import OperatorAnswered, OperatorCalled
+from handeye.execution.servo_period import ServoPeriod
+from handeye.files import write_whole
+from handeye.report.finishing import outcome
+from handeye.report.result import to_json
+from handeye.runs.advance import Pause, keep, paused_before
+from handeye.runs.folder import EVENTS, RESULT, open_again, open_new
+from handeye.runs.host_seconds import Meter
+from handeye.runs.observer import Observer
+from handeye.runs.operator import Operator, OperatorChoice, attend
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import StopCondition
+from handeye.trials.brakes import brakes_hold
+from handeye.trials.chaos.schedule import Answer, Break, Schedule
+
+POLL: Final = 0.01
+"""s between two looks at what a process has written."""
+LIMIT: Final = 300.0
+"""s after which a process is taken to hang."""
+
+
+class ReachedPosition(StopCondition, frozen=True, kw_only=True):
+    """Pause where so many steps are done."""
+
+    position: int
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.position >= self.position
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """An operator who answers one thing after the other, and aborts then."""
+
+    answers: Sequence[Answer]
+    before: int
+    """Answers that were given before the schedule began."""
+
+    def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
+        """How to go on; what is refused counts as abort."""
+        given = sum(isinstance(event, OperatorAnswered) for event in runner.events) - self.before
+        return "abort" if refused or given >= len(self.answers) else self.answers[given]
+
+
+class Button(Observer):
+    """A panic button that is hit behind so many servo periods; None: never."""
+
+    def __init__(self, after: int | None) -> None:
+        self._left = after
+
+    def down(self) -> bool:
+        return self._left is not None and self._left <= 0
+
+    def tick(self, period: ServoPeriod) -> None:
+        if self._left is not None:
+            self._left -= 1
+
+
+@dataclass(slots=True)
+class Carried:
+    """What carrying out a schedule came to."""
+
+    folder: Path
+    runner: Runner
+    pause: Pause
+    unbraked: list[str] = field(default_factory=list)
+    """Stops at which the brakes were not on."""
+    lost: list[str] = field(default_factory=list)
+    """What could not be read again from disk where the run was taken up, a sentence each."""
+
+
+class Carrying:
+    """A schedule under way, in a folder of its own."""
+
+    def __init__(self, schedule: Schedule, start: Checkpoint, folder: Path) -> None:
+        before = sum(isinstance(event, OperatorAnswered) for event in start.events)
+        self._operator: Operator = Answers(schedule.answers, before)
+        self._schedule, self._place = schedule, folder
+        self._start, self._folder = start, open_new(folder, start)
+        self._again = False
+        self._unbraked: list[str] = []
+        self._lost: list[str] = []
+
+    def carry_out(self, stops: Sequence[StopCondition], *, broken: bool) -> Carried:
+        """All of it, until one of the stops; without its interruptions if it is not to be broken."""
+        runner = pause = None
+        for interruption in self._schedule.breaks if broken else ():
+            runner, pause = self._interrupted(interruption, stops)
+            if pause is not None and pause.kind != "panic" and not self._waits(pause):
+                break
+            runner = pause = None
+            self._take_up()
+        if runner is None or pause is None:
+            runner = self._runner(Button(None))
+            pause = self._attended(runner, stops)
+        self._end(runner, pause)
+        return Carried(self._place, runner, pause, self._unbraked, self._lost)
+
+    def _end(self, runner: Runner, pause: Pause) -> None:
+        """Finish the run, unless it only pauses, and keep its result; photographs would cost more than the run."""
+        if pause.kind != "break":
+            runner.finish()
+        self._folder.close()
+        write_whole(self._place / RESULT, to_json(outcome(runner, pause, Meter(), judged=False)))
+
+    def _waits(self, pause: Pause) -> bool:
+        """The pause is that of an interruption, and not one at which the schedule ends."""
+        return isinstance(pause.met, Interruption)
+
+    def _interrupted(
+        self, interruption: Break, stops: Sequence[StopCondition]
+    ) -> tuple[Runner | None, Pause | None]:
+        """Go on until an interruption, or until the run pauses by itself before it."""
+        if interruption.kind == "kill":
+            self._folder.close()
+            kill_resumed(self._place, interruption.after)
+            return None, None
+        panic = interruption.after if interruption.kind == "panic" else None
+        runner = self._runner(Button(panic))
+        there = Interruption(position=runner.position + interruption.after)
+        pause = self._attended(runner, stops if panic is not None else [*stops, there])
+        if self._waits(pause):
+            if interruption.kind == "back":
+                runner.back_to(max(runner.first, runner.position - (interruption.after + 1) // 2))
+            keep(runner, runner.history[-1])
+            self._folder.close()
+        elif pause.kind == "panic":
+            self._folder.close()
+        return runner, pause
+
+    def _attended(self, runner: Runner, stops: Sequence[StopCondition]) -> Pause:
+        # `attend` does a step before a stop counts; a run interrupted at its end has none left. Any stop will do
+        pause = paused_before(runner, stops) or attend(runner, self._operator, stops)  # type: ignore[arg-type]
+        if pause.kind in ("operator", "panic", "trouble") and not brakes_hold(runner.cell):
+            self._unbraked.append(f"{pause.kind} at {runner.elapsed:.2f} s")
+        return pause
+
+    def _runner(self, button: Button) -> Runner:
+        def watch(runner: Runner) -> list[Observer]:
+            return [self._folder.watch(runner, self._start, again=self._again), button]
+
+        return Runner(self._start, halt=button.down, observers=watch)
+
+    def _take_up(self) -> None:
+        """Take the run up from what is on disk."""
+        self._folder, self._start, faults = open_again(self._place)
+        self._again = True
+        self._lost += faults
+
+
+class Interruption(ReachedPosition, frozen=True, kw_only=True):
+    """Pause for an interruption."""
+
+
+def kill_resumed(folder: Path, events: int) -> None:
+    """Resume a run in a process of its own, and kill that when it has written so many events; if it has not ended by
+    then."""
+    journal = folder / EVENTS
+    enough = _lines(journal) + events + 1  # and the one that tells that it was resumed
+    process = subprocess.Popen(  # noqa: S603 - our own program
+        [sys.executable, "-m", "handeye", "resume", str(folder), "--on-stop", "abort"],
+        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+    end = time.monotonic() + LIMIT
+    while process.poll() is None and _lines(journal) < enough and time.monotonic() < end:
+        time.sleep(POLL)
+    process.kill()
+    process.wait()
+
+
+def _lines(journal: Path) -> int:
+    return journal.read_bytes().count(b"\n") if journal.exists() else 0

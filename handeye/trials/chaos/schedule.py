@@ -1,0 +1,170 @@
+"""A schedule: where in a run it begins, what is broken, what interrupts the run, and what the operator answers.
+
+As text it is words `NAME=VALUE` with blanks between them; what is left out is none, or as small as it can be.
+"""
+
+import random
+import re
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Final, Literal, get_args
+
+import msgspec
+
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.fault_options import by_number, faults
+from handeye.faults import Catalogue, Fault, FaultKind
+from handeye.record import Record
+from handeye.variation import Level, checked_seed
+
+BreakKind = Literal["panic", "pause", "back", "kill"]
+"""Panic button, behind so many servo periods; a pause behind so many steps, from which the run is taken up again from
+disk; the same, and back by half of them; a process that is killed when it has written so many events."""
+Answer = Literal["retry", "skip", "proceed", "abort"]
+Count = Annotated[int, msgspec.Meta(ge=1, le=9999)]
+
+_NEAR: Final = (1, 400)
+"""Servo periods before the panic button is hit: up to seven seconds."""
+_FEW: Final = (1, 6)
+"""Steps, or events, before a run is interrupted otherwise."""
+_MOST: Final = 24
+"""Steps of a schedule that does not go on to the end of its stage."""
+
+
+class Break(Record, frozen=True, kw_only=True):
+    """An interruption."""
+
+    kind: BreakKind
+    after: Count
+    """Of what, see `BreakKind`, since the run went on."""
+
+    def __str__(self) -> str:
+        return f"{self.kind}:{self.after}"
+
+
+class Schedule(Record, frozen=True, kw_only=True):
+    """What is done to a run, and where."""
+
+    seed: int
+    level: Level = "nominal"
+    start: Annotated[int, msgspec.Meta(ge=0)]
+    """Steps of the sound run that are done when it begins."""
+    steps: Count | None = None
+    """It ends after so many at the latest; None: with the stage that it begins in."""
+    faults: tuple[str, ...] = ()
+    """As they would be typed."""
+    breaks: tuple[Break, ...] = ()
+    answers: tuple[Answer, ...] = ()
+    """Of the operator, one after the other; then abort."""
+
+    def __str__(self) -> str:
+        words = {
+            "seed": str(self.seed),
+            "level": "" if self.level == "nominal" else self.level,
+            "start": str(self.start),
+            "steps": "" if self.steps is None else str(self.steps),
+            "faults": ",".join(self.faults),
+            "breaks": ",".join(map(str, self.breaks)),
+            "answers": ",".join(self.answers),
+        }
+        return " ".join(f"{name}={value}" for name, value in words.items() if value)
+
+    def without(self) -> Iterator["Schedule"]:
+        """Schedules that lack one thing of this one."""
+        for name in ("faults", "breaks", "answers"):
+            things = getattr(self, name)
+            for number in range(len(things)):
+                yield msgspec.structs.replace(self, **{name: (*things[:number], *things[number + 1 :])})
+
+    def given(self, catalogue: Catalogue) -> tuple[Fault, ...]:
+        """Its faults.
+
+        Raises:
+            InvalidInput: one cannot be had, or not in mid-work.
+        """
+        found = faults(catalogue, self.faults, by_number)
+        for fault in found:
+            if fault.stage is None:
+                raise InvalidInput(f"the fault {quoted(fault.name)} sets in with no stage; write @STAGE")
+        return found
+
+
+def parse_schedule(text: str) -> Schedule:
+    """The schedule that a text tells.
+
+    Raises:
+        InvalidInput: it tells none.
+    """
+    words = dict(re.findall(r"(\w+)=(\S+)", text))
+    known = {*Schedule.__struct_fields__}
+    if (
+        " ".join(f"{name}={value}" for name, value in words.items()) != " ".join(text.split())
+        or {*words} - known
+    ):
+        raise InvalidInput(
+            f"{quoted(text)} is no schedule: write words such as seed=3 start=41 faults=lamp.dead@4"
+        )
+    lists = {name: tuple(words[name].split(",")) for name in ("faults", "answers") if name in words}
+    breaks = tuple(_break(word) for word in words.get("breaks", "").split(",") if word)
+    numbers = {name: int(words[name]) for name in ("seed", "start", "steps") if words.get(name, "").isdigit()}
+    try:
+        made = msgspec.convert({**words, **lists, **numbers, "breaks": breaks}, Schedule)
+    except msgspec.ValidationError as error:
+        raise InvalidInput(f"{quoted(text)} is no schedule: {error}") from None
+    checked_seed(made.seed)
+    return made
+
+
+def _break(word: str) -> dict[str, object]:
+    kind, _, after = word.partition(":")
+    if kind not in get_args(BreakKind) or not after.isdigit():
+        raise InvalidInput(
+            f"{quoted(word)} is no interruption: write {', '.join(get_args(BreakKind))} with :N behind it"
+        )
+    return {"kind": kind, "after": int(after)}
+
+
+def draw(
+    number: int, seed: int, worlds: Sequence[tuple[int, Level]], starts: Sequence[Sequence[int]], catalogue: Catalogue,
+    stage_of: Sequence[Sequence[int]],
+) -> Schedule:  # fmt: skip
+    """The schedule of a number among those of a seed.
+
+    Args:
+        worlds: seeds and levels to choose from.
+        starts: of each world the steps done where a schedule can begin.
+        stage_of: of each world the numbers of the stages that these begin in.
+    """
+    chance = random.Random(f"{seed} {number}")  # noqa: S311 - choices, not secrets
+    which = chance.randrange(len(worlds))
+    place = chance.randrange(len(starts[which]))
+    stage = stage_of[which][place]
+    kinds = [kind for kind in catalogue.kinds.values() if not kind.from_start]
+    broken = chance.sample(kinds, chance.choices((0, 1, 2), (2, 5, 3))[0])
+    return Schedule(
+        seed=worlds[which][0],
+        level=worlds[which][1],
+        start=starts[which][place],
+        steps=None if chance.random() < 0.4 else chance.randint(1, _MOST),
+        faults=tuple(sorted(catalogue.told(_fault(chance, kind, stage)) for kind in broken)),
+        breaks=tuple(_breaks(chance)),
+        answers=tuple(
+            chance.choices(get_args(Answer), (6, 2, 2, 1), k=chance.choices((0, 1, 2, 3), (3, 3, 2, 1))[0])
+        ),
+    )
+
+
+def _fault(chance: random.Random, kind: FaultKind, stage: int) -> Fault:
+    """A fault of a kind that sets in with a stage, at its usual size or at another."""
+    usual = kind.usual(stage)
+    if kind.size is None or chance.random() < 0.5:
+        return usual
+    low, high = (limit for limit in kind.limits)
+    value = float(f"{min(max(kind.size.usual * chance.uniform(-1.5, 1.5), low), high):.3g}")
+    return msgspec.structs.replace(usual, value=value * kind.measure.size)
+
+
+def _breaks(chance: random.Random) -> Iterator[Break]:
+    for _ in range(chance.choices((0, 1, 2), (2, 5, 3))[0]):
+        kind = chance.choices(get_args(BreakKind), (4, 3, 3, 1))[0]
+        yield Break(kind=kind, after=chance.randint(*(_NEAR if kind == "panic" else _FEW)))

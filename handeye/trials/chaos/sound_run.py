@@ -1,0 +1,108 @@
+"""Sound runs: one of each world, with checkpoints close to each other, from which schedules begin."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import msgspec
+
+from handeye.errors import InvalidInput
+from handeye.events import RunStarted
+from handeye.faults import Fault
+from handeye.files import write_whole
+from handeye.planfile.plan import Plan
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.systems import listing_of
+from handeye.tasks import task
+from handeye.variation import WorldSpec
+
+EVERY: Final = 3
+"""Steps from one checkpoint to the next."""
+_WHOLE: Final = "whole"
+"""A file that says that the run was carried out to its end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SoundRun:
+    """A run in which nothing is broken."""
+
+    world: WorldSpec
+    store: CheckpointStore
+    starts: tuple[int, ...]
+    """Steps done where a schedule can begin."""
+    stages: tuple[int, ...]
+    """Numbers, from 1, of the stages that these begin in."""
+
+    def at(self, position: int) -> Checkpoint:
+        """The state at or before so many steps done.
+
+        Raises:
+            InvalidInput: there is none.
+        """
+        found = self.store.at_or_before(position)
+        if found is None or found.snapshot is None:
+            raise InvalidInput(f"a schedule cannot begin with {position} steps done: there is no such state")
+        return found
+
+
+def sound_run(folder: Path, plan: Plan, world: WorldSpec, camera: str) -> SoundRun:
+    """The sound run of a world, carried out now unless the folder has it.
+
+    Raises:
+        InvalidInput: the folder holds something else, or cannot be written to.
+    """
+    store = CheckpointStore(folder / f"{world.seed}-{world.level}")
+    setup = Setup(plan=plan, world=world, camera=camera)
+    store.check(setup)
+    if not (store.folder / _WHOLE).exists():
+        store.folder.mkdir(parents=True, exist_ok=True)
+        _carry_out(store, setup)
+        write_whole(store.folder / _WHOLE, b"")
+    stages = listing_of(setup).stages
+    found = sorted((head.position, head.stage) for _, head in store.heads() if head.stage is not None)
+    begun = [(position, stages.index(stage) + 1) for position, stage in found if stage in stages]
+    return SoundRun(
+        world=world,
+        store=store,
+        starts=tuple(position for position, _ in begun),
+        stages=tuple(number for _, number in begun),
+    )
+
+
+def _carry_out(store: CheckpointStore, setup: Setup) -> None:
+    runner = Runner(Checkpoint(setup=setup))
+    while not runner.ended:
+        if runner.position % EVERY == 0 or runner.between_stages:
+            store.save(runner.checkpoint())
+        runner.step()
+
+
+def with_faults(start: Checkpoint, faults: Sequence[Fault]) -> Checkpoint:
+    """A state of a sound run as that of a run with faults which have not set in: until then both are the same.
+
+    Raises:
+        InvalidInput: the faults cannot be had.
+    """
+    if not faults:
+        return start
+    snapshot, world = start.snapshot, msgspec.structs.replace(start.setup.world, faults=tuple(faults))
+    assert snapshot is not None
+    assert snapshot.cell is not None
+    fresh = task(start.setup.task).cell(world, "ray").capture()
+    cell = msgspec.structs.replace(
+        snapshot.cell,
+        mechanisms={**fresh.mechanisms, **snapshot.cell.mechanisms},
+        figures={**fresh.figures, **snapshot.cell.figures},
+    )
+    return Checkpoint(
+        setup=msgspec.structs.replace(start.setup, world=world),
+        snapshot=msgspec.structs.replace(snapshot, cell=cell),
+        events=tuple(
+            msgspec.structs.replace(event, world=world) if isinstance(event, RunStarted) else event
+            for event in start.events
+        ),
+    )

@@ -1,0 +1,118 @@
+"""One schedule tried: carried out with its interruptions and without, and what of it is broken."""
+
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from handeye.events import OperatorAnswered, StageFinished
+from handeye.record import Record
+from handeye.report.judging import findings_so_far
+from handeye.runs.advance import advance
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import StopCondition
+from handeye.tasks import task
+from handeye.trials.chaos.carrying_out import Carried, Carrying, ReachedPosition
+from handeye.trials.chaos.invariants import after_resuming, in_trace, on_disk, wrong
+from handeye.trials.chaos.schedule import Schedule
+from handeye.trials.chaos.sound_run import SoundRun, with_faults
+
+
+class EndOfStage(StopCondition, frozen=True, kw_only=True):
+    """Pause between two stages, once more than so many steps are done."""
+
+    after: int
+
+    def met_before(self, runner: Runner) -> bool:
+        return runner.between_stages and runner.position > self.after
+
+
+class Tried(Record, frozen=True, kw_only=True):
+    """What a schedule came to."""
+
+    schedule: str
+    ended: str
+    """The kind of its last pause; `error`: it raised what nothing should."""
+    broken: tuple[str, ...]
+    """Invariants that did not hold, `NAME: what of it`; none if all is well."""
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Names of the invariants that did not hold."""
+        return frozenset(sentence.partition(":")[0] for sentence in self.broken)
+
+
+def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
+    """Carry a schedule out, and check what must hold.
+
+    Raises:
+        InvalidInput: it cannot be carried out: there is no such fault, or no such state to begin with.
+    """
+    catalogue = task().faults(schedule.seed)
+    start = with_faults(sound.at(schedule.start), schedule.given(catalogue))
+    ended, broken = "error", []
+    with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
+        try:
+            unbroken = _carried(schedule, start, Path(name) / "unbroken", broken=False)
+            ended = unbroken.pause.kind
+            broken += [*_sound(unbroken), *_named("silent", _silent(unbroken, start))]
+            if schedule.breaks:
+                carried = _carried(schedule, start, Path(name) / "broken", broken=True)
+                broken += [*_sound(carried), *_named("resume", after_resuming(carried, unbroken))]
+        except Exception as error:
+            broken.append(f"error: {type(error).__name__}: {error}")
+    return Tried(schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)))
+
+
+def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: bool) -> Carried:
+    stops: list[StopCondition] = [EndOfStage(after=start.position)]
+    if schedule.steps is not None:
+        stops.append(ReachedPosition(position=start.position + schedule.steps))
+    return Carrying(schedule, start, folder).carry_out(stops, broken=broken)
+
+
+def _named(name: str, sentences: Iterator[str]) -> Iterator[str]:
+    return (f"{name}: {sentence}" for sentence in sentences)
+
+
+def _sound(carried: Carried) -> Iterator[str]:
+    """What every run must keep to, stopped or not."""
+    yield from _named("brakes", iter(carried.unbraked))
+    yield from _named("trace", in_trace(carried))
+    yield from _named("disk", on_disk(carried))
+
+
+# -- silence ------------------------------------------------------------------------------------------
+
+
+def _silent(carried: Carried, start: Checkpoint) -> Iterator[str]:
+    """What is wrong with a pump that the program takes for right.
+
+    A stage that the program has done is judged by those findings that must hold from its end on. If one does not, the
+    program goes on, for a later check may notice that: it is silent only if it comes to its end with a wrong pump.
+    """
+    happened = carried.runner.events[len(start.events) :]
+    overruled = any(isinstance(event, OperatorAnswered) and event.choice != "retry" for event in happened)
+    done = [e.stage for e in happened if isinstance(e, StageFinished) and e.status == "done"]
+    if overruled or not done or not (carried.runner.between_stages or carried.pause.kind == "end"):
+        return
+    stages = len(carried.runner.stages)
+    number = carried.runner.stages.index(done[-1]) + 1
+    if carried.pause.kind == "end":
+        yield from wrong(findings_so_far(carried.runner), stages)
+    elif wrong(findings_so_far(carried.runner), number):
+        runner = Runner(carried.runner.checkpoint())
+        if advance(runner).kind == "end":
+            yield from wrong(findings_so_far(runner), stages)
+
+
+# -- shrinking ----------------------------------------------------------------------------------------
+
+
+def shrunk(failing: Tried, schedule: Schedule, fails: Callable[[Schedule], Tried]) -> tuple[Schedule, Tried]:
+    """The schedule without whatever it fails without, one thing after the other, and what it then comes to."""
+    for fewer in schedule.without():
+        tried = fails(fewer)
+        if tried.names & failing.names:
+            return shrunk(tried, fewer, fails)
+    return schedule, failing

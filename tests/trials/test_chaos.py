@@ -1,0 +1,175 @@
+"""Schedules of faults and interruptions are drawn, told, carried out and shrunk; what is planted is found."""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pytest
+from conftest import Command
+from short_runs import begin
+
+from handeye.errors import InvalidInput
+from handeye.execution.drive import ArmDrive
+from handeye.judge.finding import at_most
+from handeye.runs.programs import ProgramSystem
+from handeye.system_state import SystemState
+from handeye.tasks import task
+from handeye.trials.chaos import trial
+from handeye.trials.chaos.invariants import wrong
+from handeye.trials.chaos.schedule import Break, Schedule, draw, parse_schedule
+from handeye.trials.chaos.sound_run import SoundRun, sound_run
+from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
+from handeye.variation import WorldSpec
+
+SCHEDULE = Schedule(
+    seed=3,
+    level="high",
+    start=6,
+    steps=4,
+    faults=("gap_potentiometer.stuck@2", "lamp.dead@2"),
+    breaks=(Break(kind="panic", after=40), Break(kind="back", after=2)),
+    answers=("retry", "skip"),
+)
+
+
+def test_a_schedule_is_told_and_understood() -> None:
+    told = (
+        "seed=3 level=high start=6 steps=4 faults=gap_potentiometer.stuck@2,lamp.dead@2 breaks=panic:40,back:2 "
+        "answers=retry,skip"
+    )
+    assert str(SCHEDULE) == told
+    assert parse_schedule(told) == SCHEDULE
+    assert parse_schedule("seed=3 start=0") == Schedule(seed=3, start=0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "✓", "seed=3", "seed=3 start=x", "seed=3 start=1 end=2", "seed=3 start=1 breaks=kill", "seed=3 start=1 seed=4",
+     "seed=3 start=1 answers=perhaps", "seed=3 start=1 level=huge"],
+)  # fmt: skip
+def test_what_is_no_schedule_is_bad_input(command: Command, text: str) -> None:
+    code, out, err = command("trials", "chaos", "--schedule", text)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+
+
+def test_a_fault_that_cannot_set_in_while_the_arm_works_is_refused() -> None:
+    for name in ("gasket.missing@5", "lamp.dead"):
+        with pytest.raises(InvalidInput):
+            Schedule(seed=3, start=0, faults=(name,)).given(task().faults(3))
+
+
+def test_schedules_are_drawn_from_a_seed_and_can_be_told() -> None:
+    worlds, kinds = [(3, "nominal"), (4, "low")], task().faults(3)
+    again = [
+        [draw(n, seed, worlds, [(0, 9), (5,)], kinds, [(1, 2), (4,)]) for n in range(60)]
+        for seed in (1, 1, 2)
+    ]  # fmt: skip
+    assert again[0] == again[1] != again[2]
+    for schedule in again[0]:
+        assert parse_schedule(str(schedule)) == schedule
+        schedule.given(task().faults(3))
+    assert {each.kind for schedule in again[0] for each in schedule.breaks} == {
+        "panic",
+        "pause",
+        "back",
+        "kill",
+    }
+
+
+def test_a_schedule_is_shrunk_to_what_it_fails_by() -> None:
+    def fails(schedule: Schedule) -> Tried:
+        guilty = "lamp.dead@2" in schedule.faults and any(each.kind == "back" for each in schedule.breaks)
+        return Tried(schedule=str(schedule), ended="break", broken=("resume: it differs",) if guilty else ())
+
+    least, tried = shrunk(fails(SCHEDULE), SCHEDULE, fails)
+    assert (
+        str(least) == tried.schedule == "seed=3 level=high start=6 steps=4 faults=lamp.dead@2 breaks=back:2"
+    )
+
+
+def test_a_finding_counts_from_the_stage_on_that_it_must_hold_from() -> None:
+    findings = {name: at_most(2.0, 1.0, "mm", "") for name in ("base_yaw", "gasket_height", "rack")}
+    told = [[sentence.partition(":")[0] for sentence in wrong(findings, stage)] for stage in (2, 3, 5, 11)]
+    assert told == [[], ["base_yaw"], ["base_yaw", "gasket_height"], ["base_yaw", "gasket_height", "rack"]]
+
+
+# -- on a short program -------------------------------------------------------------------------------
+
+SCRIPT = """        STAGE   "open"
+        OPEN    1
+        SAVE    HERE
+        OPEN    2
+        STAGE   "call"
+        OPEN    1.5
+        WAIT    "COME HERE"
+        OPEN    1
+        STAGE   "shut"
+        OPEN    .5
+"""
+
+
+@pytest.fixture
+def sound(tmp_path: Path) -> SoundRun:
+    """A sound run of a short program, which calls the operator in its second stage."""
+    return sound_run(tmp_path, begin(SCRIPT).setup.plan, WorldSpec(seed=3), "ray")
+
+
+def tried(sound: SoundRun, text: str) -> Tried:
+    return try_schedule(parse_schedule(f"seed=3 start=0 {text}".strip()), sound)
+
+
+@pytest.mark.slow
+def test_all_holds_when_a_sound_product_is_interrupted(sound: SoundRun) -> None:
+    for text in ("", "breaks=panic:20,pause:1,back:2", "faults=gap_potentiometer.stuck@1 breaks=pause:2"):
+        assert tried(sound, text).broken == ()
+    for text in (
+        "steps=1 breaks=pause:1",
+        "breaks=pause:3",
+        "steps=2 breaks=pause:1,back:1",
+    ):  # at its very end
+        assert tried(sound, text).broken == ()
+    late = try_schedule(parse_schedule("seed=3 start=3 breaks=pause:1 answers=proceed,retry"), sound)
+    assert (late.ended, late.broken) == ("break", ())
+
+
+@pytest.mark.slow
+def test_a_wrong_pump_that_a_program_takes_for_right_is_found_unless_it_stops_later(
+    sound: SoundRun, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        trial, "findings_so_far", lambda _: {"base_yaw": at_most(2.0, 1.0, "deg", "turn of the base")}
+    )
+    quiet = sound_run(
+        tmp_path / "quiet", begin(SCRIPT.replace("WAIT", ";WAIT")).setup.plan, WorldSpec(seed=3), "ray"
+    )
+    assert tried(sound, "").broken == ()
+    last = try_schedule(parse_schedule("seed=3 start=6 breaks=pause:1 answers=retry"), quiet)
+    assert last.names == {"silent"}
+
+
+@pytest.mark.slow
+def test_a_stop_without_brakes_is_found_and_shrunk(sound: SoundRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ArmDrive, "brake", ArmDrive.float)
+    schedule = parse_schedule("seed=3 start=3 faults=lamp.dead@2,picture.dark@2 breaks=pause:1 answers=retry")
+    found = try_schedule(schedule, sound)
+    assert found.names == {"brakes"}
+    least, _ = shrunk(found, schedule, partial(try_schedule, sound=sound))
+    assert str(least) == "seed=3 start=3"
+
+
+@pytest.mark.slow
+def test_a_state_that_is_not_put_back_whole_is_found_and_shrunk(
+    sound: SoundRun, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole: Callable[[ProgramSystem, SystemState], None] = ProgramSystem.restore
+
+    def forgetting(self: ProgramSystem, state: SystemState) -> None:
+        whole(self, state)
+        self.run.state.saved.clear()
+
+    monkeypatch.setattr(ProgramSystem, "restore", forgetting)
+    schedule = parse_schedule("seed=3 start=0 faults=lamp.dead@1 breaks=panic:10,pause:2")
+    found = try_schedule(schedule, sound)
+    assert found.names == {"resume"}
+    least, _ = shrunk(found, schedule, partial(try_schedule, sound=sound))
+    assert str(least) == "seed=3 start=0 breaks=pause:2"
