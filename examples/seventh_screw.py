@@ -1,6 +1,5 @@
 """A seventh screw: docs/language/seventh-screw.md as a program. With `run` behind it, the pump is assembled, too."""
 
-import re
 import sys
 
 import handeye
@@ -14,18 +13,15 @@ taught = taught.replace(
 )
 place = "        TRANS   S7 [6 43.8 6.37 90 90 0]\n"
 
-# The text of the sixth screw once more, with other names, before the screwdriver goes back into its rack.
-sixth = re.search(r"        SEARCH  \.05\nM6:.*?(?=        SEARCH  \.07\nD2:)", script, re.DOTALL)
-seventh = sixth[0]
-for old, new in {"M6": "M7", "K6": "K7", "N6": "N7", "S6": "S7", "H3": "H6"}.items():
-    seventh = re.sub(rf"\b{old}\b", new, seventh)
-text = place + script[: sixth.end()] + seventh + script[sixth.end() :]
+# One more call of the script's macro, before the screwdriver goes back into its rack.
+rack = script.rindex("        RACK")
+text = place + script[:rack] + "        SCREW   S7 H6 7\n" + script[rack:]
 
 before, after = handeye.plan(script, taught=taught), handeye.plan(text, taught=taught)
 for plan in (before, after):
     stage = plan.stages[9]
     print(f"{plan}: {stage.name}, {len(stage.steps)} steps, {stage.seconds:.1f} s of motion")
-print("new:", ", ".join(sorted({*after.record.program.labels} - {*before.record.program.labels})))
+print("new:", ", ".join(sorted({*after.record.program.positions} - {*before.record.program.positions})))
 
 if "run" in sys.argv:
     for plan in (before, after):

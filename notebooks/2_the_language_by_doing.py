@@ -133,30 +133,22 @@ print(f"{run.state.why}: found at place {run.state.memory.place + 1}, ({x:.2f}, 
 # ## A seventh screw
 #
 # The paper of 1973 says that one more screw is a matter of a few minutes. The pumps of seeds 7000000 and up have a
-# seventh hole, of which the program knows nothing. The sixth screw is this piece of the script:
+# seventh hole, of which the program knows nothing. How a screw is fetched and driven is a *macro* of the script,
+# `SCREW`, which takes the place of the screw, its hole, and its number. The last four are these lines:
 
 # %%
 text = (handeye.scripts / "water_pump.al").read_text()
-sixth = text[text.index("        SEARCH  .05\nM6:") : text.index("        SEARCH  .07\nD2:")]
-print(*sixth.splitlines()[:21], "        ...", sep="\n")
+rack = text.rindex("        RACK")
+print(text[text.rindex("        DRIVER") : rack])
 
 # %% [markdown]
-# It is copied, with other names: labels `M7`, `K7`, `N7`, the dispenser's place `S7`, the hole `H6`. Two places are
-# new, and that is all that is written: where the seventh screw stands in the dispenser, and where its hole is in the
-# pump.
+# One more call is one more screw. Two places are new, and that is all that is written: where the seventh screw
+# stands in the dispenser, and where its hole is in the pump.
 
 # %%
-seventh = (
-    sixth.replace("M6", "M7")
-    .replace("K6", "K7")
-    .replace("N6", "N7")
-    .replace("S6", "S7")
-    .replace("H3", "H6")
-    .replace("SCREW 6", "SCREW 7")
-)
 new_place = "        TRANS   S7 [6 43.8 6.37 90 90 0] ;the seventh place of the dispenser\n"
 new_hole = "[positions]\nH6 = { at = [0.004, -1.598, 6.874, -90, 89.98, 0], of = 'PUMP' }\n"
-seven = new_place + text.replace(sixth, sixth + seventh)
+seven = new_place + text[:rack] + "        SCREW   S7 H6 7\n" + text[rack:]
 places = (handeye.scripts / "water_pump.toml").read_text().replace("[positions]\n", new_hole, 1)
 
 # %%
@@ -167,7 +159,7 @@ print(
         for plan in (before, after)
     )
 )
-print("new labels:", sorted({*after.record.program.labels} - {*before.record.program.labels}))
+print("new places:", sorted({*after.record.program.positions} - {*before.record.program.positions}))
 
 # %% [markdown]
 # Whether it is right, the referee says: `handeye.assemble(7_000_000, script=after)` assembles that pump, in a minute

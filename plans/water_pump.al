@@ -1,22 +1,276 @@
-; The water pump of 1973, assembled in eleven steps.
+; The water pump of 1973, assembled in eleven steps, and inspected in a twelfth.
 ;
-; The comments in capitals, and the instructions beside them, stand in the listing of 1973.
+; The comments in capitals, and the instructions beside them, stand in the listing of 1973; water_pump_1973.al does what it
+; told, and no more. This one is careful: what can be tried again is tried again before the operator is called, and each
+; stage ends with a check of what it could have done wrong.
 ; Inches, ounces, degrees. Positions are taught, in the file beside this one.
+
+; A screw from its place in the dispenser: the socket over its head, then down to it.
+DEFINE FETCH S
+        SEARCH  .05
+M:      MOVE    S
+        RESTORE DRX
+        RESTORE DRV
+        RESTORE DS LEVEL
+        STOP    [0 0 -25]
+        FREE    [1 1 0]         ;let the head guide the socket
+        CHANGE  [0 0 -1] .5 .4
+        SKIPN   23
+        WAIT    "NO SCREW AT {S}"
+        TRAVEL  .17 .40         ;socket over the head, or beside it?
+        SKIPN   8
+        AOJ     M
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
+        SAVE    DS
+        CHANGE  [0 0 1] 1.5
+
+; That screw into a hole, to the torque stop. One that was not on the bit is fetched once more; one that stands wrong,
+; meets no torque, or stops high is driven once more, where the hole was felt.
+DEFINE SCREW S H NR
+        ASSIGN  TAKEN 2
+TAKE:   FETCH   S
+        ASSIGN  N 4
+        SEARCH  .05
+K:      MOVE    H
+        RESTORE Y1
+        RESTORE X2
+        RESTORE HS LEVEL        ;one hole found helps to find the others
+        STOP    [0 0 -30]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .45
+        SKIPE   23              ;no resistance: the tip is in the hole
+        AOJ     K
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the hole guide the tip
+        CHANGE  [0 0 -1] .48 .4 ;down to the thread
+        SKIPE   23
+        JUMP    DOWN
+        CHANGE  [0 0 1] 1       ;no resistance: it has stayed in the dispenser, or is lost
+        SOJG    TAKEN TAKE
+        WAIT    "SCREW {NR} IS NOT ON THE BIT"
+DOWN:   HEIGHT  LAID 4.26 4.38  ;as high as a screw stands at the mouth of its thread
+        SKIPE   9
+        JUMP    TURN
+        CHANGE  [0 0 1] .6
+        SEARCH  .05
+        SOJG    N K
+        WAIT    "SCREW {NR} STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
+TURN:   SAVE    HS
+        TOOL    190
+        TORQUE  42
+        FORCE   [0 0 -22]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
+        SKIPN   24
+        JUMP    LOOSE
+        TOOL    0
+        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
+        SKIPE   8
+        JUMP    HOME
+        TOOL    -190
+        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
+        TOOL    0
+        CHANGE  [0 0 1] .6
+        SEARCH  .05             ;where its hole was felt
+        SOJG    N K
+        WAIT    "SCREW {NR} STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
+        JUMP    HOME
+LOOSE:  TOOL    0
+        CHANGE  [0 0 1] .6
+        SEARCH  .05
+        SOJG    N K
+        WAIT    "SCREW {NR} MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
+HOME:   CHANGE  [0 0 1] 1
+
+; The screwdriver out of its rack, its place felt both ways.
+DEFINE DRIVER
+        OPEN    1.6
+        MOVE    D
+        CENTER  .5
+        SAVE    DRV             ;where the driver really is across the fingers
+        OPEN    2
+        MOVE    DX
+        RESTORE DRV
+        CENTER  .5
+        SAVE    DRX             ;and the other way
+        OPEN    2
+        MOVE    D
+        RESTORE DRX
+        RESTORE DRV
+        CLOSE   .9 1.1
+        CHANGE  [0 0 1] 2
+        LOAD    15
+
+; The screwdriver back into its rack.
+DEFINE RACK
+        SEARCH  .07
+PUT:    MOVE    DUP
+        RESTORE DRX
+        RESTORE DRV
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the guides guide it
+        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
+        TRAVEL  2 2.25          ;on the guides it would stand higher
+        SKIPN   8
+        AOJ     PUT
+        LOAD    0
+        OPEN    1.6
+        CHANGE  [0 0 1] 2
+
+; A pin back into its holder.
+DEFINE UNPIN Q P E C
+        OPEN    .6
+        MOVE    Q
+        RESTORE E LEVEL
+        RESTORE HS LEVEL        ;how far the base has moved since, by the hole of the last screw
+        CLOSE   .1
+        CHANGE  [0 0 1] 2
+        SEARCH  .05
+R:      MOVE    P
+        RESTORE C LEVEL
+        STOP    [0 0 -30]
+        FREE    [1 1 0]         ;let the hole guide the pin
+        CHANGE  [0 0 -1] 1.2
+        TRAVEL  .7 1.1          ;home, or on top of the holder?
+        SKIPN   8
+        AOJ     R
+        OPEN    1
+
+; The gasket that is held, onto the pins: by where pin 2 went in, or else by where both were felt.
+DEFINE LAY
+        SEARCH  .05
+LG:     SKIPN   6               ;all places tried
+        JUMP    WIDER
+        MOVE    GON
+        RESTORE E2 LEVEL
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2.3
+        SKIPN   23
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+        TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
+        SKIPE   8
+        JUMP    ON
+        AOJ     LG
+WIDER:  SEARCH  .05
+LF:     MOVE    GON
+        RESTORE Y1
+        RESTORE X2
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2.3
+        SKIPN   23
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+        TRAVEL  1.6 2.2
+        SKIPN   8
+        AOJ     LF
+ON:     OPEN    1.9
+        CHANGE  [0 0 1] 1
+
+; The gasket that lies on the base, taken up again.
+DEFINE LIFT
+        OPEN    1.9
+        MOVE    GON
+        RESTORE E2 LEVEL
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2
+        SKIPE   23              ;no resistance: a finger is in each large hole
+        WAIT    "THE GASKET CANNOT BE TAKEN UP AGAIN"
+        CLOSE   .7
+        CHANGE  [0 0 1] 2
+
+; The top that is held, onto the pins: likewise.
+DEFINE COVER
+        SEARCH  .05
+LT:     SKIPN   6               ;all places tried
+        JUMP    WIDER
+        MOVE    TOPON
+        RESTORE E1 LEVEL
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 2.3
+        SKIPN   23
+        WAIT    "THE TOP MEETS NOTHING: IT IS LOST"
+        TRAVEL  1.7 2.1         ;a top that stands on the pins stops high
+        SKIPE   8
+        JUMP    ON
+        AOJ     LT
+WIDER:  SEARCH  .05
+LU:     MOVE    TOPON
+        RESTORE Y1
+        RESTORE X2
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 2.3
+        SKIPN   23
+        WAIT    "THE TOP MEETS NOTHING: IT IS LOST"
+        TRAVEL  1.7 2.1
+        SKIPN   8
+        AOJ     LU
+ON:     LOAD    0
+        OPEN    2.8
+        CHANGE  [0 0 1] 3
+
+; The top that lies on the gasket, taken up again.
+DEFINE UNCOVER
+        OPEN    2.8
+        MOVE    TOPON
+        RESTORE E1 LEVEL
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 1.95
+        SKIPE   23
+        CHANGE  [0 0 1] .05     ;off the flange
+        CLOSE   2 2.4
+        LOAD    36
+        CHANGE  [0 0 1] 2.3
+
+; How high is what lies there? Closed fingers go down to it, slowly: .002 in a servo period.
+DEFINE FEEL SPOT
+        OPEN    0
+        MOVE    SPOT
+        RESTORE Y1
+        RESTORE X2
+        STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .6 .1
+
+; Does the pump still stand where it was put? Closed fingers come to its rim, .3 in away, and push it to its block.
+DEFINE NUDGE SPOT PUSH WAY
+        CHANGE  [0 0 1] 1
+        MOVE    SPOT
+        RESTORE Y1
+        RESTORE X2
+        STOP    PUSH
+        CHANGE  WAY .6 .2
+        SKIPN   23
+        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT: NOTHING STANDS THERE"
+        TRAVEL  .2 .4
+        SKIPN   8
+        WAIT    "THE PUMP IS NOT WHERE IT WAS PUT"
 
         STAGE   "find the base"
         LENS    25              ;the camera's mechanism is slow: meanwhile the arm
         AIM     BASE
         PARK                    ;goes out of its sight
-        LOOK    WIDE
+        ASSIGN  LOOKS 3
+WIDE:   LOOK    WIDE
         GENERAL BASE WIDE
-        LENS    50
+        SKIPE   30              ;not seen: another picture has other noise
+        JUMP    NEAR
+        SOJG    LOOKS WIDE
+        WAIT    "NO BASE IS SEEN ON THE BELT"
+NEAR:   LENS    50
         AIM     BASE
-        LOOK    CLOSE_UP
+        ASSIGN  LOOKS 3
+CLOSER: LOOK    CLOSE_UP
         SPECIFIC BASE CLOSE_UP
+        SKIPE   31
+        JUMP    SEEN
+        SOJG    LOOKS CLOSER
+        WAIT    "THE HOLES OF THE BASE ARE NOT SEEN"
+SEEN:   LOAD    0               ;nothing is in the hand
 
         STAGE   "feel for the grasp"
+        ASSIGN  TRIES 3
         OPEN    0               ;shut, they must read nothing
-        OPEN    1.775
+GRASP:  OPEN    1.775
         SEARCH  .2
 LA:     MOVE    A
         STOP    [0 0 -30]
@@ -24,6 +278,8 @@ LA:     MOVE    A
         SKIPE   23              ;no resistance: neither finger stands on the casting
         AOJ     LA
         CENTER  .5
+        SKIPN   2
+        JUMP    MISSED
         SAVE    DA              ;how far it is off across this wall
         OPEN    1.42
         SEARCH  .2
@@ -34,15 +290,28 @@ LB:     MOVE    B
         SKIPE   23
         AOJ     LB
         CENTER  .3
+        SKIPN   2
+        JUMP    MISSED
         SAVE    DB              ;and along the line of centres
         OPEN    1.85
         MOVE    WEB
         RESTORE DA
         RESTORE DB
         CLOSE   .9 1.4
+        SKIPN   2
+        JUMP    MISSED
+        SKIPE   7
+        JUMP    HELD
+MISSED: OPEN    1.775
+        SOJG    TRIES AFRESH
+        WAIT    "THE BASE IS NOT BETWEEN THE FINGERS"
+AFRESH: PARK                    ;look again: it may have been moved
+        LOOK    CLOSE_UP
+        SPECIFIC BASE CLOSE_UP
+        JUMP    GRASP
+HELD:   LOAD    84.6
 
         STAGE   "put the base in its standard position"
-        LOAD    84.6
         CHANGE  [0 0 1] 1
         MOVE    S0
         STOP    [0 0 -29]
@@ -71,6 +340,7 @@ LB:     MOVE    B
         SAVE    C1              ;where the holder really is
         CLOSE   0.1             ;grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
+        CLOSE   0.1             ;has it come along?
         MOVE    T1              ;GO TO THE HOLE
         SEARCH  .07
 L1:     MOVE    T1              ;GO TO THE HOLE
@@ -87,6 +357,8 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
         STOP    [0 36 0]
         CHANGE  [0 1 0] .3 .5   ;a push: its hole leaves it .02 in of play, the large hole 2 in
+        SKIPN   23
+        AOJ     L1              ;it does: that was no screw hole
         OPEN    .5
         CENTER  .1
         SAVE    Y1              ;where its hole is, across the line of centres
@@ -96,6 +368,7 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         SAVE    C2              ;where the holder really is
         CLOSE   0.1             ;grasp it
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
+        CLOSE   0.1             ;has it come along?
         MOVE    T2              ;GO TO THE HOLE
         SEARCH  .07
 L2:     MOVE    T2              ;GO TO THE HOLE
@@ -112,6 +385,8 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CLOSE   0.1             ;AND CHECK THAT IT IS STILL THERE
         STOP    [-36 0 0]
         CHANGE  [-1 0 0] .3 .5  ;it should resist a push, too
+        SKIPN   23
+        AOJ     L2              ;it does: that was no screw hole
         OPEN    .5
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
@@ -137,49 +412,49 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CHANGE  [0 0 1] 1
         SKIPN   4               ;it is caught on its stand
         WAIT    "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
-        SEARCH  .05
-LG:     MOVE    GON
-        RESTORE E2 LEVEL
-        STOP    [0 0 -24]
-        CHANGE  [0 0 -1] 2.3
-        SKIPN   23
-        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
-        TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
-        SKIPN   8
-        AOJ     LG
-        OPEN    1.9
-        CHANGE  [0 0 1] 1
+        ASSIGN  TRIES 2
+LAYING: LAY
         MOVE    FACE
         OPEN    0
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
         HEIGHT  BARE .04 .08    ;one gasket, .06 in thick
-        SAVE    LAID            ;how high it lies
+        SKIPE   9
+        JUMP    FLAT
+        CHANGE  [0 0 1] 1
+        SOJG    TRIES AGAIN
+        WAIT    "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
+        JUMP    FLAT
+AGAIN:  LIFT
+        JUMP    LAYING
+FLAT:   SAVE    LAID            ;how high it lies
         CHANGE  [0 0 1] 1
 
         STAGE   "check the gasket"
-        PARK
-        LOOK    AFTER HOLD
+        ASSIGN  TRIES 2
+CHECK:  PARK
+        ASSIGN  LOOKS 2
+LOOKS:  LOOK    AFTER HOLD
         INSPECT PUMP BEFORE AFTER
+        SKIPE   32
+        JUMP    RIGHT
+        SOJG    LOOKS LOOKS
+        SOJG    TRIES ANEW
+        WAIT    "THE GASKET IS NOT ON PROPERLY"
+        JUMP    RIGHT
+ANEW:   LIFT
+        LAY
+        JUMP    CHECK
+RIGHT:  OPEN    2.8             ;for the top
 
         STAGE   "put on the top"
-        OPEN    2.8
         MOVE    TOP
         CENTER  2
         CLOSE   2 2.4
         LOAD    36
         CHANGE  [0 0 1] 1
-        SEARCH  .05
-LT:     MOVE    TOPON
-        RESTORE E1 LEVEL
-        STOP    [0 0 -43]
-        CHANGE  [0 0 -1] 2.3
-        TRAVEL  1.7 2.1         ;a top that stands on the pins stops high
-        SKIPN   8
-        AOJ     LT
-        LOAD    0
-        OPEN    2.8
-        CHANGE  [0 0 1] 3
+        ASSIGN  TRIES 2
+TOPPING: COVER
         OPEN    0               ;before it goes down beside the pin
         MOVE    FLANGE          ;over its narrow end
         STOP    [0 0 -40]
@@ -187,435 +462,33 @@ LT:     MOVE    TOPON
         SKIPN   23
         WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
         HEIGHT  LAID .27 .33    ;its flange is .3 in thick: nothing is under it
+        SKIPE   9
+        JUMP    COVERED
         CHANGE  [0 0 1] 2       ;above the pins, before the hand opens
+        SOJG    TRIES OFF
+        WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET"
+        JUMP    COVERED
+OFF:    UNCOVER
+        JUMP    TOPPING
+COVERED: CHANGE [0 0 1] 2       ;above the pins, before the hand opens
 
         STAGE   "drive the first two screws"
-        OPEN    1.6
-        MOVE    D
-        CENTER  .5
-        SAVE    DRV             ;where the driver really is across the fingers
-        OPEN    2
-        MOVE    DX
-        RESTORE DRV
-        CENTER  .5
-        SAVE    DRX             ;and the other way
-        OPEN    2
-        MOVE    D
-        RESTORE DRX
-        RESTORE DRV
-        CLOSE   .9 1.1
-        CHANGE  [0 0 1] 2
-        LOAD    15
-        SEARCH  .05
-M1:     MOVE    S1
-        RESTORE DRX
-        RESTORE DRV
-        RESTORE DS LEVEL
-        STOP    [0 0 -25]
-        FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .5 .4
-        SKIPN   23
-        WAIT    "NO SCREW AT S1"
-        TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
-        AOJ     M1
-        STOP    [0 0 -45]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
-        SAVE    DS
-        CHANGE  [0 0 1] 1.5
-        SEARCH  .05
-        ASSIGN  N 4
-K1:     MOVE    H0
-        RESTORE Y1
-        RESTORE X2
-        STOP    [0 0 -30]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .45
-        SKIPE   23              ;no resistance: the tip is in the hole
-        AOJ     K1
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .48 .4 ;down to the thread
-        SKIPN   23
-        WAIT    "SCREW 1 IS NOT ON THE BIT"
-        SAVE    HS
-        TOOL    190
-        TORQUE  42
-        FORCE   [0 0 -22]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
-        SKIPN   24
-        WAIT    "SCREW 1 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-        TOOL    0
-        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
-        SKIPE   8
-        JUMP    N1
-        TOOL    -190
-        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
-        TOOL    0
-        CHANGE  [0 0 1] .6
-        SOJG    N K1            ;and once more
-        WAIT    "SCREW 1 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
-N1:     CHANGE  [0 0 1] 1
-        SEARCH  .05
-M2:     MOVE    S2
-        RESTORE DRX
-        RESTORE DRV
-        RESTORE DS LEVEL
-        STOP    [0 0 -25]
-        FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .5 .4
-        SKIPN   23
-        WAIT    "NO SCREW AT S2"
-        TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
-        AOJ     M2
-        STOP    [0 0 -45]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
-        SAVE    DS
-        CHANGE  [0 0 1] 1.5
-        SEARCH  .05
-        ASSIGN  N 4
-K2:     MOVE    H2
-        RESTORE Y1
-        RESTORE X2
-        RESTORE HS LEVEL        ;one hole found helps to find the others
-        STOP    [0 0 -30]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .45
-        SKIPE   23              ;no resistance: the tip is in the hole
-        AOJ     K2
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .48 .4 ;down to the thread
-        SKIPN   23
-        WAIT    "SCREW 2 IS NOT ON THE BIT"
-        HEIGHT  HS -.06 .06     ;as high as the one before
-        SKIPN   9
-        WAIT    "SCREW 2 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
-        SAVE    HS
-        TOOL    190
-        TORQUE  42
-        FORCE   [0 0 -22]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
-        SKIPN   24
-        WAIT    "SCREW 2 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-        TOOL    0
-        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
-        SKIPE   8
-        JUMP    N2
-        TOOL    -190
-        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
-        TOOL    0
-        CHANGE  [0 0 1] .6
-        SOJG    N K2            ;and once more
-        WAIT    "SCREW 2 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
-N2:     CHANGE  [0 0 1] 1
-        SEARCH  .07
-D1:     MOVE    DUP
-        RESTORE DRX
-        RESTORE DRV
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the guides guide it
-        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
-        TRAVEL  2 2.25          ;on the guides it would stand higher
-        SKIPN   8
-        AOJ     D1
-        LOAD    0
-        OPEN    1.6
-        CHANGE  [0 0 1] 2
+        DRIVER
+        SCREW   S1 H0 1
+        SCREW   S2 H2 2
+        RACK
 
         STAGE   "take out the aligning pins"
-        OPEN    .6
-        MOVE    Q1
-        RESTORE E1 LEVEL
-        RESTORE HS LEVEL        ;how far the base has moved since, by the hole of the last screw
-        CLOSE   .1
-        CHANGE  [0 0 1] 2
-        SEARCH  .05
-R1:     MOVE    P1UP
-        RESTORE C1 LEVEL
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the pin
-        CHANGE  [0 0 -1] 1.2
-        TRAVEL  .7 1.1          ;home, or on top of the holder?
-        SKIPN   8
-        AOJ     R1
-        OPEN    1
-        OPEN    .6
-        MOVE    Q2
-        RESTORE E2 LEVEL
-        RESTORE HS LEVEL
-        CLOSE   .1
-        CHANGE  [0 0 1] 2
-        SEARCH  .05
-R2:     MOVE    P2UP
-        RESTORE C2 LEVEL
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the pin
-        CHANGE  [0 0 -1] 1.2
-        TRAVEL  .7 1.1          ;home, or on top of the holder?
-        SKIPN   8
-        AOJ     R2
-        OPEN    1
+        UNPIN   Q1 P1UP E1 C1
+        UNPIN   Q2 P2UP E2 C2
 
         STAGE   "drive the last four screws"
-        OPEN    1.6
-        MOVE    D
-        CENTER  .5
-        SAVE    DRV             ;where the driver really is across the fingers
-        OPEN    2
-        MOVE    DX
-        RESTORE DRV
-        CENTER  .5
-        SAVE    DRX             ;and the other way
-        OPEN    2
-        MOVE    D
-        RESTORE DRX
-        RESTORE DRV
-        CLOSE   .9 1.1
-        CHANGE  [0 0 1] 2
-        LOAD    15
-        SEARCH  .05
-M3:     MOVE    S3
-        RESTORE DRX
-        RESTORE DRV
-        RESTORE DS LEVEL
-        STOP    [0 0 -25]
-        FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .5 .4
-        SKIPN   23
-        WAIT    "NO SCREW AT S3"
-        TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
-        AOJ     M3
-        STOP    [0 0 -45]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
-        SAVE    DS
-        CHANGE  [0 0 1] 1.5
-        SEARCH  .05
-        ASSIGN  N 4
-K3:     MOVE    H5
-        RESTORE Y1
-        RESTORE X2
-        RESTORE HS LEVEL        ;one hole found helps to find the others
-        STOP    [0 0 -30]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .45
-        SKIPE   23              ;no resistance: the tip is in the hole
-        AOJ     K3
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .48 .4 ;down to the thread
-        SKIPN   23
-        WAIT    "SCREW 3 IS NOT ON THE BIT"
-        HEIGHT  HS -.06 .06     ;as high as the one before
-        SKIPN   9
-        WAIT    "SCREW 3 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
-        SAVE    HS
-        TOOL    190
-        TORQUE  42
-        FORCE   [0 0 -22]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
-        SKIPN   24
-        WAIT    "SCREW 3 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-        TOOL    0
-        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
-        SKIPE   8
-        JUMP    N3
-        TOOL    -190
-        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
-        TOOL    0
-        CHANGE  [0 0 1] .6
-        SOJG    N K3            ;and once more
-        WAIT    "SCREW 3 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
-N3:     CHANGE  [0 0 1] 1
-        SEARCH  .05
-M4:     MOVE    S4
-        RESTORE DRX
-        RESTORE DRV
-        RESTORE DS LEVEL
-        STOP    [0 0 -25]
-        FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .5 .4
-        SKIPN   23
-        WAIT    "NO SCREW AT S4"
-        TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
-        AOJ     M4
-        STOP    [0 0 -45]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
-        SAVE    DS
-        CHANGE  [0 0 1] 1.5
-        SEARCH  .05
-        ASSIGN  N 4
-K4:     MOVE    H1
-        RESTORE Y1
-        RESTORE X2
-        RESTORE HS LEVEL        ;one hole found helps to find the others
-        STOP    [0 0 -30]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .45
-        SKIPE   23              ;no resistance: the tip is in the hole
-        AOJ     K4
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .48 .4 ;down to the thread
-        SKIPN   23
-        WAIT    "SCREW 4 IS NOT ON THE BIT"
-        HEIGHT  HS -.06 .06     ;as high as the one before
-        SKIPN   9
-        WAIT    "SCREW 4 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
-        SAVE    HS
-        TOOL    190
-        TORQUE  42
-        FORCE   [0 0 -22]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
-        SKIPN   24
-        WAIT    "SCREW 4 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-        TOOL    0
-        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
-        SKIPE   8
-        JUMP    N4
-        TOOL    -190
-        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
-        TOOL    0
-        CHANGE  [0 0 1] .6
-        SOJG    N K4            ;and once more
-        WAIT    "SCREW 4 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
-N4:     CHANGE  [0 0 1] 1
-        SEARCH  .05
-M5:     MOVE    S5
-        RESTORE DRX
-        RESTORE DRV
-        RESTORE DS LEVEL
-        STOP    [0 0 -25]
-        FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .5 .4
-        SKIPN   23
-        WAIT    "NO SCREW AT S5"
-        TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
-        AOJ     M5
-        STOP    [0 0 -45]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
-        SAVE    DS
-        CHANGE  [0 0 1] 1.5
-        SEARCH  .05
-        ASSIGN  N 4
-K5:     MOVE    H4
-        RESTORE Y1
-        RESTORE X2
-        RESTORE HS LEVEL        ;one hole found helps to find the others
-        STOP    [0 0 -30]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .45
-        SKIPE   23              ;no resistance: the tip is in the hole
-        AOJ     K5
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .48 .4 ;down to the thread
-        SKIPN   23
-        WAIT    "SCREW 5 IS NOT ON THE BIT"
-        HEIGHT  HS -.06 .06     ;as high as the one before
-        SKIPN   9
-        WAIT    "SCREW 5 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
-        SAVE    HS
-        TOOL    190
-        TORQUE  42
-        FORCE   [0 0 -22]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
-        SKIPN   24
-        WAIT    "SCREW 5 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-        TOOL    0
-        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
-        SKIPE   8
-        JUMP    N5
-        TOOL    -190
-        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
-        TOOL    0
-        CHANGE  [0 0 1] .6
-        SOJG    N K5            ;and once more
-        WAIT    "SCREW 5 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
-N5:     CHANGE  [0 0 1] 1
-        SEARCH  .05
-M6:     MOVE    S6
-        RESTORE DRX
-        RESTORE DRV
-        RESTORE DS LEVEL
-        STOP    [0 0 -25]
-        FREE    [1 1 0]         ;let the head guide the socket
-        CHANGE  [0 0 -1] .5 .4
-        SKIPN   23
-        WAIT    "NO SCREW AT S6"
-        TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
-        AOJ     M6
-        STOP    [0 0 -45]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
-        SAVE    DS
-        CHANGE  [0 0 1] 1.5
-        SEARCH  .05
-        ASSIGN  N 4
-K6:     MOVE    H3
-        RESTORE Y1
-        RESTORE X2
-        RESTORE HS LEVEL        ;one hole found helps to find the others
-        STOP    [0 0 -30]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .45
-        SKIPE   23              ;no resistance: the tip is in the hole
-        AOJ     K6
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the hole guide the tip
-        CHANGE  [0 0 -1] .48 .4 ;down to the thread
-        SKIPN   23
-        WAIT    "SCREW 6 IS NOT ON THE BIT"
-        HEIGHT  HS -.06 .06     ;as high as the one before
-        SKIPN   9
-        WAIT    "SCREW 6 STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
-        SAVE    HS
-        TOOL    190
-        TORQUE  42
-        FORCE   [0 0 -22]
-        FREE    [1 1 0]
-        CHANGE  [0 0 -1] .5     ;drive it until the torque stop
-        SKIPN   24
-        WAIT    "SCREW 6 MEETS NO TORQUE: ITS POINT, ITS THREAD OR THE BIT"
-        TOOL    0
-        TRAVEL  .2 .3           ;a crossed screw stops high, and so does one in a blocked hole
-        SKIPE   8
-        JUMP    N6
-        TOOL    -190
-        CHANGE  [0 0 1] .1 .05  ;back it out, slower than the thread would
-        TOOL    0
-        CHANGE  [0 0 1] .6
-        SOJG    N K6            ;and once more
-        WAIT    "SCREW 6 STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
-N6:     CHANGE  [0 0 1] 1
-        SEARCH  .07
-D2:     MOVE    DUP
-        RESTORE DRX
-        RESTORE DRV
-        STOP    [0 0 -30]
-        FREE    [1 1 0]         ;let the guides guide it
-        CHANGE  [0 0 -1] 2.4    ;straight into the rack until it stands
-        TRAVEL  2 2.25          ;on the guides it would stand higher
-        SKIPN   8
-        AOJ     D2
-        LOAD    0
-        OPEN    1.6
-        CHANGE  [0 0 1] 2
+        DRIVER
+        SCREW   S3 H5 3
+        SCREW   S4 H1 4
+        SCREW   S5 H4 5
+        SCREW   S6 H3 6
+        RACK
 
         STAGE   "turn the rotor"
         OPEN    .9
@@ -629,4 +502,22 @@ D2:     MOVE    DUP
         SKIPE   23              ;it should meet no such resistance
         WAIT    "THE ROTOR IS HARD TO TURN"
         OPEN    .9
+        CHANGE  [0 0 1] 1.5     ;off the crank, before the fingers shut
+
+        STAGE   "inspect the pump"
+        FEEL    FLANGE          ;the flange, at three places: gasket and flange over the face of the base
+        HEIGHT  BARE .33 .39
+        SKIPN   9
+        WAIT    "THE TOP DOES NOT LIE FLAT: ITS NARROW END"
+        FEEL    SIDE
+        HEIGHT  BARE .33 .39
+        SKIPN   9
+        WAIT    "THE TOP DOES NOT LIE FLAT: ITS BROAD SIDE"
+        FEEL    WAIST
+        HEIGHT  BARE .33 .39
+        SKIPN   9
+        WAIT    "THE TOP DOES NOT LIE FLAT: ITS WAIST"
+        NUDGE   RIM1 [0 40 0] [0 1 0]
+        NUDGE   RIM2 [-40 0 0] [-1 0 0]
         PARK
+        LOOK    DONE HOLD

@@ -20,7 +20,7 @@ SAYS = {
     "referee_limit.py": "wrong: lean of a pin in its holder (at most 0.2 deg)",
     "replay_a_moment.py": "line 7: CHANGE  [0 0 -1] 1 .2",
     "search_pattern.py": "row      5 places",
-    "seventh_screw.py": "new: K7, M7",
+    "seventh_screw.py": "new: S7",
 }
 """What an example prints."""
 

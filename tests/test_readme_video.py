@@ -9,11 +9,13 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from whole_runs import STAGES
+from whole_runs import STAGES as ALL
 
 from handeye.video.captions import DONE
 
 ROOT = Path(__file__).parent.parent
+STAGES = ALL[:-1]
+"""The eleven steps of 1973: the video is of a run without the inspection behind them."""
 VIDEO = ROOT / "docs" / "pictures" / "assembly.webp"
 
 pytestmark = pytest.mark.slow

@@ -1,10 +1,11 @@
 """The stages of a script, and what is in them."""
 
+import re
 from dataclasses import dataclass, field
 
 from handeye.al.scanner import TokenKind
 from handeye.editor.document import Document
-from handeye.editor.occurrences import MACRO, PARAMETER
+from handeye.editor.occurrences import MACRO, PARAMETER, Occurrence
 from handeye.editor.places import instruction
 from handeye.source import Span
 
@@ -27,26 +28,36 @@ class Symbol:
 
 
 def outline(document: Document) -> list[Symbol]:
-    """Stages with the labels, positions, pictures and differences made in them, and macros beside them."""
-    stages = _stages(document)
-    macros = []
-    for name in document.names:
-        if not name.makes or name.kind == PARAMETER:
-            continue
-        line = document.line_at(name.span.start)
-        assert line is not None
-        span = Span(start=line.start, end=max(line.end, name.span.end))
-        symbol = Symbol(name=name.name, kind=name.kind, span=span, at=name.span)
+    """Stages and macros, with the labels, positions, pictures and differences made in them."""
+    found = [name for name in document.names if name.makes and name.kind != PARAMETER]
+    stages, macros = _stages(document), [_macro(document, name) for name in found if name.kind == MACRO]
+    for name in found:
         if name.kind == MACRO:
-            macros.append(symbol)
             continue
-        home = next((s for s in reversed(stages) if s.span.start <= name.span.start), None)
+        symbol = Symbol(name=name.name, kind=name.kind, span=_line(document, name.span), at=name.span)
+        macro = next((m for m in macros if m.span.start <= name.span.start < m.span.end), None)
+        home = macro or next((s for s in reversed(stages) if s.span.start <= name.span.start), None)
         if home is None:
-            home = Symbol(name=FIRST, kind=STAGE, span=span, at=name.span)
+            home = Symbol(name=FIRST, kind=STAGE, span=symbol.span, at=name.span)
             stages.insert(0, home)
         home.parts.append(symbol)
-        home.span = Span(start=home.span.start, end=max(home.span.end, span.end))
+        home.span = Span(start=home.span.start, end=max(home.span.end, symbol.span.end))
     return sorted([*stages, *macros], key=lambda symbol: symbol.span.start)
+
+
+def _line(document: Document, at: Span) -> Span:
+    """The line in which something stands."""
+    line = document.line_at(at.start)
+    assert line is not None
+    return Span(start=line.start, end=max(line.end, at.end))
+
+
+def _macro(document: Document, name: Occurrence) -> Symbol:
+    """A macro, from its head to the blank line that ends it."""
+    head = _line(document, name.span)
+    blank = re.compile(r"\n[ \t]*(?=\r?\n|\Z)").search(document.text, head.end)
+    end = len(document.text) if blank is None else blank.start()
+    return Symbol(name=name.name, kind=MACRO, span=Span(start=head.start, end=end), at=name.span)
 
 
 def _stages(document: Document) -> list[Symbol]:

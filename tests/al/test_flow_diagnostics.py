@@ -17,9 +17,16 @@ PLANS = Path(__file__).parents[2] / "plans"
 DOWN = "STOP 50\nCHANGE [0 0 -1] 1\n"
 
 
-def test_pump_script_has_nothing_to_be_warned_of() -> None:
-    source = Source(name="water_pump.al", text=(PLANS / "water_pump.al").read_text(encoding="utf-8"))
-    assert al.compile_text(source, load_taught(PLANS / "water_pump.toml"))[1] == []
+@pytest.mark.parametrize("name", ["water_pump", "water_pump_1973"])
+def test_pump_scripts_have_nothing_to_be_warned_of(name: str) -> None:
+    source = Source(name=f"{name}.al", text=(PLANS / f"{name}.al").read_text(encoding="utf-8"))
+    assert al.compile_text(source, load_taught(PLANS / f"{name}.toml"))[1] == []
+
+
+def test_the_same_is_taught_for_the_careful_program_as_for_that_of_1973() -> None:
+    careful, of_1973 = (load_taught(PLANS / f"water_pump{year}.toml") for year in ("", "_1973"))
+    more = {name: careful.positions.pop(name) for name in ("SIDE", "WAIST", "RIM1", "RIM2")}
+    assert (careful, len(more)) == (of_1973, 4)
 
 
 def test_listing_of_1973_has_nothing_to_be_warned_of() -> None:

@@ -8,7 +8,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from pump_bench import Bench, bench, put, shifted, stacked, stage
+from pump_bench import LAID, Bench, bench, put, shifted, stacked, stage
 
 from handeye.errors import WRONG_TRAVEL
 from handeye.events import GuardTripped
@@ -48,9 +48,8 @@ def crossed() -> Bench:
     text = stage("drive the first two screws")
     x, y, z = mouth(leaning()) - mouth(stacked())
     positions = {"H0": shifted("H0", x, y, z)}
-    return bench(text[: text.index("        SEARCH  .05\nM2:")], positions=positions, lay=leaning()).to(
-        "SOJG"
-    )
+    first = text[: text.index("        SCREW   S2")]
+    return bench(first, positions=positions, lay=leaning(), felt={"LAID": LAID + z}).to("SOJG")
 
 
 @cache
@@ -60,6 +59,7 @@ def tried_again() -> Bench:
     aside = mouth(leaning()) - mouth(stacked())
     for part, X_WP in stacked(*aside[:2]).items():
         put(run.cell, part, X_WP)
+    run.run.state.heights["LAID"] = LAID * INCH
     return run.go()
 
 

@@ -45,7 +45,7 @@ def test_without_search_a_pin_a_tenth_off_misses_and_the_operator_is_called() ->
 
 
 def test_without_force_stops_setting_the_base_down_calls_the_operator() -> None:
-    script = without("STOP", FEEL + "\n" + stage("put the base in its standard position"))
+    script = without("STOP", stage("feel for the grasp", "put the base in its standard position"))
     run = bench(script).go()
     assert run.called.error is not None
 

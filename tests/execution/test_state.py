@@ -14,7 +14,18 @@ from handeye.program.world_model import WorldModel
 
 GIVEN = {
     Executor: {"run"},
-    ExecutionContext: {"plan", "arm", "cell", "camera", "emit", "search", "vision", "drive", "world"},
+    ExecutionContext: {
+        "plan",
+        "arm",
+        "cell",
+        "camera",
+        "emit",
+        "search",
+        "vision",
+        "drive",
+        "world",
+        "without",
+    },
     ArmDrive: {"cell", "arm", "watch", "halt"},
     WorldModel: {"parts", "positions"},
 }

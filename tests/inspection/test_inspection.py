@@ -40,9 +40,10 @@ def pump() -> Plan:
     return read_plan(plans() / "water_pump.plan.json")
 
 
-def depends(pump: Plan, line: int) -> list[str]:
-    steps = [n for n, step in enumerate(pump.program.steps) if step.line == line]
-    return [depends_text(one) for one in dependences(pump.program)[steps[0]]]
+def depends(pump: Plan, text: str) -> list[str]:
+    """What the first step of a text depends on."""
+    first = next(number for number, step in enumerate(pump.program.steps) if step.text == text)
+    return [depends_text(one) for one in dependences(pump.program)[first]]
 
 
 @pytest.mark.parametrize(
@@ -104,16 +105,21 @@ def test_the_time_of_a_plan_is_that_of_its_motions(pump: Plan) -> None:
 
 
 def test_a_goal_on_a_part_depends_on_the_picture_that_located_it(pump: Plan) -> None:
-    assert depends(pump, 21) == ["BASE seen at line 15", "search of line 20"]
+    assert depends(pump, "MOVE    A") == ["BASE seen at lines 263, 310", "search of line 274"]
 
 
 def test_a_goal_on_a_part_never_seen_is_as_planned(pump: Plan) -> None:
-    assert depends(pump, 47) == ["PUMP as planned"]
+    assert depends(pump, "MOVE    S0") == ["PUMP as planned"]
 
 
 def test_a_restored_goal_depends_on_what_was_saved_last_on_every_way_there(pump: Plan) -> None:
-    assert "DS level, never saved before" in depends(pump, 210)  # the first screw
-    assert "DS level saved at line 225" in depends(pump, 262)  # the second follows the first
+    assert "Y1 saved at line 364" in depends(pump, "MOVE H0")  # of pin 1
+    assert "DS level saved at line 26" in depends(pump, "MOVE S2")  # of the first screw
+
+
+def test_a_difference_that_nothing_has_saved_is_told_to_be_none() -> None:
+    step = step_of(f"{PLACE}MOVE T\nRESTORE H\nSAVE H\n", 0)
+    assert [depends_text(one) for one in step.depends] == ["H, never saved before"]
 
 
 def test_a_loop_carries_what_was_saved_in_it_back_to_its_head() -> None:
@@ -126,7 +132,7 @@ def test_a_loop_carries_what_was_saved_in_it_back_to_its_head() -> None:
 
 def test_the_listing_fits_every_step_of_a_stage_on_a_line(pump: Plan) -> None:
     lines = inspection_text(inspection(pump), stage=11)
-    assert lines[2] == " 11  turn the rotor: 9 steps, 11.2 s"
+    assert lines[2] == " 11  turn the rotor: 9 steps, 7.5 s"
     assert lines[7].split("  ")[-1].strip() == "stops at 40 oz against it, else error 23; PUMP as planned"
     assert len(lines) == 3 + 9
 
@@ -134,13 +140,14 @@ def test_the_listing_fits_every_step_of_a_stage_on_a_line(pump: Plan) -> None:
 def test_inspect_as_json_has_every_step_once(command: Command) -> None:
     code, out, _ = command("inspect", str(plans() / "water_pump.plan.json"), "--json")
     steps = [step["step"] for stage in json.loads(out)["stages"] for step in stage["steps"]]
-    assert (code, steps) == (0, list(range(455)))
+    assert (code, steps) == (0, list(range(709)))
 
 
 def test_inspect_shows_one_stage_by_its_name(command: Command) -> None:
     code, out, _ = command("inspect", str(plans() / "water_pump.plan.json"), "--stage", "check the gasket")
     assert code == 0
-    assert out.splitlines()[-1].split("  ")[-1].strip() == "PUMP as planned"
+    (line,) = [line for line in out.splitlines() if "INSPECT PUMP" in line]
+    assert line.endswith("  PUMP as planned")
 
 
 def test_inspect_of_no_plan_is_refused_in_one_sentence(command: Command) -> None:

@@ -66,10 +66,14 @@ SCRIPT: Final = (plans() / "water_pump.al").read_text(encoding="utf-8")
 """The water-pump program."""
 
 
+MACROS: Final = SCRIPT[: SCRIPT.index("        STAGE")]
+"""What its stages share."""
+
+
 def stage(*names: str) -> str:
-    """The text of some stages of the water-pump program."""
+    """The text of some stages of the water-pump program, behind its macros."""
     texts = dict(re.findall(r'STAGE\s+"([^"]+)"\n(.*?)(?=\n\s+STAGE|\Z)', SCRIPT, re.DOTALL))
-    return "\n".join(f'STAGE "{name}"\n{texts[name]}' for name in names)
+    return MACROS + "\n".join(f'STAGE "{name}"\n{texts[name]}' for name in names)
 
 
 def without(word: str, script: str) -> str:
@@ -77,6 +81,8 @@ def without(word: str, script: str) -> str:
     return re.sub(rf"(?m)^\s*{word}\b.*\n", "", script)
 
 
+LAID: Final = 1.81
+"""Height (in) of the gasket on the base, where closed fingers feel it."""
 SEEDS: Final = (None, 1)
 """Worlds in which a claim is shown that holds in any: the one without errors, and seeds of drawn ones."""
 IN_WORLDS: Final = pytest.mark.parametrize(
@@ -205,6 +211,7 @@ def bench(
     positions: dict[str, Position] | None = None,
     parts: dict[str, Part] | None = None,
     lay: dict[str, Pose] | None = None,
+    felt: dict[str, float] | None = None,
     camera: str = "ray",
 ) -> Bench:
     """A cell with a script compiled for it, ready to go.
@@ -213,6 +220,7 @@ def bench(
         positions: taught positions besides those of the water-pump program.
         parts: parts as the program believes them, instead of the water pump's.
         lay: where the experimenter lays free bodies (`X_WP`) before the run begins.
+        felt: heights of the hand (in) that earlier stages would have saved.
     """
     taught = Taught(
         positions={**TAUGHT.positions, **(positions or {})}, parts={**TAUGHT.parts, **(parts or {})}
@@ -230,6 +238,7 @@ def bench(
     if program.feels and world is not None and world.arm_build.friction.any():
         found = measure_joints(cell.devices, STANFORD, run.state.drive)
         run.state.drive.friction, run.state.drive.links = found.friction, found.links
+    run.state.heights.update({name: height * INCH for name, height in (felt or {}).items()})
     first = {name: np.array(cell.truth.data.body(name).xpos) / INCH for name in ("base", "top", "pin0")}
     return Bench(cell=cell, executor=Executor(run=run), events=events, first=first)
 

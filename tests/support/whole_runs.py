@@ -1,6 +1,5 @@
 """A whole run of the pump's program in a drawn world, and what the reference's rows ask of any."""
 
-import re
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,9 +18,9 @@ from handeye.variation import WorldSpec
 STAGES = (
     "find the base", "feel for the grasp", "put the base in its standard position", "insert the aligning pins",
     "put on the gasket", "check the gasket", "put on the top", "drive the first two screws",
-    "take out the aligning pins", "drive the last four screws", "turn the rotor",
+    "take out the aligning pins", "drive the last four screws", "turn the rotor", "inspect the pump",
 )  # fmt: skip
-"""The eleven steps of 1973."""
+"""The eleven steps of 1973, and a last one that inspects their work."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,10 +53,14 @@ class Whole:
         return sum(isinstance(e, GuardTripped) and e.guard == "torque" for e in self.during(stage))
 
     def searched(self) -> set[str]:
-        """Labels of the holes that needed more than one more try: K1 on are those of screws, L1 and L2 of pins."""
+        """Places of the holes that needed more than one more try: H0 to H5 are those of screws, T1 and T2 of pins."""
         texts = [event.text for event in self.events if isinstance(event, StepStarted)]
-        again = [m[1] for text in texts if (m := re.match(r"AOJ\s+([KL]\d)", text))]
-        return {label for label in again if again.count(label) > 1}
+        again: list[str] = []
+        place = ""
+        for word, *names in map(str.split, texts):
+            place = names[0] if word == "MOVE" else place
+            again += [place] if word == "AOJ" and place[0] in "HT" else []
+        return {place for place in again if again.count(place) > 1}
 
     def lens(self) -> float:
         """Time that lenses, aiming and focusing took, s."""

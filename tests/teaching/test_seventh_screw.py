@@ -26,9 +26,9 @@ pytestmark = pytest.mark.slow
 DOC = (Path(__file__).parents[2] / "docs/language/seventh-screw.md").read_text(encoding="utf-8")
 LESSON = re.findall(r"^teach> (.*)$", DOC, re.MULTILINE)
 (WHERE,) = re.findall(r"^ +TRANS +S7 .*\n", DOC, re.MULTILINE)
-(SCREW,) = re.findall(r"^```\n( +SEARCH +\.05\nM7:.*?)```$", DOC, re.MULTILINE | re.DOTALL)
+(SCREW,) = re.findall(r"^ +SCREW +S7 .*\n", DOC, re.MULTILINE)
 PUMP = (plans() / "water_pump.al").read_text(encoding="utf-8")
-BEHIND = PUMP.index("        SEARCH  .07\nD2:")
+BEHIND = PUMP.rindex("        RACK")
 
 
 def edited() -> str:
@@ -68,7 +68,7 @@ def test_the_script_makes_a_plan_that_differs_by_one_screw(hole: Position) -> No
     before, after = read_plan(plans() / "water_pump.plan.json"), planned(edited(), hole)
     assert set(after.program.positions) - set(before.program.positions) == {"H6", "S7"}
     texts, more = ([step.text for step in plan.program.steps] for plan in (before, after))
-    start = next(number for number, text in enumerate(more) if text.split()[-1] == "S7") - 1
+    start = next(number for number, text in enumerate(more) if text.split()[-1] == "S7") - 2
     added = len(more) - len(texts)
     assert more[:start] + more[start + added :] == texts
 

@@ -47,13 +47,21 @@ _GASKET_LOST: Final = "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOS
 _TOP_LOST: Final = "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
 
 
-def _lost(screw: int) -> str:
-    return f"SCREW {screw} IS NOT ON THE BIT"
+UNSEEN: Final = ("NO BASE IS SEEN ON THE BELT", "THE HOLES OF THE BASE ARE NOT SEEN")
+"""The careful program has looked again, and calls the operator; that of 1973 stops by an error."""
+_ASTRAY_AT_LAST: Final = "THE PUMP IS NOT WHERE IT WAS PUT"
+_NOT_HELD: Final = "THE BASE IS NOT BETWEEN THE FINGERS"
+THICKNESS: Final = "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
+OFF: Final = ("THE GASKET IS NOT ON PROPERLY", "THE GASKET CANNOT BE TAKEN UP AGAIN")
 
 
-def _misfit(screw: int) -> tuple[str, ...]:
-    """The first screw has none before it with which it could be compared."""
-    return (f"SCREW {screw} STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE",) if screw > 1 else ()
+def _lost(screw: int) -> tuple[str, ...]:
+    """It is fetched once more, and may lie elsewhere by then."""
+    return f"SCREW {screw} IS NOT ON THE BIT", f"NO SCREW AT S{screw}"
+
+
+def _misfit(screw: int) -> str:
+    return f"SCREW {screw} STANDS WRONG: ITS LENGTH, ITS POINT OR ITS HOLE"
 
 
 def _loose(screw: int) -> str:
@@ -67,14 +75,14 @@ def _high(screw: int) -> str:
 def _screws() -> Iterator[tuple[str, Expected]]:
     for screw, hole in enumerate(SCREWED, 1):
         yield f"screw.{screw}.missing", Expected(calls=(f"NO SCREW AT S{screw}",))
-        yield f"screw.{screw}.burred", Expected(calls=(*_misfit(screw), _loose(screw)))
+        yield f"screw.{screw}.burred", Expected(calls=(_misfit(screw), _loose(screw)))
         yield f"screw.{screw}.slotless", Expected(calls=(_loose(screw),))
         yield f"thread.{hole}.stripped", Expected(calls=(_loose(screw),))
         yield f"thread.{hole}.crosses", Expected(calls=(_high(screw),))
         if hole not in PINNED:
-            yield f"hole.{hole}.blocked", Expected(calls=(*_misfit(screw), _high(screw)))
+            yield f"hole.{hole}.blocked", Expected(calls=(_misfit(screw), _high(screw)))
             full = Expected(
-                errors=(SEARCH_EXHAUSTED,), calls=(*_misfit(screw), _loose(screw)), stages=_driving(screw)
+                errors=(SEARCH_EXHAUSTED,), calls=(_misfit(screw), _loose(screw)), stages=_driving(screw)
             )  # the mouth of a hole that is full still lets a point in, by less than a thread
             yield f"thread.{hole}.full", full
     for hole in PINNED:
@@ -112,17 +120,19 @@ EXPECTED: Final[dict[str, Expected]] = {
     "screwdriver.motor": Expected(errors=(CURRENT_WRONG,), calls=(_loose(1),)),
     "screwdriver.missing": Expected(errors=(NOTHING_HELD,), stages=(_DRIVER,)),
     "servo": Expected(errors=(WATCHDOG,)),
-    "magnet": Expected(calls=(_lost(1),)),
+    "magnet": Expected(calls=_lost(1)),
     "bit": Expected(calls=(_loose(1),)),
     "lamp": Expected(at_setup=True),
     "picture": Expected(errors=(PICTURE_WRONG,), at_setup=True),
     "camera": Expected(
         errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, SEARCH_EXHAUSTED, NOTHING_HELD, GASKET_WRONG),
+        calls=(*UNSEEN, *OFF, _NOT_HELD),
         harmless="The hand feels for the base around where it was seen.",
     ),
-    "turret": Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG)),
+    "turret": Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG), calls=UNSEEN),
     "light": Expected(
         errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN, PICTURE_WRONG, GASKET_WRONG),
+        calls=(*UNSEEN, *OFF),
         harmless="The eye adjusts itself to what light there is.",
     ),
     "arm.pushed": Expected(
@@ -130,28 +140,32 @@ EXPECTED: Final[dict[str, Expected]] = {
         calls=ASTRAY,
         harmless="The drives bear a push that is over before the hand feels for anything.",
     ),
-    "base.far": Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT)),
+    "base.far": Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=UNSEEN),
     "base.moved": Expected(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
+        calls=(_NOT_HELD, _ASTRAY_AT_LAST),
         stages=(_GRASP,),
         harmless="The hand feels for the base around where it was seen.",
     ),
     "base.removed": Expected(errors=(SEARCH_EXHAUSTED,), stages=(_PINS,)),
-    "base.missing": Expected(errors=(PART_NOT_SEEN,)),
+    "base.missing": Expected(errors=(PART_NOT_SEEN,), calls=UNSEEN),
     "base.turned": Expected(
         errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN),
+        calls=UNSEEN,
         harmless="The job is for a base that lies anyhow within the arm's reach.",
     ),
-    "base.reversed": Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN)),
+    "base.reversed": Expected(errors=(PART_NOT_SEEN, FEATURES_NOT_SEEN), calls=UNSEEN),
     "gasket.missing": Expected(errors=(NOTHING_HELD,), stages=(_GASKET,)),
     "gasket.turned": Expected(
         errors=(SEARCH_EXHAUSTED, GASKET_WRONG),
         calls=("THE GASKET LIES OFF ITS PLACE", "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"),
         harmless="Fingers that close on the gasket turn it straight.",
     ),
-    "gasket.dropped": Expected(errors=(NOTHING_HELD, WRONG_HEIGHT), calls=(_GASKET_LOST,), stages=(_GASKET,)),
-    "gasket.doubled": Expected(errors=(WRONG_HEIGHT,)),
-    "gasket.thick": Expected(errors=(WRONG_HEIGHT,)),
+    "gasket.dropped": Expected(
+        errors=(NOTHING_HELD, WRONG_HEIGHT), calls=(_GASKET_LOST, THICKNESS, *OFF), stages=(_GASKET,)
+    ),
+    "gasket.doubled": Expected(errors=(WRONG_HEIGHT,), calls=(THICKNESS,)),
+    "gasket.thick": Expected(errors=(WRONG_HEIGHT,), calls=(THICKNESS,)),
     "gasket.off.x": Expected(calls=("THE GASKET LIES OFF ITS PLACE",)),
     "gasket.off.y": Expected(
         errors=(SEARCH_EXHAUSTED,),
@@ -160,7 +174,9 @@ EXPECTED: Final[dict[str, Expected]] = {
     ),
     "gasket.reversed": Expected(calls=(_GASKET_LOST,)),
     "top.missing": Expected(errors=(NOTHING_HELD,), stages=(_TOP,)),
-    "top.dropped": Expected(errors=(NOTHING_HELD,), calls=(_TOP_LOST,), stages=(_TOP,)),
+    "top.dropped": Expected(
+        errors=(NOTHING_HELD,), calls=(_TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"), stages=(_TOP,)
+    ),
     "top.tilted": Expected(
         errors=(NOTHING_HELD, WRONG_HEIGHT, SEARCH_EXHAUSTED),
         stages=(_TOP,),
