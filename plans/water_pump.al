@@ -1,8 +1,8 @@
 ; The water pump of 1973, assembled in eleven steps, and inspected in a twelfth.
 ;
-; The comments in capitals, and the instructions beside them, stand in the listing of 1973; water_pump_1973.al does what it
-; told, and no more. This one is careful: what can be tried again is tried again before the operator is called, and each
-; stage ends with a check of what it could have done wrong.
+; The comments in capitals, and the instructions beside them, stand in the listing of 1973; water_pump_1973.al does each thing
+; once. This one is careful: what can be tried again is tried again before the operator is called, and each stage ends with
+; a check of what it could have done wrong.
 ; Inches, ounces, degrees. Positions are taught, in the file beside this one.
 
 ; A screw from its place in the dispenser: the socket over its head, then down to it.
@@ -27,7 +27,7 @@ M:      MOVE    S
         CHANGE  [0 0 1] 1.5
 
 ; That screw into a hole, to the torque stop. One that was not on the bit is fetched once more; one that stands wrong,
-; meets no torque, or stops high is driven once more, where the hole was felt.
+; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
 DEFINE SCREW S H NR
         ASSIGN  TAKEN 2
 TAKE:   FETCH   S

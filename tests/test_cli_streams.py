@@ -226,12 +226,15 @@ def test_a_plan_is_not_written_over_a_device(started: Start, tmp_path: Path) -> 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_trials_that_are_interrupted_end_at_once_with_one_line_and_leave_no_process(
-    tmp_path: Path, number: signal.Signals
+    tmp_path: Path, number: signal.Signals, request: pytest.FixtureRequest
 ) -> None:
     """As at a terminal, every process of the group hears Ctrl-C; being told to end, only the first.
 
-    Standard error ends when the last process that has it ends.
+    Tests that a shell began in the background ignore Ctrl-C, and so would what they begin. Standard error ends when
+    the last process that has it ends.
     """
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
     line = [sys.executable, "-m", "handeye", "trials", "assembly", "--seeds", "0-3"]
     with subprocess.Popen(line, stderr=subprocess.PIPE, cwd=tmp_path, start_new_session=True) as trials:
         while not Path(f"/proc/{trials.pid}/task/{trials.pid}/children").read_text().split():

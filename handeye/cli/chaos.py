@@ -127,8 +127,8 @@ def _tell(outcome: "Outcome") -> None:
     """Tell of a schedule that fails: what did not hold, and the command that shows it again."""
     if outcome.shrunk is None:
         return
-    for sentence in outcome.shrunk.broken:
-        say(sentence)
+    for each in outcome.shrunk.broken:
+        say(str(each))
     say(f'  handeye trials chaos --schedule "{outcome.shrunk.schedule}"', whole=True)
     if outcome.shrunk.schedule != outcome.drawn.schedule:
         note(f"  shrunk from: {outcome.drawn.schedule}")

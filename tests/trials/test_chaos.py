@@ -18,7 +18,7 @@ from handeye.trials.chaos import trial
 from handeye.trials.chaos.invariants import wrong
 from handeye.trials.chaos.schedule import Break, Schedule, draw, parse_schedule
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
-from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
+from handeye.trials.chaos.trial import Broken, Tried, shrunk, try_schedule
 from handeye.variation import WorldSpec
 
 SCHEDULE = Schedule(
@@ -79,7 +79,9 @@ def test_schedules_are_drawn_from_a_seed_and_can_be_told() -> None:
 def test_a_schedule_is_shrunk_to_what_it_fails_by() -> None:
     def fails(schedule: Schedule) -> Tried:
         guilty = "lamp.dead@2" in schedule.faults and any(each.kind == "back" for each in schedule.breaks)
-        return Tried(schedule=str(schedule), ended="break", broken=("resume: it differs",) if guilty else ())
+        return Tried(
+            schedule=str(schedule), ended="break", broken=(Broken("resume", "it differs"),) if guilty else ()
+        )
 
     least, tried = shrunk(fails(SCHEDULE), SCHEDULE, fails)
     assert (
@@ -89,7 +91,7 @@ def test_a_schedule_is_shrunk_to_what_it_fails_by() -> None:
 
 def test_a_finding_counts_from_the_stage_on_that_it_must_hold_from() -> None:
     findings = {name: at_most(2.0, 1.0, "mm", "") for name in ("base_yaw", "gasket_height", "rack")}
-    told = [[sentence.partition(":")[0] for sentence in wrong(findings, stage)] for stage in (2, 3, 5, 11)]
+    told = [[sentence.partition(":")[0] for sentence in wrong(findings, stage)] for stage in (2, 3, 5, 12)]
     assert told == [[], ["base_yaw"], ["base_yaw", "gasket_height"], ["base_yaw", "gasket_height", "rack"]]
 
 

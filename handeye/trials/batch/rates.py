@@ -18,7 +18,7 @@ class Rate(Record, frozen=True, kw_only=True):
     """Wilson's score interval: it holds the probability in about 95 of 100 batches."""
     p_s: float | None
     """Lower bound of the probability, 95 % one-sided: the least p for which so many successes or more have a chance
-    of 5 %. It is the exact bound of Clopper and Pearson, and the P_S of NIST's measures of robotic assembly."""
+    of 5 %. It is the exact bound of Clopper and Pearson."""
 
 
 def rate(successes: int, trials: int) -> Rate:

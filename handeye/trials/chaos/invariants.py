@@ -28,7 +28,7 @@ HELD_FROM: Final = {
 """By the first words of the referee's findings, the stages of the pump's program from whose end on they must hold."""
 
 
-LAST: Final = 11
+LAST: Final = 12
 """Number of the last stage, at whose end all must hold."""
 
 

@@ -27,19 +27,30 @@ class EndOfStage(StopCondition, frozen=True, kw_only=True):
         return runner.between_stages and runner.position > self.after
 
 
+class Broken(Record, frozen=True):
+    """An invariant that did not hold."""
+
+    invariant: str
+    what: str
+    """Of it, a sentence."""
+
+    def __str__(self) -> str:
+        return f"{self.invariant}: {self.what}"
+
+
 class Tried(Record, frozen=True, kw_only=True):
     """What a schedule came to."""
 
     schedule: str
     ended: str
     """The kind of its last pause; `error`: it raised what nothing should."""
-    broken: tuple[str, ...]
-    """Invariants that did not hold, `NAME: what of it`; none if all is well."""
+    broken: tuple[Broken, ...]
+    """None if all is well."""
 
     @property
     def names(self) -> frozenset[str]:
         """Names of the invariants that did not hold."""
-        return frozenset(sentence.partition(":")[0] for sentence in self.broken)
+        return frozenset(each.invariant for each in self.broken)
 
 
 def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
@@ -50,7 +61,7 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
     """
     catalogue = task().faults(schedule.seed)
     start = with_faults(sound.at(schedule.start), schedule.given(catalogue))
-    ended, broken = "error", []
+    ended, broken = "error", list[Broken]()
     with tempfile.TemporaryDirectory(prefix="handeye-chaos-") as name:
         try:
             unbroken = _carried(schedule, start, Path(name) / "unbroken", broken=False)
@@ -60,7 +71,7 @@ def try_schedule(schedule: Schedule, sound: SoundRun) -> Tried:
                 carried = _carried(schedule, start, Path(name) / "broken", broken=True)
                 broken += [*_sound(carried), *_named("resume", after_resuming(carried, unbroken))]
         except Exception as error:
-            broken.append(f"error: {type(error).__name__}: {error}")
+            broken.append(Broken("error", f"{type(error).__name__}: {error}"))
     return Tried(schedule=str(schedule), ended=ended, broken=tuple(dict.fromkeys(broken)))
 
 
@@ -71,11 +82,11 @@ def _carried(schedule: Schedule, start: Checkpoint, folder: Path, *, broken: boo
     return Carrying(schedule, start, folder).carry_out(stops, broken=broken)
 
 
-def _named(name: str, sentences: Iterator[str]) -> Iterator[str]:
-    return (f"{name}: {sentence}" for sentence in sentences)
+def _named(invariant: str, sentences: Iterator[str]) -> Iterator[Broken]:
+    return (Broken(invariant, sentence) for sentence in sentences)
 
 
-def _sound(carried: Carried) -> Iterator[str]:
+def _sound(carried: Carried) -> Iterator[Broken]:
     """What every run must keep to, stopped or not."""
     yield from _named("brakes", iter(carried.unbraked))
     yield from _named("trace", in_trace(carried))
