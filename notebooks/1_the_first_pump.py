@@ -11,8 +11,8 @@
 # %% [markdown]
 # # 1. The first pump
 #
-# At the end you will know what a *script*, a *plan*, a *world* and a *run* are, what happens in each of the eleven
-# stages of the pump, where its seven minutes go, and how far that is from the five and a half of 1973.
+# At the end you will know what a *script*, a *plan*, a *world* and a *run* are, what happens in each of the twelve
+# stages of the pump, where its minutes go, and how far that is from the five and a half of 1973.
 #
 # Nothing here needs to be run to be read. Run, it takes a minute of a processor, nearly all of it for one assembly;
 # the photographs take OpenGL.
