@@ -43,7 +43,7 @@ LAYERS = [
     {*FOUNDATIONS},
     {"program", "planfile", "events", "system_state", "ports"},
     {"arm", "vision", "touch", "al"},
-    {"planning", "inspection", "execution"},
+    {"planning", "inspection", "execution", "trig"},
     {"cell", "tasks", "judge"},
     {
         "runs",
@@ -206,6 +206,11 @@ def test_nothing_stands_in_the_wall_but_what_ports_are_made_of(module: str) -> N
 @pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] in WORKING_PHASE])
 def test_the_working_phase_sees_the_cell_through_its_ports_only(module: str) -> None:
     assert {o for o in own(module) if o.split(".")[0] in {"cell", "judge", "tasks"}} == set()
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.split(".")[0] == "trig"])
+def test_trig_knows_an_arm_by_its_own_port_only(module: str) -> None:
+    assert {o for o in own(module) if o.split(".")[0] not in FOUNDATIONS | {"trig", "ports"}} == set()
 
 
 def test_the_referee_speaks_only_to_reports() -> None:

@@ -33,9 +33,9 @@ def options(commands: App) -> Iterator[str]:
     for word in commands:
         if word.startswith("-"):
             yield word
-        elif commands[word].default_command is None:
-            yield from options(commands[word])
-        else:
+            continue
+        yield from options(commands[word])
+        if commands[word].default_command is not None:
             for argument in commands[word].assemble_argument_collection(parse_docstring=True):
                 yield from argument.names
 
