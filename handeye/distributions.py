@@ -31,7 +31,7 @@ class Normal(Distribution):
     spread: float
 
     def draw(self, rng: np.random.Generator, nominal: float) -> float:
-        return nominal + self.spread * float(np.clip(rng.standard_normal(), -2.0, 2.0))
+        return nominal + self.spread * min(max(rng.standard_normal(), -2.0), 2.0)
 
 
 @dataclass(frozen=True, slots=True)

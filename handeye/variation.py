@@ -5,7 +5,7 @@ A quantity is one number with a dotted name, such as `camera.place.x`; what stan
 quantity moves no other, and one can be switched off or set while all others stay as they are.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Final, Literal
@@ -18,6 +18,7 @@ from handeye.diagnostics import quoted, suggestion
 from handeye.distributions import Distribution
 from handeye.errors import InvalidInput
 from handeye.faults import Fault
+from handeye.random_streams import random_numbers, streams
 from handeye.record import Record
 from handeye.units import UNITS, Unit
 from handeye.whole_numbers import whole
@@ -117,11 +118,6 @@ class World:
         return random_numbers(self.spec.seed, stream)
 
 
-def random_numbers(seed: int, name: str) -> np.random.Generator:
-    """The stream of random numbers of a name in the world of a seed."""
-    return np.random.default_rng(np.random.SeedSequence([seed, crc32(name.encode())]))
-
-
 class Variation:
     """The quantities in which the worlds of a task differ, in the order they are listed."""
 
@@ -160,10 +156,20 @@ class Variation:
             InvalidInput: it was drawn in another way, or speaks of quantities that this task does not have.
         """
         self.check(spec)
-        values = {name: drawn(quantity, spec) for name, quantity in self.quantities.items()}
-        for name in spec.overrides.without:
-            values |= {q.name: q.nominal * q.measure.size for q in self.select(name)}
-        return World(spec=spec, values=values | spec.overrides.set)
+        return World(spec=spec, values={name: self.value(name, spec) for name in self.quantities})
+
+    def value(self, name: str, spec: WorldSpec) -> float:
+        """A single quantity of a world that can be drawn here, SI."""
+        return self.each(name, spec, (spec.seed,))[0]
+
+    def each(self, name: str, spec: WorldSpec, seeds: Sequence[int]) -> list[float]:
+        """A single quantity in the worlds of several seeds, which are otherwise of a specification, SI."""
+        quantity = self.quantities[name]
+        if name in spec.overrides.set:
+            return [spec.overrides.set[name]] * len(seeds)
+        if any(within(name, group) for group in spec.overrides.without):
+            return [quantity.nominal * quantity.measure.size] * len(seeds)
+        return [drawn(quantity, spec.level, stream) for stream in streams(seeds, name)]
 
     def check(self, spec: WorldSpec) -> None:
         """Make sure that a world is one that can be drawn here.
@@ -192,12 +198,12 @@ def within(name: str, group: str) -> bool:
     return f"{name}.".startswith(f"{group}.")
 
 
-def drawn(quantity: Quantity, spec: WorldSpec) -> float:
-    """What a quantity is in a world, overrides left out, SI."""
+def drawn(quantity: Quantity, level: Level, stream: np.random.Generator) -> float:
+    """What a quantity is at a level of errors by its stream of a world, SI."""
     distribution, nominal = quantity.distribution, quantity.nominal
-    value = distribution.draw(random_numbers(spec.seed, quantity.name), nominal)
-    if spec.level != "nominal" and distribution.is_error:
-        value = nominal + SPREADS[spec.level] * (value - nominal)
+    value = distribution.draw(stream, nominal)
+    if level != "nominal" and distribution.is_error:
+        value = nominal + SPREADS[level] * (value - nominal)
     return value * quantity.measure.size
 
 

@@ -28,6 +28,7 @@ FOUNDATIONS = {
     "resources",
     "variation",
     "distributions",
+    "random_streams",
     "world_options",
     "faults",
     "fault_options",

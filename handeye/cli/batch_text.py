@@ -58,7 +58,7 @@ def comparison(first: str, found: "Iterable[Paired]") -> RenderableType:
         "silent",
         "broken off",
     )
-    table = _table((f"beside {first}",), *counts)
+    table = plain_table((f"beside {first}",), *counts)
     for each in found:
         table.add_row(each.name, *map(str, (each.pairs, each.assembled, each.first_assembled, each.only_first,
                       each.only_this)), f"{each.p:.2g}", *map(str, (each.told, each.silent, each.failed)))  # fmt: skip
@@ -71,7 +71,7 @@ def percent(*parts: float) -> str:
 
 
 def _operations(found: "Figures") -> Table:
-    table = _table(("contact operation",), "done", "Wilson, 95 %", "at least")
+    table = plain_table(("contact operation",), "done", "Wilson, 95 %", "at least")
     for name, rate in found.operations.items():
         table.add_row(name, f"{rate.successes} of {rate.trials}", *_sure(rate))
     return table
@@ -84,7 +84,7 @@ def _sure(rate: "Rate") -> tuple[str, str]:
 
 
 def _stages(found: "Figures") -> Table:
-    table = _table(("stage",), "trials", "5 %", "median", "95 %")
+    table = plain_table(("stage",), "trials", "5 %", "median", "95 %")
     for stage in found.stages:
         seconds = (f"{value:.1f} s" for value in (stage.p5_s, stage.median_s, stage.p95_s))
         table.add_row(stage.stage, str(stage.n), *seconds)
@@ -92,7 +92,7 @@ def _stages(found: "Figures") -> Table:
 
 
 def _searches(found: "Figures") -> Table:
-    table = _table(("search around",), "searches", "found", "places: median", "95 %", "most")
+    table = plain_table(("search around",), "searches", "found", "places: median", "95 %", "most")
     for each in found.searches:
         table.add_row(
             each.at, str(each.n), str(each.found), f"{each.median:g}", f"{each.p95:.1f}", str(each.most)
@@ -101,7 +101,7 @@ def _searches(found: "Figures") -> Table:
 
 
 def _margins(found: "Figures") -> Table:
-    table = _table(("margin to the limit of", "unit"), "median", "5 %", "worst", "seed", "deviations")
+    table = plain_table(("margin to the limit of", "unit"), "median", "5 %", "worst", "seed", "deviations")
     for each in found.margins:
         deviations = "" if each.deviations is None else f"{each.deviations:.3g}"
         figures = (f"{value:.3g}" for value in (each.median, each.p5, each.worst))
@@ -109,7 +109,7 @@ def _margins(found: "Figures") -> Table:
     return table
 
 
-def _table(words: tuple[str, ...], *figures: str) -> Table:
+def plain_table(words: tuple[str, ...], *figures: str) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for title in words:
         table.add_column(title)

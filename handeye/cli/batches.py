@@ -97,7 +97,7 @@ def assembly_trials(
     timer = HostTimer()
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
-    _positive(workers, "worker")
+    positive(workers, "worker")
     _limits(simulated_limit, wall_limit)
     senses, errors = errors.senses, errors.errors()
     errors.spec(chosen[-1])
@@ -107,14 +107,13 @@ def assembly_trials(
         plan=record, camera=camera, without=senses, simulated_limit_s=simulated_limit, wall_limit_s=wall_limit
     )
     fresh: list[Row] = []
-    with _kept(out, trial, world) as folder:
-        tell = _progress(
-            len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh
-        )
+    with kept_batch(out, trial, world) as folder:
+        tell = progress(len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh)
         rows = carry_out(
             trial, jobs_of(world, numbers), _engine(engine, workers, scheduler), folder=folder, told=tell
         )
-    found = figures(rows, _command(world, plan, camera, senses), fresh=fresh, wall_s=timer.wall_s)
+    again = command_of(world, plan, camera, senses)
+    found = figures(rows, lambda row: again(row.seed), fresh=fresh, wall_s=timer.wall_s)
     if out is not None:
         _leave(out, rows, found, tables, _title(trial, world))
     if json:
@@ -185,7 +184,7 @@ def _chosen(n: int | None, seed: int | None, seeds: str | None) -> range:
     """The seeds of a batch."""
     if seeds is None:
         first, count = seed or 0, COUNT if n is None else n
-        _positive(count, "trial")
+        positive(count, "trial")
         return range(first, first + count)
     if n is not None or seed is not None:
         raise InvalidInput("--seeds says both: leave --n and --seed out, or --seeds")
@@ -205,7 +204,7 @@ def _numbers(count: int, only: int | None) -> range:
     return range(only, only + 1)
 
 
-def _positive(count: int, what: str) -> None:
+def positive(count: int, what: str) -> None:
     if count < 1:
         raise InvalidInput(f"at least one {what} is needed; {count} is too few")
 
@@ -217,7 +216,7 @@ def _limits(*seconds: float) -> None:
 
 
 @contextmanager
-def _kept(out: Path | None, trial: "Trial", world: "WorldSpec") -> "Iterator[BatchFolder | None]":
+def kept_batch(out: Path | None, trial: "Trial", world: "WorldSpec") -> "Iterator[BatchFolder | None]":
     """The folder of the batch, if one is wanted; what is in it is told also where trials are broken off."""
     from handeye.trials.batch.batch import head_of
     from handeye.trials.batch.folder import BatchFolder
@@ -235,7 +234,7 @@ def _kept(out: Path | None, trial: "Trial", world: "WorldSpec") -> "Iterator[Bat
         folder.close()
 
 
-def _progress(count: int, kept: int, timer: HostTimer, rows: "list[Row]") -> "Callable[[Row], None]":
+def progress(count: int, kept: int, timer: HostTimer, rows: "list[Row]") -> "Callable[[Row], None]":
     """What tells of each trial as it ends: how it ended, the rate until now with its interval, and the time left."""
     from handeye.cli.batch_text import percent
     from handeye.trials.batch.rates import rate
@@ -260,10 +259,10 @@ def _left(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
 
 
-def _command(
+def command_of(
     world: "WorldSpec", plan: Path | None, camera: str, senses: "tuple[Sense, ...]"
-) -> "Callable[[Row], str]":
-    """What tells the command that carries a trial out again."""
+) -> Callable[[int], str]:
+    """What tells the command that carries the trial of a seed out."""
     from msgspec.structs import replace
 
     from handeye.see.facts.again import sense_words, world_words
@@ -271,7 +270,7 @@ def _command(
     words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     made = sense_words(senses) + ([] if camera == "auto" else ["--camera", camera])
 
-    def command(row: "Row") -> str:
-        return shlex.join(["handeye", *words, *world_words(replace(world, seed=row.seed)), *made])
+    def command(seed: int) -> str:
+        return shlex.join(["handeye", *words, *world_words(replace(world, seed=seed)), *made])
 
     return command

@@ -9,6 +9,7 @@ from cyclopts import App, Parameter
 from handeye.cli.batches import assembly_trials, compare_trials
 from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
+from handeye.cli.predictions import predict_trials
 from handeye.cli.world_options import (
     ANY_WORLD,
     WorldOptions,
@@ -36,6 +37,7 @@ def register(app: App) -> None:
     trials = App(name="trials", help="Try in many worlds and count.")
     trials.command(assembly_trials, name="assembly")
     trials.command(compare_trials, name="compare")
+    trials.command(predict_trials, name="predict")
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,8 @@ from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import Picture
 from handeye.pose import Array
-from handeye.program.program import Fixture, Part
+from handeye.program.program import Fixture, Part, Program
+from handeye.program.senses import Sense
 from handeye.tasks.trial import Trial
 from handeye.variation import Variation, WorldSpec
 from handeye.vision.camera_model import CameraModel, View
@@ -72,6 +73,30 @@ class Sight:
     """Where it really is: x, y (m) and yaw (rad) in W."""
     far: tuple[Picture, View]
     near: tuple[Picture, View]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Predicted:
+    """How far off one thing of a contact operation is predicted to be in each of many worlds."""
+
+    operation: str
+    at: str
+    """The position."""
+    what: str
+    unit: str
+    off: Array
+    """Never negative, shape (n,)."""
+    room: float
+    """How far off it may be."""
+    places: Array | None = None
+    """Of a search: the place that succeeds, from 1, shape (n,); one more than there are if none does."""
+    finding: str = ""
+    """The finding of the referee that is predicted, if it is one."""
+
+    @property
+    def used(self) -> Array:
+        """Share of the room that is used: 1 is its end."""
+        return self.off / self.room
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,6 +167,21 @@ class Task(ABC):
             InvalidInput: this task has no such part, or pictures cannot be made so here.
         """
         raise InvalidInput(f"the task {quoted(self.name)} has nothing for the eye to find")
+
+    def predict(
+        self, program: Program, world: WorldSpec, seeds: Sequence[int], *, without: tuple[Sense, ...] = ()
+    ) -> tuple[Predicted, ...]:
+        """How far off each contact operation of a program is by kinematics and tolerances alone, nothing simulated.
+
+        Args:
+            world: what the worlds are but for their seeds.
+            without: senses that the program does without.
+
+        Raises:
+            InvalidInput: this task predicts nothing, not this program or not without these senses, or there is no
+                such world.
+        """
+        raise InvalidInput(f"the task {quoted(self.name)} predicts nothing")
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         """The scene of a world as a truth of its cell has it, for other programs.

@@ -19,6 +19,7 @@ from handeye.execution.servo_period import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_source
 from handeye.program.cause_text import call_sentence
+from handeye.random_streams import random_numbers
 from handeye.record import Record
 from handeye.resources import plans
 from handeye.runs.advance import advance
@@ -32,7 +33,7 @@ from handeye.tasks import task
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD, Inserting
 from handeye.trials.seeds import in_processes
 from handeye.units import INCH, MILLIMETRE
-from handeye.variation import Overrides, WorldSpec, random_numbers
+from handeye.variation import Overrides, WorldSpec
 
 Search = Literal["gentle", "1973"]
 TASK: Final = "insertion"

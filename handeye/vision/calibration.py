@@ -71,11 +71,11 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
     start = np.zeros(6 + 3 * len(drawing.lenses))
 
     def residuals(x: Array) -> Array:
-        model = _moved(drawing, x)
+        model = moved(drawing, x)
         return np.concatenate([_miss(model, s) / SIGHT_ERROR for s in sightings] + [x])
 
     fit = least_squares(residuals, start, method="trf", xtol=1e-10, ftol=1e-12)
-    model = _moved(drawing, fit.x)
+    model = moved(drawing, fit.x)
     return Calibration(
         model=model,
         residual_px={f: _rms([_miss_px(model, s) for s in sightings if np.isclose(s.lens, f)]) for f in used},
@@ -83,7 +83,7 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
     )
 
 
-def _moved(drawing: CameraModel, x: Array) -> CameraModel:
+def moved(drawing: CameraModel, x: Array) -> CameraModel:
     """The drawing changed by parameters in units of their priors."""
     mount = np.array(drawing.mount) + x[:3] * PLACE_PRIOR
     lenses = tuple(

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from handeye.al import AL
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_source
+from handeye.random_streams import random_numbers
 from handeye.resources import plans
 from handeye.runs import programs
 from handeye.runs.runner import Runner
@@ -23,7 +24,6 @@ from handeye.trials import insertion
 from handeye.trials.insertion import Condition, InsertionTrial, fetched, grid, trials, trials_in_world, tried
 from handeye.trials.insertion_figures import GENTLE, Bench
 from handeye.trials.insertion_page import html, rows
-from handeye.variation import random_numbers
 
 EXACT = Condition(sd=0.0)
 FIRST = InsertionTrial(condition=0, seed=1, number=0)

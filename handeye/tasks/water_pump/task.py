@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
-from handeye.program.program import Fixture
-from handeye.tasks.interface import ExportedScene, Eye, Period, Sight, Task, Words
+from handeye.program.program import Fixture, Program
+from handeye.program.senses import Sense
+from handeye.tasks.interface import ExportedScene, Eye, Period, Predicted, Sight, Task, Words
 from handeye.tasks.water_pump.base_trial import BaseTrial
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.gasket_trial import GasketTrial
@@ -85,6 +86,13 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.sights import sights
 
         return sights(number, camera)
+
+    def predict(
+        self, program: Program, world: WorldSpec, seeds: Sequence[int], *, without: tuple[Sense, ...] = ()
+    ) -> tuple[Predicted, ...]:
+        from handeye.tasks.water_pump.prediction.predict import predict
+
+        return predict(program, world, seeds, without)
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         from handeye.tasks.water_pump.exported import exported
