@@ -10,6 +10,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.errors import InvalidInput
+from handeye.extras import MissingExtra
 from handeye.source import read_source
 
 if TYPE_CHECKING:
@@ -52,10 +53,10 @@ def edit(
 
     Exit code 0: left; 2: bad input, or a line that was piped in was refused; 130: interrupted.
     """
+    if at_terminal():
+        return _conversed(file)
     with PanicButton() as panic:
-        if not sys.stdin.isatty():
-            return _piped(file, panic)
-        return _at_terminal(file, panic)
+        return _piped(file, panic)
 
 
 def run(
@@ -118,6 +119,11 @@ def show(
     return 0
 
 
+def at_terminal() -> bool:
+    """Whether somebody sits at a terminal who can type and see."""
+    return sys.stdin.isatty() and sys.stdout.isatty()
+
+
 def _loaded(file: Path, halted: Callable[[], bool]) -> "Session":
     """A session in which a script has been typed, or a program read.
 
@@ -156,15 +162,27 @@ def _piped(file: Path | None, halted: Callable[[], bool]) -> int:
     return code
 
 
-def _at_terminal(file: Path | None, panic: PanicButton) -> int:
-    """Converse with somebody at a terminal."""
-    from handeye.cli.trig_lines import LineDesk, converse
+def _conversed(file: Path | None) -> int:
+    """Converse with somebody at a terminal: on a screen, or line by line where that cannot be had."""
     from handeye.trig.no_arm import NoArm
+    from handeye.trig.script import Script
     from handeye.trig.session import Session
 
-    desk = LineDesk(panic.aside, panic)
-    session = Session(arm=NoArm(), desk=desk) if file is None else _loaded(file, panic)
-    converse(session, desk)
+    with PanicButton() as panic:
+        session = Session(arm=NoArm(), desk=Script(())) if file is None else _loaded(file, panic)
+    session.over = False
+    try:
+        from handeye.cli.trig_screen import Screen
+    except ModuleNotFoundError:
+        from handeye.cli.trig_lines import converse
+
+        note(
+            f"{MissingExtra('trig', 'prompt_toolkit', 'terminal')}; without it there are lines and no screen"
+        )
+        with PanicButton() as panic:
+            converse(session, panic)
+        return 0
+    Screen(session).run()
     return 0
 
 

@@ -3,9 +3,9 @@
 import sys
 from collections import deque
 from collections.abc import Callable, Iterable
-from contextlib import AbstractContextManager
 
 from handeye.cli.common import say, screen
+from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.errors import InvalidInput
 from handeye.trig.command_table import COMMANDS
@@ -17,7 +17,6 @@ from handeye.trig.place import told_place
 from handeye.trig.position import is_named
 from handeye.trig.session import Session
 from handeye.trig.symbols import symbols_for
-from handeye.trig.teachable import Halted
 
 PROMPT = ">"
 BOX_PROMPT = "teach box (X 30, Z BY -5, RECORD, KILL)> "
@@ -28,14 +27,14 @@ ROWS = 12
 class LineDesk(Desk):
     """Asks and tells line by line; the teach box is typed."""
 
-    def __init__(self, aside: Callable[[], AbstractContextManager[None]], halted: Halted) -> None:
-        self._aside, self._halted = aside, halted
+    def __init__(self, panic: PanicButton) -> None:
+        self._panic = panic
         self._pressed = deque[Button]()
         self.words: Callable[[], Iterable[str]] = lambda: COMMANDS
 
     def line(self, prompt: str) -> str | None:
         """A typed line; None: there is none."""
-        return next(typed_lines(prompt, self._aside, self.words, droppable=prompt == PROMPT), None)
+        return next(typed_lines(prompt, self._panic.aside, self.words, droppable=prompt == PROMPT), None)
 
     def answer(self, question: str) -> str:
         try:
@@ -62,12 +61,12 @@ class LineDesk(Desk):
         say(str(error), style="red")
 
     def halted(self) -> bool:
-        return self._halted()
+        return self._panic()
 
 
-def converse(session: Session, desk: LineDesk) -> None:
+def converse(session: Session, panic: PanicButton) -> None:
     """Hear lines until somebody leaves; both displays are shown after each that changed something."""
-    session.desk = desk
+    session.desk = desk = LineDesk(panic)
     desk.words = lambda: (*COMMANDS, *_names(session))
     shown = ""
     while not session.over:

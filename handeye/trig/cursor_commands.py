@@ -72,7 +72,7 @@ def told_run(ran: Ran, *, back: bool = False) -> str:
     return {
         "count": steps,
         "none": f"{steps}; the program has ended",
-        "halted": f"{steps}; stopped before it was done: RUN with a number goes on, RUN with a minus goes back",
+        "halted": f"{steps}; stopped: RUN with a number goes on, with a minus goes back",
         "beginning": f"{steps}; there is nothing to undo before this"
         if ran.steps
         else "there is nothing to undo",

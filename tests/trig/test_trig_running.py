@@ -86,7 +86,7 @@ def test_a_run_that_is_halted_goes_on_as_if_it_had_not_been() -> None:
     typist = palletiser(20)
     typist.halted = lambda: next(strikes)
     typist.type("RUN")
-    assert "stopped before it was done" in typist.told[-1]
+    assert "; stopped: RUN" in typist.told[-1]
     typist.halted = lambda: False
     typist.type("RUN 1000")
     assert (typist.blocks, typist.at) == (straight.blocks, straight.at)
