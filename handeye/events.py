@@ -263,6 +263,40 @@ class WentBack(Event, frozen=True, kw_only=True):
     why: Literal["back", "resumed"]
 
 
+class UndoOrdered(Event, frozen=True, kw_only=True):
+    """Somebody has the arm undo what it did, until so many executed steps are left."""
+
+    left: int
+    halts: bool
+    """The run ends there; otherwise the program can go on."""
+
+
+class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
+    """The arm begins to undo a step, or the rounds of a loop that led back to it."""
+
+    steps: int = 1
+    """Executed steps that are undone at once."""
+
+
+class UndoFinished(StepFinished, frozen=True, kw_only=True):
+    """A step is undone."""
+
+    force: float
+    """Greatest force that the hand has felt meanwhile, N."""
+
+
+class StageUndone(Event, frozen=True, kw_only=True):
+    """All that was done in a stage since it last began is undone."""
+
+    stage: str
+
+
+class UndoEnded(Event, frozen=True, kw_only=True):
+    """As much is undone as was asked for; the program would go on with a step."""
+
+    step: int
+
+
 class RunFinished(Event, frozen=True, kw_only=True):
     """The working phase ended."""
 
@@ -274,7 +308,8 @@ AnyEvent = (
     | GuardFaint | GuardTripped
     | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
     | PictureTaken | PartSeen | PartInspected | CameraStarted | CameraBusy | OperatorCalled | OperatorAnswered
-    | ExperimentMade | PanicStopped | WentBack | RunFinished
+    | ExperimentMade | PanicStopped | WentBack | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded
+    | RunFinished
 )  # fmt: skip
 
 

@@ -8,11 +8,11 @@ import pytest
 from conftest import Command
 
 from handeye.execution.camera_calibration import CalibrationFailed
+from handeye.packed import packed, sealed
 from handeye.ports.camera import Renderer
 from handeye.runs import programs
 from handeye.runs.conditions import Conditions
 from handeye.runs.kept_calibrations import MAGIC, VERSION
-from handeye.runs.packed import packed, sealed
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration

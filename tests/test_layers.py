@@ -35,6 +35,7 @@ FOUNDATIONS = {
     "versions",
     "whole_numbers",
     "mutable_records",
+    "packed",
     "plain_text",
     "markup",
     "host_time",
@@ -71,7 +72,7 @@ SKILLS = {"arm", "vision", "touch", "al"}
 WORKING_PHASE = {"execution", "planning", *SKILLS}
 ARITHMETIC = {
     "abc", "collections", "contextlib", "cv2", "dataclasses", "enum", "functools", "hashlib", "itertools", "math",
-    "msgspec", "numpy", "scipy", "types", "typing",
+    "msgspec", "numpy", "scipy", "types", "typing", "zlib",
 }  # fmt: skip
 MAKERS = {
     "__init__": {"importlib.import_module"},  # a name of the door when it is used

@@ -100,6 +100,10 @@ COMMANDS: Final[tuple[StepperCommand, ...]] = (
         help="go back to the beginning of this stage; from there, of the one before",
     ),
     Command(
+        usage="undo [N|stage]", group=_BACK, act=acts.undo,
+        help="have the arm undo the last step, the last N or the stage: `back` puts the simulator back",
+    ),
+    Command(
         usage="break PLACE", group=_BREAKS, act=acts.set_break, help="pause there every time"
     ),
     Command(usage="breaks", group=_BREAKS, act=acts.breaks, help="list the breakpoints, with their numbers"),

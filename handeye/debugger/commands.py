@@ -105,6 +105,20 @@ def back(hands: DebugSession, rest: str) -> CommandResult:
     return CommandResult(source=hands.source(), said=f"{counted(undone, 'step')} undone")
 
 
+def undo(hands: DebugSession, rest: str) -> CommandResult:
+    """Have the arm undo a step, some steps, or what it did since a stage began."""
+    done = hands.runner.system.executed
+    if rest.casefold() == "stage":
+        left = next((n for n in reversed(range(len(done))) if done[n].enters), 0)
+    else:
+        left = len(done) - _count(rest, "undo takes a number from 1 up, or `stage`")
+    if not done:
+        raise InvalidInput("the arm has done nothing that it could undo")
+    if left < 0:
+        raise InvalidInput(f"`undo` can undo only {counted(len(done), 'step')}")
+    return _told(hands, hands.have_undone(left))
+
+
 # -- breaks ---------------------------------------------------------------------------------------------
 
 

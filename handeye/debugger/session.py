@@ -18,7 +18,7 @@ from handeye.runs.observer import Observer
 from handeye.runs.operator import beginnings
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.stops import AnyStop, ByHand
+from handeye.runs.stops import AnyStop, ByHand, Undone
 from handeye.runs.system import Listing
 
 AROUND: Final = 2
@@ -102,6 +102,20 @@ class DebugSession:
         refusal = self.at_its_end()
         if refusal is not None:
             raise InvalidInput(refusal)
+        return self._go(stops, steps)
+
+    def have_undone(self, left: int) -> Pause:
+        """Have the arm undo what it did until so many executed steps are left.
+
+        Raises:
+            InvalidInput: so much was not executed, or the cell cannot go on.
+        """
+        if self.runner.trouble is not None:
+            raise InvalidInput(self.at_its_end() or "")
+        self.runner.have_undone(left)
+        return self._go([Undone()], None)
+
+    def _go(self, stops: Sequence[AnyStop], steps: int | None) -> Pause:
         wanted = [*self.stops, *self.breaks.values(), *stops]
         try:
             with self._attended("on", self.pace, self.face, self.ear):
@@ -152,7 +166,7 @@ class DebugSession:
         if runner.trouble is not None:
             return f"the run cannot continue from here, only go back: {runner.trouble}"
         if runner.call is not None:
-            return "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, or go back"
+            return "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:

@@ -11,7 +11,12 @@ from handeye.runs.system import Listing
 from handeye.trace.sentences import inches, sentence
 from handeye.units import INCH
 
-_BETWEEN: Final = (happened.StageStarted, happened.OperatorAnswered, happened.ExperimentMade)
+_BETWEEN: Final = (
+    happened.StageStarted,
+    happened.OperatorAnswered,
+    happened.ExperimentMade,
+    happened.UndoOrdered,
+)
 """Events between two steps."""
 _SILENT: Final = (happened.StepStarted, happened.StepFinished, happened.CameraBusy)
 """Events in a step that are told otherwise, or not at all."""
@@ -34,7 +39,7 @@ def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSu
     for event in events:
         if isinstance(event, (happened.StepStarted, *_BETWEEN)):
             groups.append([event])
-        elif not isinstance(event, happened.StageFinished):
+        elif not isinstance(event, (happened.StageFinished, happened.UndoEnded)):
             groups[-1].append(event)
     return tuple(_summary(group, program) for group in groups[1:])
 
@@ -42,8 +47,10 @@ def step_summaries(events: Iterable[AnyEvent], program: Listing) -> tuple[StepSu
 def _summary(group: Sequence[AnyEvent], program: Listing) -> StepSummary:
     first = group[0]
     if isinstance(first, happened.StepStarted):
-        outcome = _outcome(group, first, program)
-        return StepSummary(line=first.line, file=first.file, text=one_line(first.text), outcome=outcome)
+        outcome, text = _outcome(group, first, program), one_line(first.text)
+        if isinstance(first, happened.UndoStarted):
+            text = f"undo {text}"
+        return StepSummary(line=first.line, file=first.file, text=text, outcome=outcome)
     return StepSummary(line=None, text=sentence(first), outcome="")
 
 

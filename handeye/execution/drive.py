@@ -1,6 +1,6 @@
 """Drives an arm: motions of its servo loop, with time passing."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -51,10 +51,14 @@ class ArmDrive(ServoLoop):
         self._pass(self.floating(seconds))
 
     def follow(
-        self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
+        self,
+        samples: Samples,
+        guard: Monitor | None = None,
+        direction: Array | None = None,
+        beside: Callable[[int], None] = lambda _: None,
     ) -> Outcome:
         """Follow set-points; end early when `guard` trips. See `following`."""
-        return self._pass(self.following(samples, guard, direction))
+        return self._pass(self.following(samples, guard, direction, beside))
 
     def glide(
         self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None

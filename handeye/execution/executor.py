@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 import numpy as np
+from msgspec.structs import replace
 
 from handeye import errors
 from handeye.arm.kinematics import forward
@@ -17,12 +18,16 @@ from handeye.events import (
     StageStarted,
     StepFinished,
     StepStarted,
+    UndoOrdered,
 )
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
 from handeye.execution.hand_actions import HAND_ACTIONS
 from handeye.execution.motion_actions import MOTION_ACTIONS
 from handeye.execution.state import ExecutionState, Fault, vector
+from handeye.execution.undo.done import Undoing
+from handeye.execution.undo.noting import before, noted
+from handeye.execution.undo.undoing import order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
 from handeye.program.causes import Cause, Looping
 from handeye.program.operation import Operation
@@ -47,13 +52,19 @@ class Executor:
         return self.run.state
 
     def step(self) -> None:
-        """Do one step; the operator is called if it raises an error that the next one does not test."""
+        """Do one step, or undo one; the operator is called if it raises an error that the next one does not test."""
+        if self.state.undoing is not None:
+            self._undo()
+            return
         run, here = self.run, self.state.at
         assert here is not None
         step = run.plan.program.steps[here]
+        enters = self.state.stage is None
         self._enter(step.stage)
+        found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
         self.state.at = self._perform(step)
+        self.state.done.append(noted(run, found, step=here, enters=enters))
         run.emit(self._finished(here))
         if step.operation.calls is not None:
             self._stop(message=step.operation.calls)
@@ -75,8 +86,25 @@ class Executor:
             None,
             0,
         )
+        if choice != "proceed":
+            self.state.undoing = None
         run.emit(OperatorAnswered(time=run.time, choice=choice, step=self.state.at))
         self._leave("skipped" if choice == "skip" else "done")
+
+    def undo(self, undoing: Undoing) -> None:
+        """From now on each step undoes one, the last first, until so many executed ones are left.
+
+        Raises:
+            InvalidInput: there are no more than that.
+        """
+        order(self.state, undoing)
+        self.run.emit(UndoOrdered(time=self.run.time, left=undoing.left, halts=undoing.halts))
+
+    def _undo(self) -> None:
+        """Undo the step that was executed last; what stops that is told to the operator."""
+        stopped = undo_last(self.run)
+        if stopped is not None:
+            self._stop(error=stopped.error, cause=stopped.cause)
 
     def finish(self) -> bool:
         """Close the account of the run; True when the program came to its end."""
@@ -152,6 +180,8 @@ class Executor:
         run.emit(self.state.stopped)
         self.state.at, self.state.onward = None, self.state.at
         self.state.pending = None
+        if self.state.done:
+            self.state.done[-1] = replace(self.state.done[-1], called=True)
 
     def _watch_for_circles(self) -> None:
         run = self.run

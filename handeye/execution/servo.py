@@ -6,7 +6,7 @@ the cell when it is asked to go on.
 """
 
 from collections.abc import Callable, Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
@@ -19,6 +19,7 @@ from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
+from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
 from handeye.pose import Array, Pose
 from handeye.touch.guards import ActiveGuard, Reading
@@ -44,6 +45,8 @@ class Servo:
     """Called after every servo period."""
     halt: Callable[[], bool] = lambda: False
     """The panic button, asked at every servo period."""
+    track: Track = field(default_factory=Track)
+    """Notes what is put out and felt, for whoever undoes it."""
 
     @property
     def period(self) -> float:
@@ -166,6 +169,8 @@ class Servo:
         before = self.sensed
         if tau is not None and self.state.rest is not None:
             self.state.crept, self.state.rest = before.q - self.state.rest, None
+        if tau is not None:
+            self.track.note(self.state.q, self.state.gap)
         self._put_out(tau)
         yield periods * self.period
         sensed = self.sensed
@@ -177,6 +182,8 @@ class Servo:
         if feel is not None and not halted:
             feel(sensed)
         unfelt = feel is None or taring or halted or sensed.braked  # no drive tells what brakes bear
+        if not unfelt:
+            self.track.felt(self.state.wrench)
         self.watch(
             ServoPeriod(
                 sensed=sensed,

@@ -5,6 +5,7 @@ the cell when it is asked to go on; whoever asks lets the clock advance in betwe
 one clock.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,12 +93,17 @@ class ServoLoop(Servo):
         self.state.q, self.state.met = self.state.here.copy(), None
 
     def following(
-        self, samples: Samples, guard: Monitor | None = None, direction: Array | None = None
+        self,
+        samples: Samples,
+        guard: Monitor | None = None,
+        direction: Array | None = None,
+        beside: Callable[[int], None] = lambda _: None,
     ) -> Motion[Outcome]:
         """Follow set-points; end early when `guard` trips.
 
         Args:
             direction: unit vectors of the motion for the guard, shape (3,) or (N, 3), in W.
+            beside: sets what else is put out in a servo period, by the number of its set-point.
         """
         if len(samples) == 0:
             return REACHED
@@ -114,6 +120,7 @@ class ServoLoop(Servo):
             q, qd, qdd = motion.q[i], motion.qd[i], motion.qdd[i]
             guards = _active(guard, along)
             sense = sliding(self.arm, qd)
+            beside(i)
             yield from self._servo(here, q, qd, qdd, estimate=guard is not None, sense=sense, guards=guards)
             if self.state.cut:
                 return CUT

@@ -11,6 +11,7 @@ import numpy as np
 
 from handeye.arm.model import ArmModel
 from handeye.errors import InvalidInput
+from handeye.execution.undo.done import Done, Undoing
 from handeye.mutable_records import MutableRecord, put_back
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
@@ -175,6 +176,10 @@ class ExecutionState(SystemState, kw_only=True):
     world: WorldState = msgspec.field(default_factory=WorldState)
     faint: list[str] = msgspec.field(default_factory=list)
     """Places of the statements whose guards were told to be hard to tell from friction."""
+    done: list[Done] = msgspec.field(default_factory=list)
+    """Steps that were executed and not undone by the arm, in order."""
+    undoing: Undoing | None = None
+    """The arm undoes what it did; None: the program goes on."""
     drive: DriveState
 
 
@@ -197,6 +202,8 @@ def _fits_program(state: ExecutionState, plan: Plan) -> bool:
         all(step is None or step < len(program.steps) for step in (state.at, state.onward))
         and (state.stage is None or state.stage < len(program.stages))
         and (state.stopped is None or (state.stage is not None and state.at is None))
+        and all(done.step < len(program.steps) for done in state.done)
+        and (state.undoing is None or state.undoing.left < len(state.done))
         and {*world.measured, *state.general} <= set(program.parts)
         and {*state.shots, *state.found} <= program.written("picture")  # names that become file names
         and set(world.moved) <= set(program.positions)

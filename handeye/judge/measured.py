@@ -46,6 +46,12 @@ class Measured:
             away[body], away[:, place] = np.inf, np.inf
         return farthest
 
+    def turned(self, body: str) -> float:
+        """How far a body is turned from how it stood at first, rad."""
+        number = self.model.body(body).id
+        R = self._start.xmat[number].reshape(3, 3).T @ self.data.xmat[number].reshape(3, 3)
+        return acos(max(-1.0, min(1.0, (float(np.trace(R)) - 1) / 2)))
+
     def gap(self, geom: str, other: str) -> float:
         """Signed distance between two geoms, m; negative when they overlap."""
         ends = np.zeros(6)

@@ -9,7 +9,7 @@ from handeye.program.causes import Cause
 from handeye.program.doubt_text import doubt_sentence
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import sentence as reason_sentence
-from handeye.units import INCH
+from handeye.units import INCH, OUNCE_FORCE
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:
@@ -77,6 +77,8 @@ def cause_sentence(cause: Cause) -> str:
             return f"{cause.places} places tried" + (f" around {cause.around}" if cause.around else "")
         case c.Looping():
             return f"the program loops at line {cause.place}, and nothing moves"
+        case c.UndoResisted() | c.HoldOff() | c.UndoUnknown():
+            return _undo_stopped(cause)
         case c.Recorded():
             return cause.words
     assert_never(cause)
@@ -93,6 +95,22 @@ def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
             return "; ".join(f"the {fault.hole} hole {_hole(fault)}" for fault in cause.faults)
         case c.Recorded():
             return cause.words
+    assert_never(cause)
+
+
+def _undo_stopped(cause: c.UndoCause) -> str:
+    match cause:
+        case c.UndoResisted():
+            felt, limit = told_apart([cause.force / OUNCE_FORCE, cause.limit / OUNCE_FORCE], 1)
+            return (
+                f"something resists while the step is undone: the hand feels {felt} oz; allowed: {limit} oz"
+            )
+        case c.HoldOff():
+            gap, kept = _apart(cause.gap, cause.kept)
+            held = "held something at" if cause.holding else "stood at"
+            return f"the fingers stand at {gap} in; when the step was executed they {held} {kept} in"
+        case c.UndoUnknown():
+            return "what the step has left for undoing it cannot be used"
     assert_never(cause)
 
 

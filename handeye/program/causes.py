@@ -276,6 +276,30 @@ class Looping(CauseRecord, frozen=True, kw_only=True):
     """Its line, as people are told: `12`, or `pins.al:12`."""
 
 
+# -- undoing ----------------------------------------------------------------------------------------
+
+
+class UndoResisted(CauseRecord, frozen=True, kw_only=True):
+    """While the arm undid a step, the hand felt more force (N) than it may."""
+
+    force: float
+    limit: float
+
+
+class HoldOff(CauseRecord, frozen=True, kw_only=True):
+    """The fingers stand at another gap (m) than when the step was executed."""
+
+    gap: float
+    kept: float
+    """As it was then."""
+    holding: bool
+    """They held something then."""
+
+
+class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
+    """What the step has left cannot be used."""
+
+
 class Recorded(CauseRecord, frozen=True, kw_only=True):
     """Words that an older handeye recorded where there is a fact today."""
 
@@ -289,11 +313,13 @@ SenseCause = (
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 """Causes for which a sense is not believed."""
+UndoCause = UndoResisted | HoldOff | UndoUnknown
+"""Causes for which the arm does not go on undoing what it did."""
 InspectionCause = NoGasket | GasketWrong
 """Causes for which a part does not pass its inspection."""
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
     | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
-    | NoSearch | PlacesTried | Looping | Recorded
+    | NoSearch | PlacesTried | Looping | UndoCause | Recorded
 )  # fmt: skip
 """All there are."""

@@ -17,10 +17,15 @@ Limits = Mapping[str, float]
 
 
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
-    """Ask a referee, by default that of the task, its limits those of the run; nothing of a program without an end."""
+    """Ask a referee, by default that of the task, its limits those of the run; nothing of a program without an end.
+
+    Where the arm has undone all it did, it is asked whether everything lies where it was found.
+    """
     if pause.kind != "end":
         return {}
     truth = runner.cell.truth
+    if runner.undone:
+        return {} if runner.system.executed else runner.task.judge_apart(truth)
     return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
 
 

@@ -101,7 +101,8 @@ def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
     except InvalidInput:  # it is made anew
         return False
     own = _belongs(result, missing, newest.events)
-    return own and result.completed and (result.assembled is not None or not judged)
+    told = result.assembled is not None or result.apart is not UNSET
+    return own and result.completed and (told or not judged)
 
 
 def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:

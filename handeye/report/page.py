@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 
 import msgspec
+from msgspec import UNSET
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
@@ -22,6 +23,7 @@ _MARK = {
     "skipped": ("–", "yellow"),
     "stopped": ("✗", "red"),
     "not reached": ("·", "dim"),
+    "undone": ("↶", "green"),
 }
 
 
@@ -118,7 +120,12 @@ def cell_times(t: Timing, then: Mapping[str, float]) -> Iterator[TimingRow]:
 
 
 def period(result: Result) -> Period | None:
-    """The times of 1973, or of whenever it was, if they are those of this program; None of a task unknown here."""
+    """The times of 1973, or of whenever it was, if they are those of this program; None of a task unknown here.
+
+    In its day nothing was undone.
+    """
+    if result.apart is not UNSET:
+        return None
     task = known(result.task)
     then = None if task is None else task.period
     return then if then is not None and then.program == result.program else None
@@ -173,6 +180,8 @@ def verdict(result: Result) -> Text:
         where = f" in stage “{result.stopped_at}”" if result.stopped_at else ""
         number = f" (error {result.error})" if result.error is not None else ""
         return Text(f"Stopped{where}{number}: {result.message}", "bold red")
+    if result.apart is not UNSET:
+        return _apart(result)
     if result.assembled is None:
         return Text("The program came to its end.", "bold")
     task = known(result.task)
@@ -182,7 +191,22 @@ def verdict(result: Result) -> Text:
         return (
             Text(f"{words.done} Caution: {doubt}", "bold yellow") if doubt else Text(words.done, "bold green")
         )
-    wrong = [check.sentence for check in result.referee.values() if check.refuses]
-    return Text(
-        f"The program reported success, but {words.product} is not right: {'; '.join(wrong)}", "bold red"
-    )
+    wrong = "; ".join(wrong_points(result))
+    return Text(f"The program reported success, but {words.product} is not right: {wrong}", "bold red")
+
+
+def _apart(result: Result) -> Text:
+    """The last word on a run in which the arm has undone what it did."""
+    if result.apart is None:
+        return Text("Undone as far as was asked for.", "bold")
+    task = known(result.task)
+    words = _NEUTRAL if task is None else task.words
+    if result.apart:
+        return Text(words.apart, "bold green")
+    wrong = "; ".join(wrong_points(result))
+    return Text(f"The arm has undone what it did, but not everything is back: {wrong}", "bold red")
+
+
+def wrong_points(result: Result) -> list[str]:
+    """What the referee found not to be as it should, a sentence each."""
+    return [check.sentence for check in result.referee.values() if check.refuses]

@@ -35,6 +35,8 @@ def stop_name(stop: AnyStop) -> str:
             return f"stage {stop.stage + 1}, {stop.name}"
         case stops.OnError():
             return f"error {stop.number}"
+        case stops.Undone():
+            return "undone"
         case stops.AfterSteps():
             return counted(stop.count, "step")
         case stops.Asked():
@@ -55,6 +57,8 @@ def _met(stop: AnyStop) -> str:
             return f"breakpoint on {stop_name(stop)}: {ERRORS[stop.number]}"
         case stops.AfterSteps():
             return f"{stop_name(stop)} done"
+        case stops.Undone():
+            return "undone; the program can go on from here"
         case stops.Asked():
             return "paused as asked"
         case stops.ByHand():

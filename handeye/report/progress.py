@@ -11,7 +11,15 @@ from rich.progress import BarColumn, ProgressColumn, SpinnerColumn, TextColumn
 from rich.progress import Progress as RichProgress
 from rich.table import Column
 
-from handeye.events import AnyEvent, ErrorRaised, GuardFaint, RunStarted, StageStarted, StepStarted
+from handeye.events import (
+    AnyEvent,
+    ErrorRaised,
+    GuardFaint,
+    RunStarted,
+    StageStarted,
+    StageUndone,
+    StepStarted,
+)
 from handeye.runs.observer import Observer
 from handeye.trace.sentences import sentence
 
@@ -86,6 +94,8 @@ class Progress(Observer):
         if isinstance(event, StageStarted):
             self.goes_on(event.stage)
             self._line(clock, event.stage)
+        elif isinstance(event, StageUndone):
+            self._line(clock, f"{event.stage}: undone")
         elif isinstance(event, StepStarted):
             self._place = event.place
             self._bar.update(self._task, text=escape(event.text))

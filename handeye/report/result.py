@@ -10,7 +10,7 @@ from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.variation import WorldSpec
 
-Status = Literal["done", "under way", "skipped", "stopped", "not reached"]
+Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
 """How far a stage has come."""
 
 
@@ -146,6 +146,9 @@ class Result(Record, frozen=True, kw_only=True):
     """Parts that code of whoever began the run took the place of, with the names of that code."""
     without: tuple[Sense, ...] | UnsetType = UNSET
     """Senses that the program did without."""
+    apart: bool | UnsetType | None = UNSET
+    """Of a run in which the arm has undone what it did, the referee's word whether everything lies where it was found;
+    None: nobody was asked, or not all of it is undone."""
 
     @property
     def cautions(self) -> tuple[str, ...]:
@@ -159,7 +162,7 @@ class Result(Record, frozen=True, kw_only=True):
             return 0
         if not self.completed:
             return 1
-        return 3 if self.assembled is False else 0
+        return 3 if False in (self.assembled, self.apart) else 0
 
 
 def to_json(result: Result, *, line: bool = False) -> bytes:

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from msgspec import UNSET
+
 from handeye.events import (
     AnyEvent,
     CameraBusy,
@@ -13,7 +15,9 @@ from handeye.events import (
     RunStarted,
     StageFinished,
     StageStarted,
+    StageUndone,
     StepStarted,
+    UndoOrdered,
     beginning,
 )
 from handeye.judge.finding import Findings, all_right
@@ -42,7 +46,8 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
     names = runner.stages
     checks = {name: Check.of(finding) for name, finding in (findings or {}).items()}
     return Result(
-        assembled=None if findings is None else completed and all_right(findings),
+        assembled=None if findings is None or runner.undone else completed and all_right(findings),
+        apart=(all_right(findings) if findings else None) if runner.undone else UNSET,
         completed=completed,
         paused=pause.kind == "break",
         stopped_at=names[runner.stage] if not completed and runner.stage is not None else None,
@@ -69,6 +74,8 @@ def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:
         when = f"at {event.time - begun:.1f} s"
         if isinstance(event, OperatorAnswered):
             yield f"{when} the operator chose: {event.choice}"
+        elif isinstance(event, UndoOrdered):
+            yield f"{when} {sentence(event)}"
         elif isinstance(event, ExperimentMade):
             yield f"{when} {event.what} {event.name} was set by hand"
 
@@ -101,6 +108,8 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
             seconds[event.stage] += event.time - begun - busy
             status[event.stage] = event.status
             here = ""
+        elif isinstance(event, StageUndone):
+            status[event.stage], here = "undone", ""
     if here:
         seconds[here] += now - begun - busy
     return tuple(Stage(name=name, status=status[name], arm_s=round(seconds[name], 3)) for name in names)

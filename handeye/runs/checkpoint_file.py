@@ -17,9 +17,9 @@ from handeye.cell.state import CellState
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.files import Kind, read_whole, write_whole
+from handeye.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.program.senses import Sense
 from handeye.record import Record
-from handeye.runs.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.system import SystemKind

@@ -15,10 +15,10 @@ import msgspec
 
 from handeye.errors import InvalidInput
 from handeye.files import read_whole, write_whole
+from handeye.packed import packed, sealed, unpacked
 from handeye.ports.camera import Renderer
 from handeye.record import Record
 from handeye.runs.conditions import Conditions
-from handeye.runs.packed import packed, sealed, unpacked
 from handeye.runs.preparation import Preparation
 from handeye.user_cache import cache_folder
 from handeye.variation import WorldSpec

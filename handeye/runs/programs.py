@@ -16,6 +16,7 @@ from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
 from handeye.execution.state import ExecutionState
+from handeye.execution.undo.done import Done, Undoing
 from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
@@ -153,6 +154,13 @@ class ProgramSystem(System):
 
     def answer(self, choice: Choice) -> None:
         self.executor.answer(choice)
+
+    @property
+    def executed(self) -> Sequence[Done]:
+        return self.state.done
+
+    def undo(self, undoing: Undoing) -> None:
+        self.executor.undo(undoing)
 
     def finish(self) -> bool:
         return self.executor.finish()

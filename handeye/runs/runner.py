@@ -20,11 +20,14 @@ from handeye.events import (
     StageStarted,
     StepFinished,
     StepStarted,
+    UndoEnded,
+    UndoOrdered,
     beginning,
 )
 from handeye.execution.servo import Halted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
+from handeye.execution.undo.done import Undoing
 from handeye.mutable_records import copied
 from handeye.plain_text import counted
 from handeye.runs.observer import Observer
@@ -189,8 +192,14 @@ class Runner:
         return self.stage is None and self.at is not None
 
     @property
+    def undone(self) -> bool:
+        """It has ended where the arm has undone what was asked for."""
+        last = next((e for e in reversed(self.events) if isinstance(e, StepStarted | UndoEnded)), None)
+        return self.at is None and isinstance(last, UndoEnded)
+
+    @property
     def touched(self) -> bool:
-        """Somebody has interfered: an experiment, or an answer of the operator."""
+        """Somebody has interfered: an experiment, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     def checkpoint(self, snapshot: Snapshot | None = None) -> Checkpoint:
@@ -227,6 +236,18 @@ class Runner:
         self.system.answer(choice)
         self._settle()
 
+    def have_undone(self, left: int, *, halts: bool = False) -> None:
+        """From now on each step has the arm undo one that was executed, until so many are left.
+
+        Args:
+            halts: the run ends there; otherwise the program can go on.
+
+        Raises:
+            InvalidInput: so much was not executed, or the system cannot undo anything.
+        """
+        self.system.undo(Undoing(left=left, halts=halts))
+        self._settle()
+
     def finish(self) -> bool:
         """Close the account of the run; True when the program came to its end."""
         return self.system.finish() and self.trouble is None
@@ -241,6 +262,8 @@ class Runner:
             then = events[len(self.events)]
             if isinstance(then, OperatorAnswered) and self.call is not None:
                 self.answer(then.choice)
+            elif isinstance(then, UndoOrdered):
+                self.have_undone(then.left, halts=then.halts)
             elif isinstance(then, ExperimentMade):
                 self.experiment(then.what, then.name, then.value)
             elif self.ended:

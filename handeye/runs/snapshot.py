@@ -6,7 +6,7 @@ from typing import Annotated
 import msgspec
 
 from handeye.cell.state import CellState
-from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered
+from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered, UndoOrdered
 from handeye.record import Record
 from handeye.runs.setup import Setup
 from handeye.runs.systems import listing_of
@@ -48,7 +48,7 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
     @property
     def touched(self) -> bool:
-        """Somebody has interfered: an experiment, or an answer of the operator."""
+        """Somebody has interfered: an experiment, an answer of the operator, or an order to undo."""
         return interfered(self.events)
 
     @property
@@ -72,4 +72,4 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
 def interfered(events: Iterable[AnyEvent]) -> bool:
     """See whether somebody has taken a hand in what happened."""
-    return any(isinstance(event, ExperimentMade | OperatorAnswered) for event in events)
+    return any(isinstance(event, ExperimentMade | OperatorAnswered | UndoOrdered) for event in events)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from handeye.events import AnyEvent, ErrorRaised, StageFinished
+from handeye.events import AnyEvent, ErrorRaised, StageFinished, UndoEnded
 from handeye.record import Record
 from handeye.runs.runner import Runner
 
@@ -86,6 +86,13 @@ class AfterStage(StopCondition, frozen=True, kw_only=True):
         return isinstance(last, StageFinished) and last.stage == self.name
 
 
+class Undone(StopCondition, frozen=True, kw_only=True):
+    """Pause when the arm has undone what was asked for."""
+
+    def met_before(self, runner: Runner) -> bool:
+        return isinstance(runner.events[-1], UndoEnded)
+
+
 class AfterSteps(StopCondition, frozen=True, kw_only=True):
     """Pause after so many steps; who goes on counts them."""
 
@@ -115,6 +122,7 @@ AnyStop = (
     | AtStage
     | OnError
     | AfterStage
+    | Undone
     | AfterSteps
     | Asked
     | ByHand

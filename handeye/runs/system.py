@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from handeye.cell.simulated import SimulatedCell
+from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, Choice
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
+from handeye.execution.undo.done import Done, Undoing
 from handeye.program.operation import Device
 from handeye.record import Record
 from handeye.runs.parts import OWN, Parts
@@ -148,6 +150,19 @@ class System(Protocol):
 
     def answer(self, choice: Choice) -> None:
         """Go on after the operator was called."""
+
+    @property
+    def executed(self) -> Sequence[Done]:
+        """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
+        return ()
+
+    def undo(self, undoing: Undoing) -> None:
+        """From now on each step undoes one that was executed, the last first.
+
+        Raises:
+            InvalidInput: so much was not executed, or this system cannot undo anything.
+        """
+        raise InvalidInput("this system cannot undo what it did")
 
     def finish(self) -> bool:
         """Close the account of the run; True when the program came to its end."""

@@ -107,6 +107,8 @@ class Words:
     """With its article: `the pump`."""
     done: str
     """A sentence: it is finished, and right."""
+    apart: str = "Everything is back where the run found it."
+    """A sentence: the arm has undone all it did."""
 
 
 class Task(ABC):
@@ -159,6 +161,10 @@ class Task(ABC):
     @abstractmethod
     def judge(self, truth: Truth) -> Findings:
         """Findings of the referee on the finished work. The cell is not touched."""
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        """Findings of the referee where the arm has undone all it did; none by default. The cell is not touched."""
+        return {}
 
     def sights(self, number: int, camera: str) -> Iterator[Sight]:
         """So many sights of the part that the eye is to find, always the same; pictures by `auto`, `gl` or `ray`.

@@ -69,6 +69,9 @@ class _Teller:
                     self.lines[self._heading] = (
                         f"{event.stage.upper()}: {event.status} {self._took(event.time)}"
                     )
+            case happened.UndoStarted():
+                self._shift = None
+                self.lines.append(f"{self.clock(event)} {event.place:>5}  {sentence(event)}")
             case happened.StepStarted():
                 self._lead_on(f"continue at line {event.place}")
                 self._shift = None
@@ -89,7 +92,9 @@ class _Teller:
             case happened.OperatorCalled() | happened.PanicStopped() | happened.OperatorAnswered():
                 self._lead_on("and there it stops")
                 self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
-            case happened.ExperimentMade() | happened.WentBack():
+            case happened.StageUndone() | happened.UndoEnded():
+                self.lines += ["", f"{self.clock(event)}  {sentence(event)}"]
+            case happened.ExperimentMade() | happened.WentBack() | happened.UndoOrdered():
                 self.lines.append(f"{self.clock(event)}  *** {sentence(event)}")
             case _:
                 self._beneath(sentence(event))

@@ -33,6 +33,10 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.OperatorAnswered: Log.INFO,
     happened.ExperimentMade: Log.WARNING,
     happened.PanicStopped: Log.ERROR,
+    happened.UndoOrdered: Log.WARNING,
+    happened.UndoStarted: Log.DEBUG,
+    happened.StageUndone: Log.INFO,
+    happened.UndoEnded: Log.INFO,
     happened.RunFinished: Log.INFO,
 }
 """Events that a person would log, and how much they matter."""
@@ -87,6 +91,9 @@ def sentence(event: Event) -> str:
             return f"stage “{event.stage}”"
         case happened.StageFinished():
             return f"stage “{event.stage}” {event.status}"
+        case happened.UndoStarted():
+            rounds = f", and {counted(event.steps - 1, 'step')} of its loop" if event.steps > 1 else ""
+            return f"undo: {event.text.strip()}{rounds}"
         case happened.StepStarted():
             return event.text
         case happened.StepFinished():
@@ -134,6 +141,13 @@ def sentence(event: Event) -> str:
             return f"experiment: {event.what} {event.name} is set to {value}"
         case happened.PanicStopped():
             return "panic button: drives off, brakes set"
+        case happened.UndoOrdered():
+            but = f", but for the first {counted(event.left, 'step')}" if event.left else ""
+            return f"the arm is told to undo what it did{but}"
+        case happened.StageUndone():
+            return f"stage “{event.stage}” undone"
+        case happened.UndoEnded():
+            return "undone as far as was asked for"
         case happened.WentBack():
             return f"back to event {event.events}: the events after it are undone"
         case happened.RunFinished():

@@ -27,6 +27,7 @@ from handeye.events import (
     OperatorAnswered,
     PictureTaken,
     Restored,
+    StepStarted,
 )
 from handeye.execution.state import Found, Shot
 from handeye.files import write_whole
@@ -358,7 +359,10 @@ def test_going_back_undoes_an_experiment(say: Say) -> None:
 def test_the_call_of_the_operator_is_told_with_what_can_be_said(say: Say) -> None:
     called = say("c")[0]
     assert why(called) == ("operator", CALLED)
-    assert called.said == "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, or go back"
+    assert (
+        called.said
+        == "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+    )
     assert called.did[-1].outcome == f"error 2: {CALLED}; the operator is called"
     assert "  ■ 19          CLOSE   .4" in as_text(called).splitlines()
 
@@ -605,7 +609,7 @@ def test_going_back_farther_than_the_beginning_is_refused(say: Say) -> None:
 
 
 def test_after_the_call_of_the_operator_going_on_needs_an_answer(say: Say) -> None:
-    refusal = "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, or go back"
+    refusal = "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
     assert [answer.error for answer in say("c", "step", "stage", "continue")] == [None, *[refusal] * 3]
 
 
@@ -662,3 +666,18 @@ def test_help_tells_all_commands_and_of_each_alone(say: Say) -> None:
     assert all(command.usage in text and command.help in text for command in COMMANDS)
     assert say("help bs")[0].said.splitlines()[0].startswith("back [N], b: undo the last step")
     assert say("?")[0].said == say("h")[0].said == say("help")[0].said
+
+
+def test_undo_has_the_arm_take_back_what_back_would_restore(say: Say) -> None:
+    there, undone = say("step 2", "undo", "step")[1:]
+    assert undone.position == there.position + 1
+    (told,) = [step for step in there.did if step.line is not None]
+    assert told.text.startswith("undo ")
+    assert there.step is not None
+    assert [event.step for event in undone.events if isinstance(event, StepStarted)] == [there.step]
+
+
+def test_undo_takes_back_a_stage_and_no_more_than_was_done(say: Say) -> None:
+    stage, nothing, far = say("step", "undo stage", "undo", "undo 2")[1:]
+    assert (stage.step, stage.error) == (0, None)
+    assert nothing.error == far.error == "the arm has done nothing that it could undo"

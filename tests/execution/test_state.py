@@ -26,10 +26,11 @@ GIVEN = {
         "world",
         "without",
     },
-    ArmDrive: {"cell", "arm", "watch", "halt"},
+    ArmDrive: {"cell", "arm", "watch", "halt", "track"},
     WorldModel: {"parts", "positions"},
 }
-"""Given anew to each when a run is taken up; `vision` counts processor time, which differs from run to run."""
+"""Given anew to each when a run is taken up; `vision` counts processor time, which differs from run to run, and `track`
+is begun anew with each step."""
 
 
 def test_what_works_holds_what_it_is_given_and_its_state() -> None:

@@ -111,6 +111,19 @@ WORDS: list[tuple[c.Cause, str]] = [
     (c.PlacesTried(places=9), "9 places tried"),
     (c.PlacesTried(places=9, around="T1"), "9 places tried around T1"),
     (c.Looping(place="pins.al:12"), "the program loops at line pins.al:12, and nothing moves"),
+    (
+        c.UndoResisted(force=30.0, limit=20.0),
+        "something resists while the step is undone: the hand feels 107.9 oz; allowed: 71.9 oz",
+    ),
+    (
+        c.HoldOff(gap=0.0, kept=0.0075, holding=True),
+        "the fingers stand at 0.00 in; when the step was executed they held something at 0.30 in",
+    ),
+    (
+        c.HoldOff(gap=0.0, kept=0.0254, holding=False),
+        "the fingers stand at 0.00 in; when the step was executed they stood at 1.00 in",
+    ),
+    (c.UndoUnknown(), "what the step has left for undoing it cannot be used"),
     (c.Recorded(words="as it was said"), "as it was said"),
 ]
 

@@ -10,10 +10,10 @@ import pytest
 from short_runs import begin
 
 from handeye.errors import InvalidInput
+from handeye.packed import packed, sealed
 from handeye.ports.camera import Renderer
 from handeye.runs.conditions import Conditions
 from handeye.runs.kept_calibrations import LARGEST, MAGIC, VERSION, KeptCalibrations
-from handeye.runs.packed import packed, sealed
 from handeye.runs.preparation import Preparation, preparation_of
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner

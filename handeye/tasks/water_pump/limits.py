@@ -38,6 +38,14 @@ ROTOR_SWING: Final = 60.0  # deg, to either side and back: the turn that the pro
 
 HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or touches something is nearer
 
+APART: Final = 3.0  # mm from where the run found a part: what the arm puts back, its next run must find
+APART_GASKET: Final = 6.0
+"""mm. Fingers that close on the gasket in its tray draw it along before they lift it, 3.2 mm in seed 0. It is laid back
+where it was lifted; at 6.4 mm its holes would not let the fingers of the next run in."""
+APART_TURN: Final = (
+    3.0  # deg: at the end of a part as long as the base, half of what the fingers have to spare
+)
+
 SETTLE: Final = 0.2  # s: forces come up to date, and what hangs in the air falls
 FLOOR: Final = -5.0  # mm: nothing may be lower than this under the table top
 PENETRATION: Final = 0.15  # mm of parts pressed on each other: contacts are soft; six screws make it .06 mm

@@ -141,12 +141,12 @@ def _cell(measured: Measured, holes: tuple[Thread, ...]) -> Findings:
         "dispenser": at_most(dispenser, limits.PIN_PLACE, "mm", "loose screw from the dispenser"),
         "floor": at_least(lowest * _MM, limits.FLOOR, "mm", "lowest part over the table top"),
         "hand": at_least(
-            _hand_room(measured, parts) * _MM, limits.HAND_CLEAR, "mm", "hand from the nearest part"
+            hand_room(measured, parts) * _MM, limits.HAND_CLEAR, "mm", "hand from the nearest part"
         ),
     }
 
 
-def _hand_room(measured: Measured, parts: Iterable[str]) -> float:
+def hand_room(measured: Measured, parts: Iterable[str]) -> float:
     """Distance of the hand from the nearest of some parts and what is fixed to them, m; at most twice its limit."""
     model = measured.model
     solid = (model.geom_contype | model.geom_conaffinity) != 0

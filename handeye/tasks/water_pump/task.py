@@ -51,7 +51,7 @@ class WaterPump(Task):
     name = "water_pump"
     arm = STANFORD
     park = PARK
-    words = Words(product="the pump", done="The pump is assembled.")
+    words = Words(product="the pump", done="The pump is assembled.", apart="The pump is taken apart.")
     script = "water_pump.al"
     eye = Eye(drawing=DRAWING, looks=LOOKS)
     photographs = ("studio", "pump")
@@ -103,6 +103,11 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.referee import judge
 
         return judge(truth)
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        from handeye.tasks.water_pump.apart import judge_apart
+
+        return judge_apart(truth)
 
 
 WATER_PUMP: Final = WaterPump()

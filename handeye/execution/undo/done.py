@@ -1,0 +1,46 @@
+"""Record of an executed step: what it takes to undo it by motion."""
+
+from typing import Annotated
+
+import msgspec
+
+from handeye.record import Record
+
+Natural = Annotated[int, msgspec.Meta(ge=0)]
+
+
+class Done(Record, frozen=True, kw_only=True, omit_defaults=True):
+    """An executed step. `before` and `after` are the moments at which it began and ended."""
+
+    step: Natural
+    way: bytes = b""
+    """Set-points of joints and fingers, see `undo.way`; empty: nothing moved."""
+    gap: tuple[float, float]
+    """Finger gap as sensed before and after, m."""
+    fingers: float
+    """Set-point of the finger gap before, m."""
+    grasping: bool = False
+    """The fingers had been told to close before."""
+    load: float = 0.0
+    """Weight that the servo bore before, N."""
+    tool: float = 0.0
+    """Speed of the screwdriver before, rad/s."""
+    force: float = 0.0
+    """Greatest force that the hand has felt, N; 0: it felt for none."""
+    torque: bool = False
+    """It ended on the torque of the driver."""
+    remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
+    """What the program remembered before, as far as that has changed, see `undo.memory`."""
+    enters: bool = False
+    """Its stage began with it."""
+    called: bool = False
+    """It called the operator."""
+
+
+class Undoing(Record, frozen=True, kw_only=True):
+    """How far the arm is to undo what it did."""
+
+    left: Natural
+    """Executed steps that are to be left."""
+    halts: bool = False
+    """The run ends there; otherwise the program can go on."""

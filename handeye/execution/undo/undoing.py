@@ -1,0 +1,247 @@
+"""Undoing executed steps, the last one first: how each operation is undone, and what stops it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from msgspec.structs import replace
+
+from handeye import errors
+from handeye.arm.kinematics import forward
+from handeye.errors import InvalidInput
+from handeye.events import GuardTripped, StageUndone, UndoEnded, UndoFinished, UndoStarted
+from handeye.execution.context import ExecutionContext
+from handeye.execution.servo_loop import Outcome
+from handeye.execution.state import ExecutionState, vector
+from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.undo.loops import loop_entry
+from handeye.execution.undo.memory import remember
+from handeye.execution.undo.resistance import Resistance, allowed
+from handeye.execution.undo.retracing import retracing
+from handeye.execution.undo.way import Way, packed, unpacked
+from handeye.planning.motions import Unreachable, directions, move_trajectory
+from handeye.pose import Array
+from handeye.program.causes import Cause, HoldOff, UndoResisted, UndoUnknown
+from handeye.program.motion_operations import Center, Close, Move, Open
+from handeye.program.operation import Operation
+
+SAME_HOLD: Final = 5e-4
+"""m that the fingers may stand off the gap that they had."""
+BESIDE: Final = 1e-4
+"""rad or m: an arm that is no farther from where a loop was entered is there."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stopped:
+    """Why an undo was broken off: the run stays where it is."""
+
+    error: int | None = None
+    cause: Cause | None = None
+
+
+def order(state: ExecutionState, undoing: Undoing) -> None:
+    """From now on each step undoes one, the last first.
+
+    Raises:
+        InvalidInput: no more is left than what is to be left.
+    """
+    if undoing.left >= len(state.done):
+        raise InvalidInput("there is nothing to undo")
+    state.undoing, state.stopped, state.onward, state.idle = undoing, None, None, 0
+    state.pending, state.at = None, state.done[-1].step
+
+
+def undo_last(run: ExecutionContext) -> Stopped | None:
+    """Undo the step that was executed last, or the rounds of its loop; what is undone is taken off the list.
+
+    Returns:
+        None, or what stopped it: then the last step is as far undone as it came.
+    """
+    state = run.state
+    first = _first_of_rounds(run)
+    here = state.done[-1].step
+    state.stage = run.plan.program.steps[here].stage
+    run.drive.track.begin(run.drive.state.q, run.drive.state.gap)
+    _tell(run, here, len(state.done) - first)
+    try:
+        rounds = first < len(state.done) - 1
+        stopped = _lift(run, first - 1) if rounds else _undo(run, state.done[-1])
+        undone = [] if stopped else _forget(run, first)
+    except ValueError:  # a way or a memory that is none of this program and its arm
+        stopped, undone = Stopped(cause=UndoUnknown()), []
+    run.emit(_finished(run, here))
+    if undone:
+        _come_to(run, undone)
+    return stopped
+
+
+def _first_of_rounds(run: ExecutionContext) -> int:
+    """The index of the first step that is undone with the last one."""
+    state = run.state
+    assert state.undoing is not None
+    entry = loop_entry(state.done, lambda index: _hand_behind(run, index))
+    last = len(state.done) - 1
+    return last if entry is None or entry < state.undoing.left else entry + 1
+
+
+def _tell(run: ExecutionContext, number: int, steps: int) -> None:
+    step = run.plan.program.steps[number]
+    run.emit(
+        UndoStarted(time=run.time, step=number, file=step.file, line=step.line, text=step.text, steps=steps)
+    )
+
+
+def _finished(run: ExecutionContext, number: int) -> UndoFinished:
+    """The account of a step that is undone."""
+    hand, gap = vector(run.drive.hand()[:3, 3]), round(run.drive.sensed.gap, 6)
+    force = round(run.drive.track.force, 3)
+    return UndoFinished(time=run.time, step=number, hand=hand, planned=None, gap=gap, force=force)
+
+
+def _forget(run: ExecutionContext, first: int) -> list[Done]:
+    """Remember what the program did before the step of an index; all from there on, taken off the list."""
+    state, undone = run.state, run.state.done[first:]
+    for done in reversed(undone):
+        remember(state, done.remembered)
+    state.drive.load, state.drive.tool, state.drive.in_air = undone[0].load, 0.0, False
+    del state.done[first:]
+    return undone
+
+
+def _come_to(run: ExecutionContext, undone: list[Done]) -> None:
+    """Tell where the run stands now, and what is next."""
+    state = run.state
+    assert state.undoing is not None
+    assert state.stage is not None
+    if any(done.enters for done in undone):
+        run.emit(StageUndone(time=run.time, stage=run.plan.program.stages[state.stage]))
+        state.stage = None
+    state.at = state.done[-1].step if len(state.done) > state.undoing.left else None
+    if state.at is None:
+        onward, halts = undone[0].step, state.undoing.halts
+        run.emit(UndoEnded(time=run.time, step=onward))
+        state.undoing, state.at = None, None if halts else onward
+
+
+# -- by operation -------------------------------------------------------------------------------------
+
+
+def _undo(run: ExecutionContext, done: Done) -> Stopped | None:
+    operation = run.plan.program.steps[done.step].operation
+    if not done.way:
+        return None
+    if done.tool:
+        return Stopped(cause=UndoUnknown())
+    return _UNDOING.get(type(operation), _retrace)(run, done)
+
+
+def _way(run: ExecutionContext, done: Done) -> Way:
+    return unpacked(done.way, len(run.arm.joints))
+
+
+def _retrace(run: ExecutionContext, done: Done) -> Stopped | None:
+    """Go the way of a step back, with what the hand holds."""
+    way = _way(run, done)
+    return _go(run, done, Way(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
+
+
+def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
+    """Undo a grasp: the fingers open to where they were; a grasp of what they held already changes nothing."""
+    if done.grasping:
+        return _off_hold(run, done.gap[1]) or _retrace(run, done)
+    return _off_hold(run, done.gap[1]) or _fingers_back(run, done)
+
+
+def _take_again(run: ExecutionContext, done: Done) -> Stopped | None:
+    """Undo an opening: the fingers close to where they were, on what they held there."""
+    return _fingers_back(run, done)
+
+
+def _fingers_back(run: ExecutionContext, done: Done) -> Stopped | None:
+    stopped = _go(run, done, _way(run, done))
+    if stopped is not None:
+        return stopped
+    run.drive.state.gap = done.fingers
+    run.drive.hold(run.arm.hand.grasp.settle)
+    return _off_hold(run, done.gap[0], holding=done.grasping)
+
+
+def _off_hold(run: ExecutionContext, kept: float, *, holding: bool = True) -> Stopped | None:
+    """See that the fingers stand where they stood when the step was executed."""
+    gap = run.drive.sensed.gap
+    if abs(gap - kept) <= SAME_HOLD:
+        return None
+    return Stopped(cause=HoldOff(gap=round(gap, 6), kept=kept, holding=holding))
+
+
+_UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, Done], Stopped | None]]] = {
+    Open: _take_again,
+    Close: _let_go,
+    Center: _let_go,
+}
+"""How operations are undone. Other motions go the same set-points the other way; where nothing moved, only what the
+program remembers is as it was."""
+
+
+# -- moving -------------------------------------------------------------------------------------------
+
+
+def _go(run: ExecutionContext, done: Done, way: Way) -> Stopped | None:
+    """Go a way back, guarded; where that is broken off, what is left of it stays to be undone."""
+    drive = run.drive
+    back = retracing(run.arm, drive.state.q, drive.state.gap, way, slowly=done.force > 0)
+    come = -1
+
+    def beside(number: int) -> None:
+        nonlocal come
+        come, drive.state.gap = number, float(back.gap[number])
+
+    along = directions(back.samples, run.arm, drive.state.q)
+    guard = Resistance(limit=allowed(done.force))
+    outcome = drive.follow(back.samples, guard, along, beside)
+    stopped = _met(run, outcome)
+    if stopped is not None and come >= 0:
+        left = slice(0, int(back.left[come]) + 1)
+        rest = packed(Way(q=way.q[left], gap=way.gap[left]))
+        run.state.done[-1] = replace(done, way=rest, gap=(done.gap[0], round(drive.sensed.gap, 6)))
+    return stopped
+
+
+def _lift(run: ExecutionContext, entry: int) -> Stopped | None:
+    """Go to where the hand was when the step of an index was done: up, across and down, as a MOVE goes."""
+    q = _joints_behind(run, entry)
+    if q is None or np.abs(q - run.drive.state.q).max() < BESIDE:
+        return None
+    X_WT, operation = forward(run.arm, q), Move(goal="")
+    trajectory = move_trajectory(run.arm, run.drive.state.q, [], X_WT, operation, run.plan.speed)
+    if isinstance(trajectory, Unreachable):
+        return Stopped(error=errors.NO_SOLUTION, cause=trajectory.why.cause(run.arm))
+    samples = trajectory.sample(run.drive.period)
+    along = directions(samples, run.arm, run.drive.state.q)
+    return _met(run, run.drive.follow(samples, Resistance(limit=allowed(0.0)), along))
+
+
+def _met(run: ExecutionContext, outcome: Outcome) -> Stopped | None:
+    """What a motion met that ends the undo."""
+    if outcome.error is not None:
+        return Stopped(error=outcome.error, cause=outcome.cause)
+    if outcome.trip is None:
+        return None
+    force, limit = round(outcome.trip.value, 6), round(outcome.trip.limit, 6)
+    run.emit(GuardTripped(time=run.time, guard=outcome.trip.guard, value=force, limit=limit))
+    return Stopped(cause=UndoResisted(force=force, limit=limit))
+
+
+def _joints_behind(run: ExecutionContext, index: int) -> Array | None:
+    """Set-point of the arm when the step of an index was done, shape (n,); None: it has not moved yet."""
+    moved = next((done for done in reversed(run.state.done[: index + 1]) if done.way), None)
+    if moved is not None:
+        return np.asarray(_way(run, moved).q[-1])
+    later = next((done for done in run.state.done[index + 1 :] if done.way), None)
+    return None if later is None else np.asarray(_way(run, later).q[0])
+
+
+def _hand_behind(run: ExecutionContext, index: int) -> Array | None:
+    q = _joints_behind(run, index)
+    return None if q is None else np.asarray(forward(run.arm, q)[:3, 3])

@@ -1,0 +1,94 @@
+"""The way of a step: set-points of joints and fingers, a servo period apart, noted as they are put out.
+
+On disk they are whole millionths of a radian or a metre, of which second differences compress to less than a byte each.
+"""
+
+import zlib
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from handeye.pose import Array
+
+GRAIN: Final = 1e-6
+"""rad or m. At the hand a tenth of what the potentiometers tell."""
+_LONGEST: Final = 1 << 22
+"""Numbers of a way, decompressed: days."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Way:
+    """Set-points from before a step to after it."""
+
+    q: Array
+    """Shape (N, n), rad and m."""
+    gap: Array
+    """Shape (N,), m."""
+
+    def __len__(self) -> int:
+        return len(self.gap)
+
+
+@dataclass(slots=True)
+class Track:
+    """Notes the set-points of a step, and the force that the hand feels in it."""
+
+    force: float = 0.0
+    """Greatest so far, N."""
+    _q: list[Array] = field(default_factory=list)
+    _gap: list[float] = field(default_factory=list)
+
+    def begin(self, q: Array, gap: float) -> None:
+        """Begin anew, from the set-points there are."""
+        self.force, self._q, self._gap = 0.0, [q], [gap]
+
+    def note(self, q: Array, gap: float) -> None:
+        """Note the set-points that are put out for a servo period."""
+        self._q.append(q)
+        self._gap.append(gap)
+
+    def felt(self, wrench: Array) -> None:
+        """Note what the hand feels, shape (6,)."""
+        self.force = max(self.force, float(np.linalg.norm(wrench[:3])))
+
+    def way(self, q: Array, gap: float) -> Way | None:
+        """The way that was noted, up to the last set-points; None: none of them differs from another."""
+        way = Way(q=np.array([*self._q, q]), gap=np.array([*self._gap, gap]))
+        rows = _rows(way)
+        moved = np.flatnonzero((rows[1:] != rows[:-1]).any(axis=1))
+        if not len(moved):
+            return None
+        part = slice(int(moved[0]), int(moved[-1]) + 2)  # without what it held still before and after
+        return Way(q=way.q[part], gap=way.gap[part])
+
+
+def packed(way: Way) -> bytes:
+    """A way as bytes, to the grain."""
+    first = np.diff(_rows(way), axis=0, prepend=np.int32(0))
+    return zlib.compress(np.diff(first, axis=0, prepend=np.int32(0)).T.tobytes(), 6)
+
+
+def unpacked(data: bytes, joints: int) -> Way:
+    """The way that `packed` made bytes of.
+
+    Raises:
+        ValueError: it is none of an arm of so many joints.
+    """
+    inflater = zlib.decompressobj()
+    try:
+        inflated = inflater.decompress(data, _LONGEST)
+    except zlib.error as error:
+        raise ValueError(f"it does not hold a way: {error}") from None
+    numbers = np.frombuffer(inflated, "<i4") if len(inflated) % 4 == 0 else np.empty(0)
+    if not inflater.eof or not len(numbers) or len(numbers) % (joints + 1):
+        raise ValueError("it does not hold a way of this arm")
+    second = numbers.reshape(joints + 1, -1).T
+    whole = np.cumsum(np.cumsum(second.astype(np.int64), axis=0), axis=0)
+    rows: Array = np.asarray(whole * GRAIN, dtype=np.float64)
+    return Way(q=rows[:, :-1], gap=rows[:, -1])
+
+
+def _rows(way: Way) -> np.ndarray[tuple[int, ...], np.dtype[np.int32]]:
+    """Joints and gap in grains, shape (N, n + 1)."""
+    return np.rint(np.column_stack([way.q, way.gap]) / GRAIN).astype("<i4")

@@ -1,0 +1,65 @@
+"""Orders to undo a run that is kept: how far, and the checkpoint that the undoing begins with."""
+
+from msgspec.structs import replace
+
+from handeye.diagnostics import quoted
+from handeye.errors import InvalidInput
+from handeye.events import StepStarted, UndoEnded, UndoOrdered
+from handeye.execution.state import ExecutionState
+from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.undo.undoing import order
+from handeye.mutable_records import copied
+from handeye.runs.setup import plan_of
+from handeye.runs.snapshot import Checkpoint
+
+
+def stage_began(state: ExecutionState, checkpoint: Checkpoint, stage: int) -> int:
+    """Steps that were executed when a stage, given by its index, last began.
+
+    Raises:
+        InvalidInput: it has not begun, or what was executed there is undone.
+    """
+    steps = plan_of(checkpoint.setup).program.steps
+    found = [n for n, done in enumerate(state.done) if done.enters and steps[done.step].stage == stage]
+    if not found:
+        name = plan_of(checkpoint.setup).program.stages[stage]
+        raise InvalidInput(f"the stage {quoted(name)} has left nothing to undo")
+    return found[-1]
+
+
+def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) -> Checkpoint:
+    """The run of a checkpoint, its arm about to undo what it did; the run ends when that is done.
+
+    Args:
+        name: of the run, for messages.
+        stage: index of the stage to whose beginning it goes back; None: that of the run.
+
+    Raises:
+        InvalidInput: the run has left nothing to undo, or not all of it.
+    """
+    snapshot = checkpoint.snapshot
+    if snapshot is None or not isinstance(snapshot.state, ExecutionState):
+        raise InvalidInput(f"{name} is no run of a program that has begun: there is nothing to undo")
+    state = copied(snapshot.state)
+    _check_whole(checkpoint, state.done, name)
+    undoing = Undoing(left=0 if stage is None else stage_began(state, checkpoint, stage), halts=True)
+    order(state, undoing)
+    time = checkpoint.events[-1].time
+    events = (*checkpoint.events, UndoOrdered(time=time, left=undoing.left, halts=True))
+    setup = replace(checkpoint.setup, judged=True)
+    return replace(
+        checkpoint, setup=setup, snapshot=replace(snapshot, state=state, happened=len(events)), events=events
+    )
+
+
+def _check_whole(checkpoint: Checkpoint, done: list[Done], name: str) -> None:
+    """Raises InvalidInput unless a run has left a record of its first step, or is at its beginning."""
+    first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
+    if first is None:
+        raise InvalidInput(f"nothing was done in {name}: there is nothing to undo")
+    if not done and any(isinstance(event, UndoEnded) for event in checkpoint.events):
+        raise InvalidInput(f"{name} is undone already")
+    if not done or done[0].step != first.step:
+        raise InvalidInput(
+            f"{name} has no record of how to undo its first steps: an older handeye carried them out"
+        )

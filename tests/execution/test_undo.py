@@ -1,0 +1,181 @@
+"""The arm undoes what it did: a pin goes back into its holder, and what was changed in between stops the arm."""
+
+from collections.abc import Callable
+from functools import cache
+
+import mujoco
+import numpy as np
+import pytest
+from short_runs import begin
+
+from handeye.errors import InvalidInput
+from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
+from handeye.execution.undo.resistance import ALLOWED, allowed
+from handeye.program.causes import HoldOff, UndoResisted
+from handeye.runs.programs import context_of
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+
+pytestmark = pytest.mark.slow
+
+TAKE = """
+        STAGE   "go to the pin"
+        OPEN    1
+        MOVE    P1
+        STAGE   "take the pin"
+        CENTER  .1
+        SAVE    C1
+        CLOSE   0.1
+        CHANGE  [0 0 1] 1.5
+        STAGE   "feel for nothing"
+        ASSIGN  N 3
+ROUND:  MOVE    T1
+        STOP    [0 0 -50]
+        CHANGE  [0 0 -1] .2
+        SKIPN   23
+        SOJG    N ROUND
+        CHANGE  [0 0 1] 1
+"""
+"""Takes a pin out of its holder and goes down with it three times."""
+DROP = f"{TAKE}        OPEN    1\n"
+
+
+@cache
+def done(script: str = TAKE) -> Checkpoint:
+    """A run that has ended."""
+    runner = Runner(begin(script))
+    while not runner.ended:
+        runner.step()
+    assert runner.call is None
+    return runner.checkpoint()
+
+
+def undone(start: Checkpoint, left: int = 0, meddle: Callable[[Runner], None] = lambda _: None) -> Runner:
+    """The run, undone until so many steps are left."""
+    runner = Runner(start)
+    meddle(runner)
+    runner.have_undone(left)
+    while not runner.ended and context_of(runner.system).state.undoing is not None:
+        runner.step()
+    return runner
+
+
+@cache
+def back() -> Runner:
+    return undone(done())
+
+
+def strayed(runner: Runner, body: str) -> float:
+    """How far a body is from where it was before the run, mm."""
+    truth = runner.cell.truth
+    first = mujoco.MjData(truth.model)
+    mujoco.mj_kinematics(truth.model, first)
+    return float(np.linalg.norm(truth.data.body(body).xpos - first.body(body).xpos)) * 1e3
+
+
+def stopped_by(runner: Runner) -> OperatorCalled:
+    assert runner.call is not None
+    return runner.call
+
+
+def test_a_pin_that_was_taken_out_goes_back_into_its_holder() -> None:
+    assert strayed(Runner(done()), "pin0") > 100
+    assert strayed(back(), "pin0") < 0.3
+
+
+def test_the_program_can_go_on_from_its_beginning_with_nothing_remembered() -> None:
+    state = context_of(back().system).state
+    assert (state.at, state.saved, state.counters, state.grasping, state.done) == (0, {}, {}, False, [])
+    again = Runner(back().checkpoint())
+    while not again.ended:
+        again.step()
+    assert again.call is None
+    assert strayed(again, "pin0") == pytest.approx(strayed(Runner(done()), "pin0"), abs=1.0)
+
+
+def test_rounds_that_changed_nothing_but_memory_are_undone_as_one_lift() -> None:
+    texts = [(e.text.split()[0], e.steps) for e in back().events if isinstance(e, UndoStarted)]
+    assert texts.count(("MOVE", 8)) == 1
+    assert [word for word, _ in texts].count("SOJG") == 1
+
+
+def test_stages_are_told_as_they_are_undone_the_last_one_first() -> None:
+    told = [event.stage for event in back().events if isinstance(event, StageUndone)]
+    assert told == ["feel for nothing", "take the pin", "go to the pin"]
+    assert isinstance(back().events[-1], UndoEnded)
+
+
+def test_every_undo_tells_the_greatest_force_that_it_met() -> None:
+    met = [event.force for event in back().events if isinstance(event, UndoFinished)]
+    assert 0 < max(met) < ALLOWED
+
+
+def test_an_undo_may_meet_half_as_much_again_as_its_step_did() -> None:
+    assert (allowed(0.0), allowed(10.0), allowed(20.0)) == (20.0, 20.0, 30.0)
+
+
+def test_a_thing_that_is_no_longer_where_it_was_put_down_stops_the_arm_by_the_gap() -> None:
+    run = undone(done(DROP))
+    cause = stopped_by(run).cause
+    assert isinstance(cause, HoldOff)
+    assert cause.holding
+    assert cause.gap < cause.kept - 1e-3
+    assert run.ended
+    assert context_of(run.system).drive.sensed.braked
+
+
+def test_what_stands_in_the_way_stops_the_arm_by_its_force() -> None:
+    def other_pin_in_its_place(runner: Runner) -> None:
+        data, model = runner.cell.truth.data, runner.cell.truth.model
+        first = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, first)
+        start = model.jnt_qposadr[model.body("pin1").jntadr[0]]
+        data.qpos[start : start + 3] = first.body("pin0").xpos
+        mujoco.mj_forward(model, data)
+
+    run = undone(done(), meddle=other_pin_in_its_place)
+    cause = stopped_by(run).cause
+    assert isinstance(cause, UndoResisted)
+    assert ALLOWED < cause.force < 60.0
+
+
+def test_an_undo_that_was_stopped_goes_on_from_where_the_arm_is() -> None:
+    run = undone(done(DROP))
+    left = len(context_of(run.system).state.done)
+    run.answer("proceed")
+    run.step()
+    assert isinstance(stopped_by(run).cause, HoldOff)
+    assert len(context_of(run.system).state.done) == left
+
+
+def test_undoing_is_the_same_to_the_byte_when_it_is_taken_up_again() -> None:
+    run = Runner(done())
+    run.have_undone(0)
+    for _ in range(6):
+        run.step()
+    again = Runner(run.checkpoint())
+    while context_of(again.system).state.undoing is not None:
+        again.step()
+    assert again.events == back().events
+
+
+def test_a_run_is_repeated_with_what_was_undone_in_it() -> None:
+    again = Runner(begin(TAKE))
+    again.repeat(back().events)
+    assert again.events == back().events
+
+
+def test_one_can_go_back_in_time_through_what_was_undone() -> None:
+    run = undone(done())
+    ends = run.position
+    run.back_to(ends - 3)
+    assert context_of(run.system).state.undoing is not None
+    while context_of(run.system).state.undoing is not None:
+        run.step()
+    assert run.events == back().events
+
+
+def test_no_more_can_be_undone_than_was_done() -> None:
+    run = Runner(begin(TAKE))
+    with pytest.raises(InvalidInput, match=r"^there is nothing to undo$"):
+        run.have_undone(0)

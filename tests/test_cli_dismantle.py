@@ -1,0 +1,140 @@
+"""`handeye dismantle` has the arm undo a run, and tells what came of it."""
+
+import json
+from pathlib import Path
+
+import pytest
+from conftest import Command
+from short_runs import begin
+
+from handeye.runs.checkpoint_file import decode, encode, read_checkpoint
+from handeye.runs.folder import open_new
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+
+pytestmark = pytest.mark.slow
+
+TAKE = """
+        STAGE   "take the pin"
+        OPEN    1
+        MOVE    P1
+        CENTER  .1
+        CLOSE   0.1
+        STAGE   "draw it out"
+        CHANGE  [0 0 1] 1.5
+"""
+DROP = f"{TAKE}        OPEN    1\n"
+
+
+def kept(path: Path, script: str) -> Path:
+    """The folder of a run that has ended."""
+    start = begin(script)
+    folder = open_new(path, start)
+    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
+    while not runner.ended:
+        if runner.between_stages:
+            folder.checkpoint(runner.checkpoint())
+        runner.step()
+    folder.checkpoint(runner.checkpoint())
+    folder.close()
+    return path
+
+
+@pytest.fixture(scope="module")
+def taken(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return kept(tmp_path_factory.mktemp("taken") / "run", TAKE)
+
+
+@pytest.fixture(scope="module")
+def dropped(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return kept(tmp_path_factory.mktemp("dropped") / "run", DROP)
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {str(file): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+def test_what_a_run_did_is_undone_and_its_folder_stays_as_it_was(command: Command, taken: Path) -> None:
+    before = files(taken)
+    code, out, err = command("dismantle", str(taken), "--out", "apart")
+    assert code == 0, out + err
+    assert "The pump is taken apart." in out
+    assert "lost or damaged" not in err
+    assert files(taken) == before
+    assert command("dismantle", "apart")[0::2] == (2, "handeye: apart is undone already\n")
+    again = command("resume", "apart")
+    assert (again[0], "taken apart" in again[1]) == (0, True)
+
+
+def test_as_json_the_referee_tells_how_far_each_part_is_from_where_it_was(
+    command: Command, taken: Path
+) -> None:
+    code, out, _ = command("dismantle", str(taken), "--json")
+    told = json.loads(out)
+    assert (code, told["apart"], told["assembled"], told["completed"]) == (0, True, None, True)
+    assert told["referee"]["pins"]["value"] < 0.5
+    assert {stage["status"] for stage in told["stages"]} == {"undone"}
+
+
+def test_it_goes_back_to_the_beginning_of_a_stage(command: Command, taken: Path) -> None:
+    code, out, _ = command("dismantle", str(taken), "--to", "draw", "--json")
+    told = json.loads(out)
+    assert (code, told["apart"], told["referee"]) == (0, None, {})
+    assert [stage["status"] for stage in told["stages"]] == ["done", "undone"]
+
+
+def test_a_guard_stops_it_with_exit_code_1_and_says_why(command: Command, dropped: Path) -> None:
+    code, out, _ = command("dismantle", str(dropped))
+    assert code == 1
+    assert "the fingers stand at" in " ".join(out.split())
+
+
+def test_it_is_resumed_where_it_was_broken_off(command: Command, taken: Path) -> None:
+    command("dismantle", str(taken), "--out", "apart")
+    whole = Path("apart/events.jsonl").read_bytes()
+    last = max(Path("apart/checkpoints").glob("0*.checkpoint"))
+    last.unlink()
+    for left in ("result.json", "trace.mcap"):
+        Path("apart", left).unlink()
+    code, out, _ = command("resume", "apart")
+    assert (code, "The pump is taken apart." in out) == (0, True)
+    again = [line for line in Path("apart/events.jsonl").read_bytes().splitlines() if b"WentBack" not in line]
+    assert again[-1] == whole.splitlines()[-1]
+
+
+def test_a_run_of_an_older_handeye_is_refused_in_a_sentence(command: Command, taken: Path) -> None:
+    newest = read_checkpoint(max((taken / "checkpoints").glob("0*.checkpoint")))
+    assert newest.snapshot is not None
+    newest.snapshot.state.done.clear()  # type: ignore[attr-defined] # a state of the executor
+    Path("old.checkpoint").write_bytes(encode(newest))
+    code, _, err = command("dismantle", "old.checkpoint")
+    assert code == 2
+    assert err == (
+        "handeye: old.checkpoint has no record of how to undo its first steps: an older handeye carried them out\n"
+    )
+
+
+def test_a_folder_without_a_run_is_refused(command: Command) -> None:
+    Path("empty").mkdir()
+    code, _, err = command("dismantle", "empty")
+    assert (code, err) == (2, "handeye: empty is not the folder of a run: it has no checkpoints\n")
+
+
+def test_a_run_that_has_not_begun_leaves_nothing_to_undo(command: Command) -> None:
+    Path("new.checkpoint").write_bytes(encode(Checkpoint(setup=begin(TAKE).setup)))
+    code, _, err = command("dismantle", "new.checkpoint")
+    assert code == 2
+    assert err == "handeye: new.checkpoint is no run of a program that has begun: there is nothing to undo\n"
+
+
+def test_a_way_that_was_tampered_with_stops_the_arm(command: Command, taken: Path) -> None:
+    from msgspec.structs import replace
+
+    newest = decode(max((taken / "checkpoints").glob("0*.checkpoint")).read_bytes(), "run")
+    assert newest.snapshot is not None
+    done = newest.snapshot.state.done  # type: ignore[attr-defined] # a state of the executor
+    done[-1] = replace(done[-1], way=b"no way")
+    Path("bad.checkpoint").write_bytes(encode(newest))
+    code, out, _ = command("dismantle", "bad.checkpoint")
+    assert code == 1
+    assert "what the step has left for undoing it cannot be used" in " ".join(out.split())
