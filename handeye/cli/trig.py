@@ -105,7 +105,8 @@ def show(
     Exit code 0: shown; 2: bad input.
     """
     from handeye.trig.full_display import full_display
-    from handeye.trig.partial_display import partial_display, plain
+    from handeye.trig.partial_display import partial_display
+    from handeye.trig.styled import plain
     from handeye.trig.symbols import symbols_for
 
     if width and not 20 <= width <= 1000:

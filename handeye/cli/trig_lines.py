@@ -12,10 +12,11 @@ from handeye.trig.command_table import COMMANDS
 from handeye.trig.desk import Button, Desk, Withdrawn, buttons
 from handeye.trig.full_display import full_display
 from handeye.trig.hearing import hear, stripped
-from handeye.trig.partial_display import partial_display, plain
+from handeye.trig.partial_display import partial_display
 from handeye.trig.place import told_place
 from handeye.trig.position import is_named
 from handeye.trig.session import Session
+from handeye.trig.styled import plain
 from handeye.trig.symbols import symbols_for
 
 PROMPT = ">"

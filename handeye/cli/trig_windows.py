@@ -20,10 +20,11 @@ from handeye.cli.trig_keys import BOX_HELP, BUSY_HELP, LINE_HELP, PAGE_HELP, STE
 from handeye.plain_text import counted, printable
 from handeye.trig.command_table import COMMANDS
 from handeye.trig.full_display import full_display
-from handeye.trig.partial_display import Line, partial_display
+from handeye.trig.partial_display import partial_display
 from handeye.trig.place import told_place
 from handeye.trig.position import is_named
 from handeye.trig.session import Session
+from handeye.trig.styled import Line
 from handeye.trig.symbols import symbols_for
 
 if TYPE_CHECKING:

@@ -29,6 +29,8 @@ class Jog:
 
 
 Button = Jog | Literal["record", "kill"]
+ENDS: Final[dict[str, Button]] = {"RECORD": "record", "SAVE": "record", "KILL": "kill"}
+"""Buttons that end what is done with the teach box, by their words."""
 
 
 class Desk(ABC):
@@ -111,12 +113,14 @@ def buttons(line: str) -> list[Button]:
     words = deque(line.upper().split())
     while words:
         word = words.popleft()
-        if word in ("RECORD", "SAVE"):
-            found.append("record")
-        elif word == "KILL":
-            found.append("kill")
-        else:
+        if word not in ENDS:
             found.append(_jog(word, words))
+            continue
+        if words:
+            raise InvalidInput(
+                f"{word} ends what is done with the teach box; {quoted(words[0])} comes too late"
+            )
+        found.append(ENDS[word])
     return found
 
 

@@ -8,8 +8,8 @@ from typing import Final
 
 from handeye.trig.layout import Cell, Elbow, layout
 from handeye.trig.node import NONE, TOP, NodeType
-from handeye.trig.partial_display import Line, Style
 from handeye.trig.program import TrigProgram
+from handeye.trig.styled import Line, Style
 from handeye.trig.symbols import UNICODE, Symbols
 
 SIGNS: Final[dict[NodeType, str]] = {

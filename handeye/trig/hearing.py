@@ -3,7 +3,7 @@
 from handeye.diagnostics import nearest, quoted
 from handeye.errors import InvalidInput
 from handeye.trig.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
-from handeye.trig.desk import Withdrawn
+from handeye.trig.desk import ENDS, Withdrawn
 from handeye.trig.given import read_given
 from handeye.trig.place import AXES
 from handeye.trig.session import Session
@@ -50,7 +50,7 @@ def command_of(word: str) -> TrigCommand:
     command = COMMANDS.get(SYNONYMS.get(upper, upper))
     if command is not None:
         return command
-    if upper in (*AXES, "RECORD", "KILL", "SAVE"):
+    if upper in (*AXES, *ENDS):
         raise InvalidInput(f"{upper} is on the teach box, which is heard while M or FREE waits for it")
     near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
     raise InvalidInput(

@@ -1,36 +1,37 @@
 """Partial display: the steps around the active one, a row each, in as much detail as there is room for."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from handeye.trig.graph import Graph
 from handeye.trig.layout import Cell, Elbow, Layout, layout
-from handeye.trig.node import NONE, TOP, TOP_NAME, UNNAMED, Node
-from handeye.trig.position import Positions, is_named
+from handeye.trig.node import NONE, TOP, UNNAMED
 from handeye.trig.program import TrigProgram
+from handeye.trig.step_words import step_words
+from handeye.trig.styled import Line, Style, fitted, plain
 from handeye.trig.symbols import UNICODE, Symbols
 
-Style = str
-"""What a piece of text is: `active`, `name`, `position`, `hand`, `guarded`, `loop`, `link`, `line`, or nothing."""
-Line = list[tuple[Style, str]]
-"""Pieces of text from left to right."""
-NO_POSITION: Final = "- -"
-GUARD: Final = " G"
-"""Behind the position of a guarded step."""
 _NARROWEST: Final = 18
 """Characters of a column."""
-_LONGEST: Final = 16
-"""Characters of a name, before it is cut."""
 _GAP: Final = 2
+"""Characters between two columns."""
+_MARKER: Final = 3
+"""Characters before a name: the cursor, and the branch."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Columns:
-    """Widths that all columns have, in characters."""
+class _Pane:
+    """The part of a program that is shown, and how wide its columns are."""
 
+    program: TrigProgram
+    symbols: Symbols
     name: int
-    whole: int
+    """Characters of the longest name."""
+    column: int
+    """Characters of a column."""
+    cells: dict[tuple[int, int], Cell]
+    """By row and column."""
+    elbows: dict[int, Elbow]
+    """By row."""
 
 
 def partial_display(program: TrigProgram, width: int, height: int, symbols: Symbols = UNICODE) -> list[Line]:
@@ -38,24 +39,13 @@ def partial_display(program: TrigProgram, width: int, height: int, symbols: Symb
     if program.first == NONE:
         return [[("active", symbols.cursor)]]
     drawn = layout(program.graph, top=program.cursor == TOP)
-    active = next((c for c in drawn.cells if c.node.id == program.cursor and not c.link), None)
-    columns = _columns(program, drawn, width, symbols)
-    first_row = _scrolled(0 if active is None else active.row, drawn.rows, height, above=height // 3)
-    shown = max(1, (width + _GAP) // (columns.whole + _GAP))
-    first_column = _scrolled(0 if active is None else active.column, drawn.columns, shown, above=shown - 1)
-    cells = {
-        (cell.row - first_row, cell.column - first_column): cell
-        for cell in drawn.cells
-        if cell.row < first_row + height and first_row <= cell.row
-    }
-    elbows = {
-        elbow.row - first_row: elbow for elbow in drawn.elbows if first_row <= elbow.row < first_row + height
-    }
-    rows = min(height, drawn.rows - first_row)
-    return [
-        _row(program, row, shown, cells, elbows.get(row), first_column, columns, symbols)
-        for row in range(rows)
-    ]
+    pane = _pane(program, drawn, width, symbols)
+    active = next(cell for cell in drawn.cells if cell.node.id == program.cursor and not cell.link)
+    shown = max(1, (width + _GAP) // (pane.column + _GAP))
+    first = _scrolled(active.row, drawn.rows, height, above=height // 3)
+    left = _scrolled(active.column, drawn.columns, shown, above=shown - 1)
+    rows = range(first, min(first + height, drawn.rows))
+    return [fitted(_row(pane, row, range(left, left + shown)), width) for row in rows]
 
 
 def _scrolled(active: int, count: int, room: int, above: int) -> int:
@@ -63,74 +53,29 @@ def _scrolled(active: int, count: int, room: int, above: int) -> int:
     return max(0, min(active - above, count - room))
 
 
-def _columns(program: TrigProgram, drawn: Layout, width: int, symbols: Symbols) -> _Columns:
-    pairs = [words(program.graph, program.positions, cell, symbols) for cell in drawn.cells]
-    name = max([len(UNNAMED)] + [min(_LONGEST, len(words[0])) for words in pairs if words[1]])
-    whole = max([_NARROWEST] + [3 + (name + 2 + len(two) if two else len(one)) for one, two, _ in pairs])
-    return _Columns(name=name, whole=min(whole, width))
+def _pane(program: TrigProgram, drawn: Layout, width: int, symbols: Symbols) -> _Pane:
+    words = [step_words(program.graph, program.positions, cell, symbols) for cell in drawn.cells]
+    name = max([len(UNNAMED), *(len(name) for name, deed, _ in words if deed)])
+    widths = (name + _GAP + len(deed) if deed else len(text) for text, deed, _ in words)
+    return _Pane(
+        program=program,
+        symbols=symbols,
+        name=name,
+        column=min(width, max(_NARROWEST, *(_MARKER + width for width in widths))),
+        cells={(cell.row, cell.column): cell for cell in drawn.cells},
+        elbows={elbow.row: elbow for elbow in drawn.elbows},
+    )
 
 
-def words(
-    graph: Graph, positions: Positions, cell: Cell, symbols: Symbols = UNICODE
-) -> tuple[str, str, Style]:
-    """Name and position of a step as they are shown, or a text in the place of both, and what that is."""
-    node = cell.node
-    if cell.link:
-        return f"[{_cut(node.name or UNNAMED, symbols)}]", "", "link"
-    if node.type == "top":
-        return TOP_NAME.lower(), "", "name"
-    if node.type == "loop":
-        target = graph.target(node)
-        name = UNNAMED if target is None else target.name or UNNAMED
-        return f"LOOP {_cut(name, symbols)} {node.wanted} ({node.count})", "", "loop"
-    style = {"guarded": "guarded", "normal": "position", "savpos": "position"}.get(node.type, "hand")
-    return _cut(node.name or UNNAMED, symbols), _position(node, positions, symbols), style
-
-
-def _position(node: Node, positions: Positions, symbols: Symbols) -> str:
-    """What a step does, in a word."""
-    if node.position is None:
-        return f"({node.type})"
-    name = _cut(node.position, symbols) if is_named(node.position) else NO_POSITION
-    sign = "#" if positions[node.position].relative else ""
-    minus = "-" if node.negate else ""
-    guard = GUARD if node.type == "guarded" else ""
-    return f"{'=' if node.type == 'savpos' else ''}{minus}{sign}{name}{guard}"
-
-
-def _cut(name: str, symbols: Symbols) -> str:
-    return name if len(name) <= _LONGEST else name[: _LONGEST - 1] + symbols.more
-
-
-def _row(
-    program: TrigProgram,
-    row: int,
-    shown: int,
-    cells: dict[tuple[int, int], Cell],
-    elbow: Elbow | None,
-    first: int,
-    columns: _Columns,
-    symbols: Symbols,
-) -> Line:
+def _row(pane: _Pane, row: int, columns: range) -> Line:
     """One row of the display."""
     line: Line = []
-    for column in range(shown):
-        cell = cells.get((row, column))
-        start = len(plain([line]))
-        pieces = [] if cell is None else _pieces(program, cell, columns, symbols)
-        line += pieces
-        room = columns.whole + _GAP - (len(plain([line])) - start)
-        line.append(_filled(room, column + first, elbow, symbols))
-    _strip(line)
+    for column in columns:
+        cell = pane.cells.get((row, column))
+        pieces = [] if cell is None else _pieces(pane, cell)
+        room = pane.column + _GAP - len(plain([pieces]))
+        line += [*pieces, _filled(room, column, pane.elbows.get(row), pane.symbols)]
     return line
-
-
-def _strip(line: Line) -> None:
-    """Take the blanks at the end of a line away."""
-    while line and not line[-1][1].strip():
-        line.pop()
-    if line:
-        line[-1] = (line[-1][0], line[-1][1].rstrip())
 
 
 def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tuple[Style, str]:
@@ -138,27 +83,16 @@ def _filled(room: int, column: int, elbow: Elbow | None, symbols: Symbols) -> tu
     if elbow is None or not elbow.start <= column <= elbow.end:
         return "", " " * room
     if column == elbow.end:
-        return "line", (symbols.line * 3 + symbols.corner).ljust(room)
+        return "line", (symbols.line * _MARKER + symbols.corner).ljust(room)
     return "line", " " + symbols.line * (room - 1)
 
 
-def _pieces(program: TrigProgram, cell: Cell, columns: _Columns, symbols: Symbols) -> Line:
-    one, two, style = words(program.graph, program.positions, cell, symbols)
-    active = cell.node.id == program.cursor and not cell.link
-    marker = symbols.cursor if active else " "
-    whole = f"{one:{columns.name}}  {two}" if two else one
-    room = columns.whole - 3
-    if active:
-        return [("active", f"{marker}{cell.branch:1} {whole[:room]}")]
-    if not two:
-        return [("branch", f" {cell.branch:1} "), (style, one[:room])]
-    return [
-        ("branch", f" {cell.branch:1} "),
-        ("name", f"{one:{columns.name}}  "),
-        (style, two[: room - columns.name - 2]),
-    ]
-
-
-def plain(lines: Sequence[Line]) -> str:
-    """The text of lines alone."""
-    return "\n".join("".join(text for _, text in line) for line in lines)
+def _pieces(pane: _Pane, cell: Cell) -> Line:
+    """A step, its cursor or branch before it."""
+    name, deed, style = step_words(pane.program.graph, pane.program.positions, cell, pane.symbols)
+    text = f"{name:{pane.name}}  " if deed else ""
+    if cell.node.id == pane.program.cursor and not cell.link:
+        line = [("active", f"{pane.symbols.cursor}{cell.branch:1} {text}{deed or name}")]
+    else:
+        line = [("branch", f" {cell.branch:1} "), ("name", text), (style, deed or name)]
+    return fitted(line, pane.column)

@@ -58,6 +58,7 @@ class Script(Desk):
         return self._halted()
 
     def wrong(self, error: InvalidInput) -> None:
+        self._pressed.clear()
         raise error
 
 

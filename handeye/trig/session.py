@@ -122,8 +122,13 @@ class Session:
         active = self.program.active
         if branch in active.links:
             target = self.program.graph[self.program.graph.step_at(active.sons[branch])]
-            name = target.name or "a step"
-            raise InvalidInput(f"a link leads on to {name} here; `DLINK {name}` takes it away first")
+            if target.name is None:
+                raise InvalidInput(
+                    "a link leads on from here to a step without a name; N and CN name it for DLINK"
+                )
+            raise InvalidInput(
+                f"a link leads on to {target.name} here; `DLINK {target.name}` takes it away first"
+            )
         return branch
 
     def taught(self) -> Place:

@@ -5,8 +5,10 @@ from trig_sessions import BUCKET, Typist
 
 from handeye.errors import InvalidInput
 from handeye.trig.command_table import COMMANDS, TABLE, TrigCommand
+from handeye.trig.hearing import hear
 from handeye.trig.node import NONE, TOP
 from handeye.trig.place import Place
+from handeye.trig.script import Script
 from handeye.units import OUNCE_FORCE
 
 GUARDED = "MG DOWN\nZ 10 RECORD\n2\n(0 0 1)\n"
@@ -158,6 +160,17 @@ def test_a_position_is_defined_anew_only_where_somebody_says_so() -> None:
     assert typist.session.program.positions["A"].init.x == 0.01
 
 
+def test_what_is_left_of_a_line_of_the_box_that_was_wrong_is_not_heard_later() -> None:
+    typist = Typist()
+    script = Script(["X 500 RECORD", "M B", "X 5 RECORD"])
+    typist.session.desk = script
+    with pytest.raises(InvalidInput):
+        hear(typist.session, "M A")
+    hear(typist.session, script.next_line() or "")
+    assert [step.position for step in typist.steps] == ["B"]
+    assert typist.at[0] == 5
+
+
 def test_the_kill_switch_records_nothing() -> None:
     typist = Typist()
     assert "kill switch" in refused(typist, "M A\nX 30 KILL")
@@ -196,6 +209,8 @@ def test_the_kill_switch_records_nothing() -> None:
         ("* DANCE", "`DANCE` cannot be done with a table; write `* STACK 20 X 150 Y 0`, or `* CLEAR`"),
         ("M B\nUP", "`UP` is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"),
         ("M B\nX 500 RECORD", "X would be 500 mm; the arm goes from -200 to 200"),
+        ("M B\nX 500 RECORD\nM C", "X would be 500 mm; the arm goes from -200 to 200"),
+        ("M B\nRECORD X 3", "RECORD ends what is done with the teach box; `X` comes too late"),
         ("M A\nperhaps", "`perhaps` is no answer; type Yes or No"),
     ],
 )

@@ -8,7 +8,8 @@ from trig_sessions import BUCKET, PALLETISE, Typist, straight
 from handeye.trig.full_display import full_display
 from handeye.trig.layout import layout
 from handeye.trig.node import NORMAL
-from handeye.trig.partial_display import partial_display, plain
+from handeye.trig.partial_display import partial_display
+from handeye.trig.styled import plain
 from handeye.trig.symbols import ASCII, UNICODE, symbols_for
 
 FIGURE_10 = """\

@@ -143,6 +143,12 @@ def test_a_link_replaces_what_follows_where_somebody_agrees() -> None:
     assert typist.names == ["S1", "S2", "S4"]
 
 
+def test_a_step_that_others_lead_to_stays_where_it_is_drawn_when_one_of_them_goes() -> None:
+    typist = Typist(FORK + "GOTO NORMAL-SON\nL GUARDED-SON\nD NORMAL-SON")
+    guarded = typist.step("G1")
+    assert (guarded.sons, guarded.links) == ([typist.step("GUARDED-SON").id] * 2, {NORMAL})
+
+
 def test_a_step_that_only_its_own_links_lead_to_goes_with_its_father() -> None:
     typist = Typist(straight(4) + "\nL S2\nDA S2")
     assert typist.names == ["S1"]

@@ -6,7 +6,7 @@ from trig_sessions import BUCKET, PALLETISE, Typist, typed
 from handeye.errors import InvalidInput
 from handeye.trig.hearing import hear
 from handeye.trig.no_arm import NoArm
-from handeye.trig.running import Ran
+from handeye.trig.running import Ran, Runner
 from handeye.trig.session import Session
 
 SEVENTH = 100
@@ -77,6 +77,29 @@ def test_a_run_that_is_halted_after_any_number_of_steps_can_be_taken_back() -> N
 
 def _rounded(arm: NoArm) -> list[tuple[str, float, float, float]]:
     return [(block.name, round(block.x, 9), round(block.y, 9), round(block.z, 9)) for block in arm.blocks]
+
+
+def test_every_step_back_restores_what_was_before_it() -> None:
+    typist = palletiser(20)
+    program, forward = typist.session.program, list[str]()
+
+    def state() -> str:
+        counts = [step.count for step in typist.steps if step.type == "loop"]
+        place = [round(value, 9) for value in typist.arm.here()]
+        return f"{counts} {program.positions['PALLET'].data} {typist.arm.closed} {place}"
+
+    class Watched(Runner):
+        """Notes the state whenever a step begins."""
+
+        def _begin(self, id: int) -> bool:
+            forward.append(state())
+            return True
+
+    runner = Watched(program=program, arm=typist.arm, halted=lambda: False, refresh=lambda: None)
+    assert runner.run().steps == len(forward) == 227
+    for before in reversed(forward):
+        assert typist.session.runner.back(1).steps == 1
+        assert state() == before
 
 
 def test_a_run_that_is_halted_goes_on_as_if_it_had_not_been() -> None:

@@ -10,9 +10,10 @@ from trig_sessions import PALLETISE, Typist
 
 from handeye.errors import InvalidInput
 from handeye.trig.full_display import full_display
-from handeye.trig.partial_display import partial_display, plain
+from handeye.trig.partial_display import partial_display
 from handeye.trig.program import TrigProgram
 from handeye.trig.storage import decoded, encoded
+from handeye.trig.styled import plain
 
 MAJOR = {
     "id", "type", "name", "position", "negate", "sons", "links", "fathers", "last_father", "threshold", "vector",

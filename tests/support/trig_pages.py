@@ -1,0 +1,59 @@
+"""Pages about TRIG whose sessions are carried out: what is typed in a page happens, and what is shown comes of it.
+
+A block `trig` is typed into the session of the page; `begin` in place of it begins a new one. The blocks behind it show
+what was told since (`told`), and what can be seen then: the steps (`partial`), and the whole program (`full`).
+"""
+
+import re
+from collections.abc import Callable
+from typing import Final
+
+from handeye.errors import InvalidInput
+from handeye.trig.full_display import full_display
+from handeye.trig.hearing import hear
+from handeye.trig.no_arm import NoArm
+from handeye.trig.partial_display import partial_display
+from handeye.trig.script import Script
+from handeye.trig.session import Session
+from handeye.trig.styled import plain
+
+WIDTH: Final = 78
+_BLOCK: Final = re.compile(r"^```(trig|begin|told|partial|full)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+class Page:
+    """A page that is carried out from its beginning."""
+
+    def __init__(self) -> None:
+        self._begin()
+
+    def carried_out(self, text: str) -> str:
+        """The page with what really happens."""
+        return _BLOCK.sub(self._block, text)
+
+    def _begin(self) -> None:
+        self._told: list[str] = []
+        self._session = Session(arm=NoArm(), desk=Script(()))
+
+    def _block(self, found: re.Match[str]) -> str:
+        kind, lines = found.groups()
+        if kind in ("trig", "begin"):
+            if kind == "begin":
+                self._begin()
+            self._type(lines)
+            return found[0]
+        shown: dict[str, Callable[[], str]] = {
+            "told": lambda: "\n".join(self._told),
+            "partial": lambda: plain(partial_display(self._session.program, WIDTH, 40)),
+            "full": lambda: plain(full_display(self._session.program, WIDTH, 8)),
+        }
+        return f"```{kind}\n{shown[kind]()}\n```"
+
+    def _type(self, lines: str) -> None:
+        script = Script(lines.splitlines(), lambda sentence: self._told.append(sentence))
+        self._session.desk, self._told = script, []
+        while not self._session.over and (line := script.next_line()) is not None:
+            try:
+                hear(self._session, line)
+            except InvalidInput as error:
+                self._told.append(str(error))
