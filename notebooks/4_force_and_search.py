@@ -174,5 +174,6 @@ print(f"catches {catches:.3f} in; a step of .07 needs {0.07 / 2**0.5:.4f}")
 # It holds, with a tenth to spare for an arm that comes to no place exactly. Which figures of the cell were printed in
 # 1973, and which were chosen so that the program of 1973 can work, stands beside each in the drawing.
 #
-# You have come to the end. [The tutorial](../docs/language/tutorial.md) leads through the language once more, with
+# The last notebook, [5. What each sense is worth](5_what_each_sense_is_worth.ipynb), takes the senses away, one by one.
+# [The tutorial](../docs/language/tutorial.md) leads through the language once more, with
 # every run shown; [stepping](../docs/stepping.md) takes you into the middle of an assembly.

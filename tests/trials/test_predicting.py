@@ -20,6 +20,7 @@ from handeye.trials.batch.contacts import SearchEnd
 from handeye.trials.batch.folder import BatchFolder
 from handeye.trials.batch.row import Row
 from handeye.trials.batch.trial import Trial
+from handeye.trials.prediction import predicting
 from handeye.trials.prediction.figures import figures, worst_of
 from handeye.trials.prediction.predicting import Prediction, predict
 from handeye.variation import WorldSpec
@@ -80,9 +81,10 @@ def test_whole_trials_are_counted_beside_what_was_predicted_of_them() -> None:
     assert lies.close == pytest.approx(2 / 3)
 
 
-def test_the_same_is_predicted_in_any_number_of_processes() -> None:
+def test_the_same_is_predicted_in_any_number_of_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(predicting, "CHUNK", 15)
     program = handeye.plan(handeye.scripts / "water_pump.al").record.program
-    seeds = range(500, 760)
+    seeds = range(500, 540)
     one, two = (predict(program, WORLD, seeds, workers=workers) for workers in (1, 2))
     assert all((a.off == b.off).all() for a, b in zip(one.each, two.each, strict=True))
     assert one.used.tolist() == two.used.tolist()

@@ -36,4 +36,6 @@ def worlds(found: Prediction) -> Table:
         Column(name="thinnest", about="what that is", values=tuple(f"{p.operation}, {p.at}: {p.what}" for p in thin)),
         *(Column(name=f"{each.operation}, {each.at}: {each.what}", about=f"of {each.room:.3f}", unit=each.unit,
                  values=each.off) for each in found.each),
+        *(Column(name=f"{each.operation}, {each.at}: places", about="that a search tries", values=each.places)
+          for each in found.each if each.places is not None),
     ))  # fmt: skip
