@@ -14,10 +14,11 @@ from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
-from handeye.pose import Array, translated
+from handeye.pose import Array, hand, inverse, planar, pose, translated
 from handeye.program.program import Program
 from handeye.runs.scripts import default_script, plan_script
 from handeye.tasks import task
+from handeye.tasks.water_pump.drawing import web_centre
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.prediction import eye, layers, pins, screws
@@ -25,7 +26,7 @@ from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.hands import Hands
 from handeye.tasks.water_pump.prediction.poses import placed
 from handeye.tasks.water_pump.prediction.predict import predict
-from handeye.tasks.water_pump.prediction.things import standing_base
+from handeye.tasks.water_pump.prediction.things import drawn_on_stand, standing_base
 from handeye.tasks.water_pump.prediction.worlds import Worlds
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.variation import variation
@@ -105,7 +106,7 @@ def test_the_eye_is_off_as_a_calibration_leaves_it() -> None:
     for look in LOOKS:
         pan, tilt = DRAWING.aim(look.at, look.lens)
         for place in look.places:
-            lamp = np.array(place) + eye._shown(worlds, hands, place, look.hand_angle)[0]
+            lamp = true_lamp(PumpWorld.draw(still), np.array(place), look.hand_angle)
             u, v = true.view(look.lens, pan, tilt).project(lamp)[0]
             sightings.append(
                 Sighting(lens=look.lens, pan=pan, tilt=tilt, u=float(u), v=float(v), point_W=place)
@@ -118,6 +119,16 @@ def test_the_eye_is_off_as_a_calibration_leaves_it() -> None:
     off = (found - holes)[:, :2]
     assert np.abs(off).max() > 3e-4  # it is something
     assert eye.seen_off(worlds, hands, holes)[0] == pytest.approx(off, abs=2e-4)
+
+
+def true_lamp(world: PumpWorld, place: Array, angle: float) -> Array:
+    """Where the lamp is when the arm believes it at a place, m."""
+    drawn = np.array(STANFORD.hand.lamp)
+    X_WT = hand(0, 0, 0, angle, np.pi / 2, 0)
+    q = solve(STANFORD, translated(X_WT, place - X_WT[:3, :3] @ drawn), PARK).q
+    assert q is not None
+    X = forward(STANFORD, world.arm.positions(q))
+    return X[:3, 3] + X[:3, :3] @ (drawn + world.lamp + (0, 0, world.arm_build.hand_length))
 
 
 @pytest.mark.slow
@@ -137,6 +148,30 @@ def test_a_pin_is_off_as_the_simulated_hand_finds_it(seed: int) -> None:
     for name, most in (("Y1", 0.8), ("E1", 1.5)):
         off = done.saved(name)[:2] * 25.4 - predicted.saved[name][0, :2] * 1e3
         assert np.abs(off).max() < most, (name, off)
+
+
+TAKING = {
+    "gasket": ("G", "OPEN 1.9\nMOVE GUP\nMOVE G DIRECT\nCLOSE .7\n", (web_centre(), 0.0, 0.0)),
+    "top": ("TOP", "OPEN 2.8\nMOVE TOP\nCENTER 2\nCLOSE 2 2.4\n", (0.0, 0.0, 0.0)),
+}
+"""Where a layer is taken, how, and by which point of it."""
+
+
+@pytest.mark.parametrize("layer", ["gasket", "top"])
+def test_a_layer_lies_in_the_simulated_hand_as_predicted(layer: str) -> None:
+    """In the middle between the fingers, and off across them, where nothing is felt."""
+    spec = WorldSpec(seed=15, level="high")
+    goal, script, grip = TAKING[layer]
+    predicted, point = assembly(spec), np.array(grip)
+    X_TP = layers._held(predicted, layer, goal, point)[0]
+    feeling = script + "STOP [0 0 40]\nCHANGE [0 0 1] .1\n"  # of one that feels, the arm has weighed itself
+    done = bench(feeling, world=PumpWorld.draw(spec)).to("CHANGE")
+    tool = done.cell.truth.data.site("stanford/tool")
+    X_WT, X_WP = pose(tool.xmat.reshape(3, 3), tool.xpos), done.pose(layer)
+    drawn = inverse(predicted.planned(goal)) @ planar(*drawn_on_stand(layer))
+    held, told = ((X @ [*point, 1.0])[:3] for X in (inverse(X_WT) @ X_WP, X_TP))
+    assert held * 1e3 == pytest.approx(told * 1e3, abs=0.5)
+    assert abs(told - (drawn @ [*point, 1.0])[:3])[0] * 1e3 > 0.7  # across the fingers it is something
 
 
 def test_the_demo_saved_what_is_predicted_of_its_world() -> None:
