@@ -11,17 +11,16 @@ from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say,
 from handeye.cli.panic_button import PanicButton
 from handeye.errors import InvalidInput
 from handeye.extras import MissingExtra
-from handeye.source import read_source
 
 if TYPE_CHECKING:
     from handeye.trig.running import Ran
     from handeye.trig.session import Session
 
 ArmKind = Annotated[
-    Literal["none"],
+    Literal["none", "purbrick"],
     Parameter(
         name="--arm",
-        help="The arm. `none` is one that is only imagined, with the blocks that a script puts there.",
+        help="The arm: `none` is only imagined; `purbrick` is that of the paper, with physics.",
     ),
 ]
 TrigFile = Annotated[
@@ -53,10 +52,13 @@ def edit(
 
     Exit code 0: left; 2: bad input, or a line that was piped in was refused; 130: interrupted.
     """
-    if at_terminal():
-        return _conversed(file)
+    from handeye.cli.trig_sessions import opened
+
     with PanicButton() as panic:
-        return _piped(file, panic)
+        session = opened(arm, file, panic)
+        if not at_terminal():
+            return _piped(session, panic)
+    return _conversed(session, arm)
 
 
 def run(
@@ -72,11 +74,12 @@ def run(
     Exit code 0: the program has ended, and with --back everything is undone; 1: the arm was stopped before;
     2: bad input; 130: interrupted.
     """
+    from handeye.cli.trig_sessions import opened
     from handeye.trig.reports import report
     from handeye.trig.teachable import OutOfTravel
 
     with PanicButton() as panic:
-        session = _loaded(file, panic)
+        session = opened(arm, file, panic)
         runner, ways = session.runner, []
         try:
             ways.append(_told(runner.run(), back=False, json=json))
@@ -104,6 +107,7 @@ def show(
 
     Exit code 0: shown; 2: bad input.
     """
+    from handeye.cli.trig_sessions import opened
     from handeye.trig.full_display import full_display
     from handeye.trig.partial_display import partial_display
     from handeye.trig.styled import plain
@@ -112,7 +116,7 @@ def show(
     if width and not 20 <= width <= 1000:
         raise InvalidInput(f"a display is 20 to 1000 characters wide, not {width}")
     with PanicButton() as panic:
-        program = _loaded(file, panic).program
+        program = opened("none", file, panic).program
     symbols, wide = symbols_for(sys.stdout.encoding), width or screen.width
     height = max(1, len(program.graph.nodes))
     for display in (full_display, partial_display):
@@ -125,35 +129,13 @@ def at_terminal() -> bool:
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
-def _loaded(file: Path, halted: Callable[[], bool]) -> "Session":
-    """A session in which a script has been typed, or a program read.
-
-    Raises:
-        InvalidInput: it cannot be.
-    """
-    from handeye.trig.no_arm import NoArm
-    from handeye.trig.script import Script, type_script
-    from handeye.trig.session import Session
-    from handeye.trig.storage import ENDING, read_program
-
-    if file.name.endswith(ENDING):
-        return Session(arm=NoArm(), desk=Script((), note, halted), program=read_program(file), file=file)
-    script = Script(read_source(file).text.splitlines(), halted=halted)
-    session = Session(arm=NoArm(), desk=script)
-    type_script(session, script, str(file))
-    return session
-
-
-def _piped(file: Path | None, halted: Callable[[], bool]) -> int:
+def _piped(session: "Session", halted: Callable[[], bool]) -> int:
     """Hear the lines of standard input; one that is refused is told, and the next is heard."""
     from handeye.trig.hearing import hear
-    from handeye.trig.no_arm import NoArm
     from handeye.trig.script import Script
-    from handeye.trig.session import Session
 
-    script, code = Script(iter(sys.stdin.readline, ""), say, halted), 0
-    session = Session(arm=NoArm(), desk=script) if file is None else _loaded(file, halted)
-    session.desk = script
+    code = 0
+    session.desk = script = Script(iter(sys.stdin.readline, ""), say, halted)
     while not session.over and (line := script.next_line()) is not None:
         try:
             hear(session, line)
@@ -163,27 +145,19 @@ def _piped(file: Path | None, halted: Callable[[], bool]) -> int:
     return code
 
 
-def _conversed(file: Path | None) -> int:
+def _conversed(session: "Session", arm: str) -> int:
     """Converse with somebody at a terminal: on a screen, or line by line where that cannot be had."""
-    from handeye.trig.no_arm import NoArm
-    from handeye.trig.script import Script
-    from handeye.trig.session import Session
-
-    with PanicButton() as panic:
-        session = Session(arm=NoArm(), desk=Script(())) if file is None else _loaded(file, panic)
-    session.over = False
     try:
-        from handeye.cli.trig_screen import Screen
+        from handeye.cli.trig_screen import PACE, Screen
     except ModuleNotFoundError:
         from handeye.cli.trig_lines import converse
 
-        note(
-            f"{MissingExtra('trig', 'prompt_toolkit', 'terminal')}; without it there are lines and no screen"
-        )
+        missing = MissingExtra("trig", "prompt_toolkit", "terminal")
+        note(f"{missing}; without it there are lines and no screen")
         with PanicButton() as panic:
             converse(session, panic)
         return 0
-    Screen(session).run()
+    Screen(session, pace=PACE if arm == "none" else 0.0).run()
     return 0
 
 

@@ -80,9 +80,10 @@ def unlink(session: Session, given: Given) -> None:
         raise InvalidInput(
             f"{target.name} can be reached from the top by this step only; `DA {target.name}` deletes it"
         )
+    above = program.above(node.id)
     graph.attach(node.id, branch, NONE)
     prune(graph)
-    program.changed = True
+    program.edited(above)
 
 
 def flush(session: Session, given: Given) -> None:

@@ -22,7 +22,7 @@ def hear(session: Session, line: str) -> None:
     if not word:
         return
     if word.startswith(MARK):
-        session.desk.tell(arrange(session.arm, f"{word} {rest}"))
+        session.desk.tell(arrange(session.table, f"{word} {rest}"))
         return
     if word.upper() in ("HELP", "?"):
         session.desk.tell(help(rest.strip()))

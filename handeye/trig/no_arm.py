@@ -11,6 +11,7 @@ from typing import Final
 
 from handeye.record import Vector3
 from handeye.trig.place import Place
+from handeye.trig.tabletop import Tabletop
 from handeye.trig.teachable import Arrival, Halted, Teachable
 
 TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), math.radians(170)),))
@@ -41,7 +42,7 @@ class Block:
         return self.under(place) and self.z - HEIGHT < place.z < self.z
 
 
-class NoArm(Teachable):
+class NoArm(Teachable, Tabletop):
     """Arm, hand and blocks, all of them imagined."""
 
     def __init__(self) -> None:
@@ -84,15 +85,20 @@ class NoArm(Teachable):
             self.held = None
         self._closed = closed
 
+    @property
+    def count(self) -> int:
+        return len(self.blocks)
+
+    def bucket(self, x: float, y: float) -> None:
+        """Put a bucket there, into which nothing will fall."""
+
     def stack(self, count: int, x: float, y: float) -> None:
-        """Put blocks on each other on the table at a place (m)."""
         there = len(self.blocks)
         self.blocks += [
             Block(name=f"{there + number}", x=x, y=y, z=number * HEIGHT) for number in range(1, count + 1)
         ]
 
     def clear(self) -> None:
-        """Take all blocks away."""
         self.blocks, self.held = [], None
 
     def _met(self, goal: Place) -> float | None:

@@ -80,6 +80,16 @@ class TrigProgram:
             self.taken, self.paused = None, NONE
         self.cursor = id
 
+    def edited(self, above: int) -> None:
+        """Something has been taken away; where the cursor was on it, it goes above.
+
+        Args:
+            above: the step above, as it was before.
+        """
+        self.changed = True
+        if self.cursor not in self.graph:
+            self.put_cursor(above if above in self.graph else TOP)
+
     def remember(self, done: Done) -> None:
         """Put what is done on the trail."""
         self.forgotten |= len(self.trail) == self.trail.maxlen

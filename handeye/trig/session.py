@@ -13,6 +13,7 @@ from handeye.trig.place import Place
 from handeye.trig.position import Position, is_named
 from handeye.trig.program import TrigProgram
 from handeye.trig.running import Runner
+from handeye.trig.tabletop import Tabletop
 from handeye.trig.teachable import Teachable
 
 
@@ -28,6 +29,7 @@ class Session:
     """An arm, a person, and the program that they make."""
 
     arm: Teachable
+    table: Tabletop
     desk: Desk
     program: TrigProgram = field(default_factory=TrigProgram)
     origin: Place | None = None

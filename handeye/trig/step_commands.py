@@ -134,9 +134,10 @@ def link(session: Session, given: Given) -> None:
         raise InvalidInput(f"the active step leads on to {target.name} already")
     if son != NONE:
         session.confirmed(f"Another step follows here. Replace it by a link to {target.name}? ")
+    above = program.above(program.cursor)
     program.graph.attach(program.cursor, branch, entry, link=True)
     prune(program.graph)
-    program.changed = True
+    program.edited(above)
 
 
 def _add(session: Session, node: Node, branch: int) -> None:

@@ -1,22 +1,48 @@
-"""Tabletop: what somebody does with the things on the table, between two commands. Only imagined things obey words."""
+"""Tabletop: what somebody does with the things on the table, between two commands."""
 
+from abc import ABC, abstractmethod
 from typing import Final
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.trig.desk import number
-from handeye.trig.no_arm import HEIGHT, TRAVEL, NoArm
-from handeye.trig.teachable import Teachable
 from handeye.units import MILLIMETRE
 
 MARK: Final = "*"
 """How a line begins that is about the table."""
-MOST: Final = int(TRAVEL[2][1] / HEIGHT)
-"""Blocks of a stack that the arm can come above."""
-_HELP: Final = "write `* STACK 20 X 150 Y 0`, or `* CLEAR`"
+MOST: Final = 25
+"""Blocks of a stack."""
+FARTHEST: Final = 200.0
+"""mm from the middle of the table."""
+_HELP: Final = "write `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`"
 
 
-def arrange(arm: Teachable, line: str) -> str:
+class Tabletop(ABC):
+    """What lies before an arm, as far as somebody puts it there."""
+
+    @property
+    @abstractmethod
+    def count(self) -> int:
+        """How many blocks there are."""
+
+    @abstractmethod
+    def stack(self, count: int, x: float, y: float) -> None:
+        """Put blocks on each other at a place (m)."""
+
+    @abstractmethod
+    def bucket(self, x: float, y: float) -> None:
+        """Put a bucket at a place (m).
+
+        Raises:
+            InvalidInput: there is one already.
+        """
+
+    @abstractmethod
+    def clear(self) -> None:
+        """Take everything away."""
+
+
+def arrange(table: Tabletop, line: str) -> str:
     """Do what a line says with the things on the table.
 
     Returns:
@@ -25,18 +51,27 @@ def arrange(arm: Teachable, line: str) -> str:
     Raises:
         InvalidInput: it says nothing that can be done.
     """
-    if not isinstance(arm, NoArm):
-        raise InvalidInput(
-            "what lies on a real table is put there by hand; `*` is for an arm that is imagined"
-        )
     words = line.removeprefix(MARK).upper().split()
     match words:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MOST:
-            arm.stack(int(count), number(x) * MILLIMETRE, number(y) * MILLIMETRE)
+            table.stack(int(count), _at(x), _at(y))
         case ["STACK", count, "X", _, "Y", _]:
             raise InvalidInput(f"a stack has 1 to {MOST} blocks, not {quoted(count)}")
+        case ["BUCKET", "X", x, "Y", y]:
+            table.bucket(_at(x), _at(y))
         case ["CLEAR"]:
-            arm.clear()
+            table.clear()
         case _:
             raise InvalidInput(f"{quoted(' '.join(words))} cannot be done with a table; {_HELP}")
-    return f"blocks on the table: {len(arm.blocks)}"
+    return f"blocks on the table: {table.count}"
+
+
+def _at(word: str) -> float:
+    """A place on the table, m.
+
+    Raises:
+        InvalidInput: it is no number, or lies beyond the table.
+    """
+    if abs(number(word)) > FARTHEST:
+        raise InvalidInput(f"a table ends {FARTHEST:g} mm from its middle, before {quoted(word)}")
+    return number(word) * MILLIMETRE

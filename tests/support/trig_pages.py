@@ -33,7 +33,7 @@ class Page:
 
     def _begin(self) -> None:
         self._told: list[str] = []
-        self._session = Session(arm=NoArm(), desk=Script(()))
+        self._session = Session(arm=(arm := NoArm()), table=arm, desk=Script(()))
 
     def _block(self, found: re.Match[str]) -> str:
         kind, lines = found.groups()

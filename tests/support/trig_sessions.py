@@ -22,7 +22,7 @@ class Typist:
         self.arm = NoArm()
         self.told: list[str] = []
         self.halted = halted
-        self.session = Session(arm=self.arm, desk=Script(()))
+        self.session = Session(arm=self.arm, table=self.arm, desk=Script(()))
         self.type(text)
 
     def type(self, text: str) -> None:
@@ -75,6 +75,6 @@ def straight(count: int) -> str:
 def typed(text: str) -> Session:
     """The session in which a text has been typed."""
     script = Script(text.splitlines())
-    session = Session(arm=NoArm(), desk=script)
+    session = Session(arm=(arm := NoArm()), table=arm, desk=script)
     type_script(session, script, "script")
     return session

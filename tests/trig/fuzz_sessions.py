@@ -111,7 +111,7 @@ class DrawnSession:
 
     def __init__(self, number: int) -> None:
         self.chance = random.Random(number)  # noqa: S311 - no secret
-        self.made = Session(arm=NoArm(), desk=Somebody(self.chance))
+        self.made = Session(arm=(arm := NoArm()), table=arm, desk=Somebody(self.chance))
         self.made.arm.hand(False)
         self.lines: list[str] = []
 

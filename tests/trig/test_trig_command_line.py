@@ -64,9 +64,7 @@ def test_a_run_that_the_arm_cannot_do_is_stopped(command: Command) -> None:
     assert (code, err) == (1, "handeye: X would be 270 mm; the arm goes from -200 to 200\n")
 
 
-@pytest.mark.parametrize(
-    "words", [("trig", "--arm", "purbrick"), ("trig", "run"), ("trig", "show", "a", "b")]
-)
+@pytest.mark.parametrize("words", [("trig", "--arm", "puma"), ("trig", "run"), ("trig", "show", "a", "b")])
 def test_wrong_words_are_told(command: Command, words: tuple[str, ...]) -> None:
     code, _, err = command(*words)
     assert (code, err.startswith("handeye: ")) == (2, True)

@@ -206,7 +206,10 @@ def test_the_kill_switch_records_nothing() -> None:
         ("N -1", "N and P go 1 to 100000 steps; N goes down, P goes up"),
         ("GOPOS B\x1b[2J", "`B\u241b[2J` is not a name: a letter, then letters, digits, `-` and `_`"),
         ("RECORD", "RECORD is on the teach box, which is heard while M or FREE waits for it"),
-        ("* DANCE", "`DANCE` cannot be done with a table; write `* STACK 20 X 150 Y 0`, or `* CLEAR`"),
+        (
+            "* DANCE",
+            "`DANCE` cannot be done with a table; write `* STACK 20 X 150 Y 0`, `* BUCKET X 140 Y 0`, or `* CLEAR`",
+        ),
         ("M B\nUP", "`UP` is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"),
         ("M B\nX 500 RECORD", "X would be 500 mm; the arm goes from -200 to 200"),
         ("M B\nX 500 RECORD\nM C", "X would be 500 mm; the arm goes from -200 to 200"),

@@ -7,7 +7,7 @@ from fuzz_sessions import carried_out
 
 FEW = range(60)
 """Sessions that are drawn in the suite."""
-ONCE_WRONG = (296, 298)
+ONCE_WRONG = (296, 298, 22281, 30409, 35853, 36803)
 """Sessions that have found something."""
 
 

@@ -44,6 +44,8 @@ def test_the_cursor_asks_on_the_way_down_and_remembers_on_the_way_up() -> None:
     assert palletiser.active.name == "FINISH"
     palletiser.type("P")
     assert palletiser.active.type == "loop"
+    linked = Typist(PALLETISE + "GOTO FINISH\nP")
+    assert linked.active.type == "loop"
     palletiser.type("* CLEAR\nRUN")
     assert palletiser.active.name == "FINISH"
     palletiser.type("P")
@@ -134,6 +136,13 @@ def test_nothing_is_put_below_a_link() -> None:
         InvalidInput, match=r"^a link leads on to FINISH here; `DLINK FINISH` takes it away first$"
     ):
         typist.type("GRASP")
+
+
+def test_a_loop_that_a_link_cuts_from_its_bloop_goes_and_the_cursor_stays_above() -> None:
+    typist = Typist(straight(3))
+    typist.type("L S1\nGOTO S1\nLOOP S2 2\nL S1\nYes")
+    assert (typist.names, typist.active.name) == (["S1"], "S1")
+    assert typist.active.sons == [typist.active.id]
 
 
 def test_a_link_replaces_what_follows_where_somebody_agrees() -> None:

@@ -21,7 +21,7 @@ def typed(monkeypatch: pytest.MonkeyPatch, *lines: str) -> Session:
         yield from (line for line in [next(waiting, None)] if line is not None)
 
     monkeypatch.setattr(trig_lines, "typed_lines", typed_lines)
-    session = Session(arm=NoArm(), desk=Script(()))
+    session = Session(arm=(arm := NoArm()), table=arm, desk=Script(()))
     trig_lines.converse(session, PanicButton())
     return session
 

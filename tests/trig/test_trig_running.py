@@ -146,7 +146,9 @@ class SlowArm(NoArm):
 
 def test_a_relative_move_that_is_halted_on_its_way_ends_where_it_would_have() -> None:
     typist = Typist("MR STEP\nX BY 40 RECORD\nCN A\nLOOP A 4\nFREE\nX 0 RECORD\n")
-    session = Session(arm=(arm := SlowArm()), desk=typist.session.desk, program=typist.session.program)
+    session = Session(
+        arm=(arm := SlowArm()), table=arm, desk=typist.session.desk, program=typist.session.program
+    )
     strikes = iter([False, False, False, False, True])
     runner = session.runner
     runner.halted = lambda: next(strikes, False)

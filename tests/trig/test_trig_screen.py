@@ -46,7 +46,7 @@ def shown(session: Session, keys: list[str], look: Callable[[Screen], None] = la
 
 def empty() -> Session:
     """A session that begins."""
-    return Session(arm=NoArm(), desk=Script(()))
+    return Session(arm=(arm := NoArm()), table=arm, desk=Script(()))
 
 
 def told(screen: Screen) -> list[str]:

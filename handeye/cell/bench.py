@@ -1,0 +1,91 @@
+"""Bench: machines whose servos are closed outside the computer, in one scene under one clock."""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.errors import InvalidInput
+from handeye.ports.axes import Axes, AxesReading, AxisSpec
+from handeye.ports.clock import Clock, whole_steps
+from handeye.pose import Array
+
+MICROSECONDS: Final = 1_000_000
+
+
+class Bench(Clock):
+    """A scene, and its time in whole microseconds: steps of the physics add up to it without rounding."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.model, self.data = model, mujoco.MjData(model)
+        self._step = round(model.opt.timestep * MICROSECONDS)
+        self._now = 0
+        mujoco.mj_forward(self.model, self.data)
+
+    def replace(self, spec: mujoco.MjSpec) -> None:
+        """Go on with a changed scene: what was there before is where it was."""
+        self.model, self.data = spec.recompile(self.model, self.data)
+        mujoco.mj_forward(self.model, self.data)
+
+    @property
+    def now(self) -> float:
+        return self._now / MICROSECONDS
+
+    def advance(self, seconds: float) -> None:
+        steps = whole_steps(seconds, self._step / MICROSECONDS)
+        mujoco.mj_step(self.model, self.data, steps)
+        self._now += steps * self._step
+        if not np.isfinite(self.data.qpos).all():
+            raise InvalidInput(f"the physics of the bench has failed at {self.now:.3f} s")
+
+
+class BenchAxes(Axes):
+    """One machine of a bench: joints with position servos, a hand, and what it senses."""
+
+    def __init__(
+        self,
+        bench: Bench,
+        specs: Sequence[AxisSpec],
+        *,
+        hand: str,
+        period: float,
+        channels: Mapping[str, str],
+    ) -> None:
+        """Take joints of a scene for a machine.
+
+        Args:
+            specs: its axes, by the names of joints and servos.
+            hand: name of the servo of its hand.
+            period: s between two goals.
+            channels: sensors of three components by the channel that they are told as, with x, y and z behind it.
+        """
+        self._bench, self._specs, self._period = bench, tuple(specs), period
+        self._hand, self._channels = hand, channels
+
+    @property
+    def specs(self) -> tuple[AxisSpec, ...]:
+        return self._specs
+
+    @property
+    def period(self) -> float:
+        return self._period
+
+    def read(self) -> AxesReading:
+        data = self._bench.data
+        felt = {
+            channel + axis: float(value)
+            for channel, sensor in self._channels.items()
+            for axis, value in zip("xyz", data.sensor(sensor).data, strict=True)
+        }
+        gap = float(data.actuator(self._hand).length[0])
+        q = np.array([data.joint(spec.name).qpos[0] for spec in self._specs])
+        return AxesReading(time=self._bench.now, q=q, channels={**felt, "gap": gap})
+
+    def put(self, goal: Array, hand: float) -> None:
+        if not (np.isfinite(goal).all() and np.isfinite(hand)):
+            raise InvalidInput("a goal of an axis is not a finite number")
+        data = self._bench.data
+        for spec, value in zip(self._specs, goal, strict=True):
+            data.actuator(spec.name).ctrl = value
+        data.actuator(self._hand).ctrl = hand

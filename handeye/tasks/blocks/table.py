@@ -1,0 +1,78 @@
+"""The platter's load: blocks and a bucket, put there by somebody between two commands."""
+
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.bench import Bench
+from handeye.errors import InvalidInput
+from handeye.tasks.blocks.machine import scene
+from handeye.trig.tabletop import Tabletop
+
+HEIGHT: Final = 0.012
+"""m, of a block; 30 mm along and across, of aluminium: 29 g."""
+_GAP: Final = 2e-5
+"""m between two blocks that are put on each other."""
+_WALL: Final = 0.003
+_DEEP: Final = 0.060
+_WIDE: Final = 0.035
+"""m: half the bucket's width, inside."""
+
+
+class BlockTable(Tabletop):
+    """A bench, and what lies on its platter."""
+
+    def __init__(self) -> None:
+        self._spec = scene()
+        self.bench = Bench(self._spec.compile())
+        key = self.bench.model.joint("z").qposadr[0]
+        self.bench.data.qpos[key] = 0.3
+        mujoco.mj_forward(self.bench.model, self.bench.data)
+        self._names: list[str] = []
+
+    @property
+    def count(self) -> int:
+        return len(self._names)
+
+    def stack(self, count: int, x: float, y: float) -> None:
+        names = [f"block_{len(self._names) + number}" for number in range(1, count + 1)]
+        platter = self.bench.data.body("platter").xpos
+        for level, name in enumerate(names):
+            z = platter[2] + HEIGHT / 2 + level * (HEIGHT + _GAP) + _GAP
+            body = self._spec.worldbody.add_body(name=name, pos=[platter[0] + x, platter[1] + y, z])
+            body.add_freejoint(name=name)
+            body.add_geom(self._spec.find_default("block"), name=name)
+        self._names += names
+        self.bench.replace(self._spec)
+
+    def bucket(self, x: float, y: float) -> None:
+        platter = self._spec.body("platter")
+        if self._spec.geom("bucket_1") is not None:
+            raise InvalidInput("there is a bucket already; `* CLEAR` takes it away")
+        for number, (dx, dy) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1)), 1):
+            size = [_WALL if dx else _WIDE + 2 * _WALL, _WALL if dy else _WIDE, _DEEP / 2]
+            at = [x + dx * (_WIDE + _WALL), y + dy * (_WIDE + _WALL), _DEEP / 2]
+            style = self._spec.find_default("bucket")
+            platter.add_geom(style, name=f"bucket_{number}", pos=at, size=size, mass=0.05)
+        self.bench.replace(self._spec)
+
+    def clear(self) -> None:
+        for name in self._names:
+            self._spec.delete(self._spec.body(name))
+        for number in range(1, 5):
+            if (wall := self._spec.geom(f"bucket_{number}")) is not None:
+                self._spec.delete(wall)
+        self._names = []
+        self.bench.replace(self._spec)
+
+    def tops(self) -> dict[str, tuple[float, float, float]]:
+        """The middles of the upper faces of the blocks over the platter (m), for a referee."""
+        data = self.bench.data
+        platter = data.body("platter").xpos
+        found = {}
+        for name in self._names:
+            body = data.body(name)
+            x, y, z = body.xpos - platter + body.xmat.reshape(3, 3) @ np.array([0, 0, HEIGHT / 2])
+            found[name] = (float(x), float(y), float(z))
+        return found

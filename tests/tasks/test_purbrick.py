@@ -1,0 +1,100 @@
+"""The Purbrick arm: the scene is what its machine's manual says, and a bench keeps time and places."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from handeye.cell.bench import Bench
+from handeye.errors import InvalidInput
+from handeye.ports.axes import AxisSpec
+from handeye.tasks.blocks.bench import purbrick
+from handeye.tasks.blocks.machine import PERIOD, SPECS, machine, scene
+from handeye.tasks.blocks.table import HEIGHT, BlockTable
+from handeye.trig.axes_arm import ACCELERATION, OPEN
+from handeye.trig.no_arm import BLOCK, TRAVEL
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench(scene().compile())
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda spec: spec.name)
+def test_the_scene_has_each_axis_as_the_machine_has_it(bench: Bench, spec: AxisSpec) -> None:
+    joint = bench.model.joint(spec.name)
+    kind = {"prismatic": mujoco.mjtJoint.mjJNT_SLIDE, "revolute": mujoco.mjtJoint.mjJNT_HINGE}[spec.kind]
+    assert joint.type[0] == kind
+    assert joint.range == pytest.approx([spec.lower, spec.upper], abs=1e-4)
+
+
+def test_an_axis_moves_the_hand_over_the_platter() -> None:
+    """By its own amount and in its own direction, and the tips touch the platter at zero."""
+    model = scene().compile()
+    data = mujoco.MjData(model)
+
+    def tip() -> np.ndarray:
+        mujoco.mj_forward(model, data)
+        middle = (data.geom("sensed_tip").xpos + data.geom("other_tip").xpos) / 2
+        half = model.geom("sensed_tip").size[2]
+        low: np.ndarray = middle - [0, 0, half] - data.body("platter").xpos
+        return low
+
+    assert tip() == pytest.approx([0, 0, 0], abs=1e-9)
+    for axis in range(3):
+        data.qpos[:] = 0
+        data.joint(SPECS[axis].name).qpos[0] = 0.1
+        assert tip() == pytest.approx(np.eye(3)[axis] * 0.1, abs=1e-9)
+
+
+def test_the_arm_that_is_imagined_has_the_travel_of_this_one() -> None:
+    assert tuple((spec.lower, spec.upper) for spec in SPECS) == TRAVEL
+
+
+def test_a_stack_of_twenty_blocks_stands_what_the_platter_does() -> None:
+    """It tips where its weight, at half its height, turns it over the edge of its base."""
+    tips_at = 9.81 * (BLOCK / 2) / (20 * HEIGHT / 2)
+    assert ACCELERATION[0] < tips_at == pytest.approx(1.226, abs=0.001)
+
+
+def test_a_bench_keeps_time_in_whole_microseconds(bench: Bench) -> None:
+    for _ in range(1000):
+        bench.advance(0.001)
+    assert bench.now == 1.0
+    with pytest.raises(InvalidInput, match=r"is not a whole number of physics steps of 0\.001 s"):
+        bench.advance(0.0015)
+
+
+def test_the_axes_go_where_they_are_told(bench: Bench) -> None:
+    axes = machine(bench)
+    goal = np.array([0.01, -0.02, 0.1, 0.1, 0.0, -0.1])
+    axes.put(goal, OPEN)
+    bench.advance(1.0)
+    reading = axes.read()
+    assert reading.q == pytest.approx(goal, abs=1e-5)
+    assert reading.channels["gap"] == pytest.approx(OPEN, abs=1e-4)
+    assert (reading.time, axes.period) == (1.0, PERIOD)
+    with pytest.raises(InvalidInput, match=r"^a goal of an axis is not a finite number$"):
+        axes.put(goal * np.nan, OPEN)
+
+
+def test_what_lies_on_the_platter_stays_there_when_more_is_put_there() -> None:
+    table = BlockTable()
+    table.stack(2, 0.05, 0.0)
+    table.bench.advance(0.2)
+    before = table.tops()
+    table.stack(1, -0.05, 0.0)
+    table.bucket(0.1, 0.1)
+    after = table.tops()
+    assert all(after[name] == pytest.approx(at, abs=1e-6) for name, at in before.items())
+    assert table.count == 3
+    with pytest.raises(InvalidInput, match=r"^there is a bucket already"):
+        table.bucket(0.1, -0.1)
+    table.clear()
+    assert (table.count, table.bench.now) == (0, 0.2)
+    table.bucket(0.1, 0.1)
+
+
+def test_an_arm_is_switched_on_above_the_middle_with_its_hand_open() -> None:
+    arm, table = purbrick()
+    assert arm.here().measures() == (0, 0, 300, 0, 0, 0)
+    assert (arm.closed, table.count) == (False, 0)
