@@ -13,7 +13,6 @@ from handeye.errors import InvalidInput
 from handeye.extras import MissingExtra
 
 if TYPE_CHECKING:
-    from handeye.trig.running import Ran
     from handeye.trig.session import Session
 
 ArmKind = Annotated[
@@ -74,18 +73,22 @@ def run(
     Exit code 0: the program has ended, and with --back everything is undone; 1: the arm was stopped before;
     2: bad input; 130: interrupted.
     """
-    from handeye.cli.trig_sessions import opened
+    from handeye.cli.trig_sessions import opened, watched
+    from handeye.trig.cursor_commands import told_run
     from handeye.trig.reports import report
-    from handeye.trig.teachable import OutOfTravel
 
     with PanicButton() as panic:
         session = opened(arm, file, panic)
-        runner, ways = session.runner, []
+        tell = note if json else say
         try:
-            ways.append(_told(runner.run(), back=False, json=json))
+            with watched(session, panic):
+                ways = [session.runner.run()]
+            tell(told_run(ways[0]))
             if back and ways[0].end != "halted":
-                ways.append(_told(runner.back(ALL), back=True, json=json))
-        except OutOfTravel as error:
+                with watched(session, panic):
+                    ways.append(session.runner.back(ALL))
+                tell(told_run(ways[1], back=True))
+        except InvalidInput as error:  # by the arm: the program was read
             complain(error)
             return 1
     if json:
@@ -159,10 +162,3 @@ def _conversed(session: "Session", arm: str) -> int:
         return 0
     Screen(session, pace=PACE if arm == "none" else 0.0).run()
     return 0
-
-
-def _told(ran: "Ran", *, back: bool, json: bool) -> "Ran":
-    from handeye.trig.cursor_commands import told_run
-
-    (note if json else say)(told_run(ran, back=back))
-    return ran

@@ -1,10 +1,14 @@
 """Sessions of TRIG as the command line opens them: with an arm, and what a file brings."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal
 
-from handeye.cli.common import note
+from rich.status import Status
+
+from handeye.cli.common import note, notes
+from handeye.plain_text import printable
 from handeye.source import read_source
 from handeye.tasks.benches import open_bench
 from handeye.trig.no_arm import NoArm
@@ -29,9 +33,8 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
     elif file is not None:
         script = Script(read_source(file).text.splitlines(), halted=_interrupting(halted))
         session.desk = script
-        if arm != "none":
-            note(f"typing {file}")
-        type_script(session, script, str(file))
+        with notes.status(f"typing {printable(str(file))}"):
+            type_script(session, script, str(file))
     session.desk, session.over = Script((), note, halted), False
     return session
 
@@ -42,6 +45,26 @@ def _new(name: ArmName) -> Session:
         return Session(arm=imagined, table=imagined, desk=Script(()))
     arm, table = open_bench(name)
     return Session(arm=arm, table=table, desk=Script(()))
+
+
+@contextmanager
+def watched(session: Session, halted: Halted) -> Iterator[None]:
+    """While a program runs, show at a terminal how far it is: an arm with physics takes its time."""
+    with notes.status("running") as status:
+        session.desk = _Watched(session, status, halted)
+        yield
+
+
+class _Watched(Script):
+    """A desk that shows where a run is."""
+
+    def __init__(self, session: Session, status: Status, halted: Halted) -> None:
+        super().__init__((), note, halted)
+        self._session, self._status = session, status
+
+    def refresh(self) -> None:
+        active = self._session.program.active
+        self._status.update(f"running: {active.name or active.position or active.type}")
 
 
 def _interrupting(halted: Callable[[], bool]) -> Halted:

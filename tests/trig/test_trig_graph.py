@@ -130,6 +130,11 @@ def test_editing_leaves_the_trail_and_what_was_deleted_cannot_be_undone() -> Non
     ]
 
 
+def test_a_link_makes_its_step_the_most_recent_father() -> None:
+    typist = Typist(straight(3) + "\nGOTO S1\nN\nGOTO S3\nL S2\nGOTO S2\nP")
+    assert typist.active.name == "S3"
+
+
 def test_nothing_is_put_below_a_link() -> None:
     typist = Typist(PALLETISE)
     with pytest.raises(

@@ -160,6 +160,18 @@ def test_a_relative_move_that_is_halted_on_its_way_ends_where_it_would_have() ->
     assert arm.here().measures()[0] == 0
 
 
+def test_a_run_that_is_halted_before_its_first_step_comes_round_again_goes_on_and_does_not_begin_anew() -> (
+    None
+):
+    typist = Typist("MR DX\nX BY 20 RECORD\nCN A\nLOOP A 4\nFREE\nX 0 RECORD\n")
+    strikes = iter([False, False, False, True])
+    typist.halted = lambda: next(strikes, False)
+    typist.type("RUN")
+    assert (typist.at[0], typist.active.name) == (20, "A")
+    typist.type("RUN 1000")
+    assert typist.at[0] == 100
+
+
 def test_a_relative_loop_comes_back_to_where_it_began() -> None:
     typist = Typist("MR DX\nX BY 20 RECORD\nCN A\nLOOP A 4\nFREE\nX 0 RECORD\nRUN")
     assert typist.at[0] == 100
