@@ -64,9 +64,11 @@ def _inflated(data: bytes, largest: int) -> bytes:
 
 
 def _plain(value: Any) -> Any:
-    """An array as something MessagePack knows."""
+    """An array, or a number of one, as something MessagePack knows."""
     if isinstance(value, np.ndarray):
         return value.dtype.str, value.shape, value.tobytes()
+    if isinstance(value, np.floating):
+        return float(value)
     raise TypeError(f"no {type(value).__name__} belongs in a checkpoint")
 
 

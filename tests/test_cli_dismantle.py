@@ -7,10 +7,14 @@ import pytest
 from conftest import Command
 from short_runs import begin
 
+from handeye.cli import runs as cli_runs
+from handeye.judge.finding import at_most
+from handeye.resources import plans
 from handeye.runs.checkpoint_file import decode, encode, read_checkpoint
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.tasks.water_pump.task import WaterPump
 
 pytestmark = pytest.mark.slow
 
@@ -138,3 +142,52 @@ def test_a_way_that_was_tampered_with_stops_the_arm(command: Command, taken: Pat
     code, out, _ = command("dismantle", "bad.checkpoint")
     assert code == 1
     assert "what the step has left for undoing it cannot be used" in " ".join(out.split())
+
+
+# -- built, unbuilt, and built again ------------------------------------------------------------------
+
+
+@pytest.fixture
+def short_pump(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """`handeye assemble` draws a pin out of its holder, and its referee finds that right."""
+    script = tmp_path / "short.al"
+    script.write_text(TAKE, encoding="utf-8")
+    (tmp_path / "short.toml").write_bytes((plans() / "water_pump.toml").read_bytes())
+    monkeypatch.setattr(cli_runs, "default_script", lambda: script)
+    monkeypatch.setattr(WaterPump, "judge", lambda self, truth: {"pin": at_most(0.0, 1.0, "mm", "pin")})
+
+
+@pytest.mark.usefixtures("short_pump")
+def test_what_was_built_is_taken_apart_and_built_again_in_one_run(command: Command) -> None:
+    code, out, err = command(
+        "assemble", "--then", "dismantle", "--then", "assemble", "--out", "thrice", "--json"
+    )
+    told = json.loads(out)
+    assert (code, told["assembled"], told.get("apart")) == (0, True, None)
+    assert [line for line in err.splitlines() if line.startswith("The pump")] == [
+        "The pump is assembled.",
+        "The pump is taken apart.",
+    ]
+    assert command("trace", "verify", "thrice")[0] == 0
+
+
+@pytest.mark.usefixtures("short_pump")
+def test_a_run_may_end_taken_apart(command: Command) -> None:
+    code, out, _ = command("assemble", "--then", "dismantle")
+    assert (code, "The pump is taken apart." in out) == (0, True)
+
+
+@pytest.mark.usefixtures("short_pump")
+def test_the_first_part_that_fails_gives_the_exit_code(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(WaterPump, "judge_apart", lambda self, truth: {"pin": at_most(2.0, 1.0, "mm", "pin")})
+    code, out, _ = command("assemble", "--then", "dismantle", "--then", "assemble", "--json")
+    assert (code, json.loads(out)["apart"]) == (3, False)
+
+
+@pytest.mark.parametrize("parts", [["assemble"], ["dismantle", "dismantle"]])
+def test_what_stands_is_dismantled_first(command: Command, parts: list[str]) -> None:
+    code, _, err = command("assemble", *(word for part in parts for word in ("--then", part)))
+    assert code == 2
+    assert "go in turn: what stands is dismantled first" in err

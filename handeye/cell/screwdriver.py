@@ -19,6 +19,8 @@ class ScrewdriverState(Record, frozen=True, kw_only=True):
     torque: float
     command: float
     """rad/s"""
+    magnet: bool = True
+    """The magnet of the bit is on."""
 
 
 class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
@@ -50,6 +52,8 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         self._motors = [model.actuator(name).id for name in motors]
         self._torque_noise, self._noise = torque_noise, noise
         self._command = self._torque = 0.0
+        self.magnet = True
+        """The magnet of the bit is to be on; what it attracts is a matter of the task's threads."""
 
     @property
     def speed(self) -> float:
@@ -63,6 +67,9 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         finite([speed], "the speed of the screwdriver")
         self._command = speed
 
+    def attract(self, on: bool) -> None:
+        self.magnet = on
+
     def before(self, seconds: float) -> None:
         if self._watchdog.tripped:
             self._command = 0.0
@@ -73,10 +80,10 @@ class SimulatedScrewdriver(Mechanism[ScrewdriverState], ScrewdriverPort):
         self._torque = self._lines.carried("screwdriver.current", told)
 
     def state(self) -> ScrewdriverState:
-        return ScrewdriverState(torque=self._torque, command=self._command)
+        return ScrewdriverState(torque=self._torque, command=self._command, magnet=self.magnet)
 
     def check(self, state: ScrewdriverState) -> None:
         finite([state.torque, state.command], "the screwdriver")
 
     def restore(self, state: ScrewdriverState) -> None:
-        self._torque, self._command = state.torque, state.command
+        self._torque, self._command, self.magnet = state.torque, state.command, state.magnet

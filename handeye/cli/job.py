@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, Literal
 
 from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
@@ -24,8 +24,10 @@ from handeye.errors import InvalidInput
 from handeye.events import beginning
 from handeye.execution.servo import Halted
 from handeye.host_time import HostTimer
+from handeye.judge.finding import all_right
 from handeye.report.cautions import cautions, losses
 from handeye.report.finishing import finished
+from handeye.report.judging import findings
 from handeye.report.page import page
 from handeye.report.progress import Progress
 from handeye.report.result import Result, to_json
@@ -44,6 +46,9 @@ from handeye.runs.systems import listing_of
 if TYPE_CHECKING:
     from handeye.view.moment import Newest
     from handeye.view.server import Server
+
+Then = Literal["dismantle", "assemble"]
+"""Undo all that was done, or do it again."""
 
 PANIC: Final = Pause(kind="panic")
 NOT_KEPT: Final = "not kept; with --out FOLDER it could be resumed"
@@ -81,6 +86,8 @@ class Job:
     report: bool = False
     """Leave a page of the run in its folder."""
     referee: bool = False
+    then: Sequence[Then] = ()
+    """What is done when the referee has found the work right, one after the other."""
     planning_cpu_s: float = 0.0
     """Of the planning phase."""
 
@@ -128,7 +135,7 @@ class _Work:
         if runner is None:
             return self._interrupted(None)
         try:
-            pause = self._stepped(runner) if self.job.step else self._attended(runner)
+            pause = self._stepped(runner) if self.job.step else self._parts(runner)
         except KeyboardInterrupt:
             pause = PANIC
             if self.folder is not None:
@@ -184,6 +191,21 @@ class _Work:
 
     # -- carrying out ---------------------------------------------------------------------------------
 
+    def _parts(self, runner: Runner) -> Pause:
+        """Assemble, and then undo and assemble as often as is wanted, as long as the referee finds each right."""
+        pause = self._attended(runner)
+        for part in self.job.then:
+            if pause.kind != "end" or not all_right(findings(runner, pause)):
+                break
+            words = runner.task.words
+            note(words.apart if runner.undone else words.done)
+            if part == "dismantle":
+                runner.have_undone(0, halts=True)
+            else:
+                runner.answer("proceed")
+            pause = self._attended(runner)
+        return pause
+
     def _attended(self, runner: Runner) -> Pause:
         with self.progress:
             breaks = [breakpoint(text, runner.listing) for text in self.job.breaks]
@@ -195,7 +217,7 @@ class _Work:
         policy = self.job.on_stop
         if policy is None:
             policy = "ask" if sys.stdin.isatty() and notes.is_terminal and not self.job.json else "abort"
-        return parse_policy(policy)
+        return parse_policy(policy, listing_of(self.job.start.setup).stages)
 
     def _stepped(self, runner: Runner) -> Pause:
         stepper = Stepper(

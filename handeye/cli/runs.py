@@ -2,7 +2,7 @@
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import App, Parameter
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from handeye.runs.stops import AnyStop
     from handeye.runs.system import Listing
 
+Then = Literal["dismantle", "assemble"]
 To = Annotated[str | None, Parameter(help="Pause after this stage.")]
 Until = Annotated[
     str | None, Parameter(help="Pause before this step: its number in `handeye stages`, or its label.")
@@ -42,7 +43,8 @@ Overwrite = Annotated[bool, Parameter(help="Replace the run in the folder of --o
 OnStop = Annotated[
     str | None,
     Parameter(
-        help="What to do when the operator is called: `abort`, `retry:N` (each stage again, N times at most) or "
+        help="What to do when the operator is called: `abort`, `retry:N` (each stage again, N times at most), "
+        "`unwind:STAGE` (the arm undoes what it did, to the beginning of that stage, once for each that fails) or "
         "`ask`. By default asks on a terminal and aborts elsewhere."
     ),
 ]
@@ -65,6 +67,14 @@ def assemble(
     report: Annotated[bool, Parameter(help="Leave a page of the run in the folder, report.html.")] = False,
     calibrate: Calibrate = False,
     on_stop: OnStop = None,
+    then: Annotated[
+        list[Then] | None,
+        Parameter(
+            consume_multiple=False,
+            help="When the referee has found it right: have the arm undo it (`dismantle`), and `assemble` again: in "
+            "turn, as often as given.",
+        ),
+    ] = None,
 ) -> int:
     """Assemble the water pump: plan, work, judge.
 
@@ -75,6 +85,8 @@ def assemble(
     from handeye.runs.setup import Setup
     from handeye.runs.snapshot import Checkpoint
 
+    if any(part != ("dismantle", "assemble")[n % 2] for n, part in enumerate(then or ())):
+        raise InvalidInput("--then dismantle and --then assemble go in turn: what stands is dismantled first")
     if report and out is None:
         raise InvalidInput("--report needs --out, the folder that the page is left in")
     world, senses = world.apart()
@@ -95,6 +107,7 @@ def assemble(
             json=json,
             report=report,
             referee=True,
+            then=then or (),
             planning_cpu_s=planning,
         )
     )

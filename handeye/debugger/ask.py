@@ -12,7 +12,7 @@ from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import Choice, OperatorCalled, StepStarted
 from handeye.program.cause_text import call_sentence
-from handeye.runs.operator import Back, OperatorChoice, beginnings
+from handeye.runs.operator import Back, OperatorChoice, Unwind, beginnings
 from handeye.runs.runner import Runner
 
 _CHOICES: Final[dict[str, Choice | Literal["abort"]]] = {
@@ -51,6 +51,8 @@ class Ask:
         """
         if word in ("b", "back"):
             return Back(stage=_begun(runner, rest))
+        if word in ("u", "unwind"):
+            return Unwind(stage=_begun(runner, rest))
         if word in ("h", "help", "?"):
             self._say(_choices(runner))
             return None
@@ -60,7 +62,7 @@ class Ask:
         choice = _CHOICES.get(word[:1])
         if choice is None or rest or not choice.startswith(word):
             said = quoted(f"{word} {rest}".strip())
-            raise InvalidInput(f"{said} is not an answer; answer p, r, s, b, a or show")
+            raise InvalidInput(f"{said} is not an answer; answer p, r, s, b, u, a or show")
         return choice
 
     def _say(self, lines: Sequence[str]) -> None:
@@ -101,6 +103,7 @@ def _choices(runner: Runner) -> list[str]:
         f"r          retry the stage from line {first}, with the world as it is now",
         "s          skip the rest of the stage",
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
+        "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
         "a          abort",
         "show       show joints, hand, force, saved differences, parts and so on",
     ]

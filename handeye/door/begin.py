@@ -166,7 +166,7 @@ def _rule(on_stop: object) -> Operator:
     """The operator that a word stands for. Raises InvalidInput if it needs somebody to ask, or is none."""
     operator = None
     with suppress(InvalidInput):  # whose sentence speaks of the command line
-        operator = parse_policy(on_stop) if isinstance(on_stop, str) else None
+        operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
         raise InvalidInput(f"on_stop is `abort`, or `retry:N` with N from 1 up; not {on_stop!r}")
     return operator

@@ -75,11 +75,12 @@ class Executor:
         self._leave()
 
     def answer(self, choice: Choice) -> None:
-        """Go on after the operator was called."""
-        assert self.state.stopped is not None
-        assert self.state.stage is not None
+        """Go on after the operator was called, or (`proceed`) where all that was asked for is undone."""
         run, stage = self.run, self.state.stage
-        going_on = {"proceed": self.state.onward, "retry": self._first(stage), "skip": self._first(stage + 1)}
+        assert stage is not None or choice == "proceed"
+        going_on = {"proceed": self.state.onward}
+        if stage is not None:
+            going_on |= {"retry": self._first(stage), "skip": self._first(stage + 1)}
         self.state.at, self.state.stopped, self.state.onward, self.state.idle = (
             going_on[choice],
             None,

@@ -203,5 +203,6 @@ class Servo:
             cell.hand.drive(self.state.gap, self.state.grip)
         if cell.screwdriver is not None:
             cell.screwdriver.drive(self.state.tool)
+            cell.screwdriver.attract(self.state.magnet)
         if cell.lamp is not None:
             cell.lamp.switch(self.state.lamp)

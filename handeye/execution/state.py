@@ -109,6 +109,8 @@ class DriveState(MutableRecord, kw_only=True):
     """Speed of the screwdriver, rad/s."""
     current: float = 0.0
     """Greatest torque that its motor has shown since it was told that speed, N m."""
+    magnet: bool = True
+    """The magnet of its bit is on."""
     lamp: bool = False
     cut: bool = False
     """The watchdog has cut the drives: the brakes are set, and nobody asked for them."""

@@ -21,3 +21,7 @@ class ScrewdriverPort(ABC):
         Raises:
             InvalidInput: not a finite number.
         """
+
+    @abstractmethod
+    def attract(self, on: bool) -> None:
+        """Switch the magnet of the bit, which is on until it is told otherwise."""

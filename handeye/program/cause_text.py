@@ -9,7 +9,7 @@ from handeye.program.causes import Cause
 from handeye.program.doubt_text import doubt_sentence
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import sentence as reason_sentence
-from handeye.units import INCH, OUNCE_FORCE
+from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:
@@ -77,7 +77,7 @@ def cause_sentence(cause: Cause) -> str:
             return f"{cause.places} places tried" + (f" around {cause.around}" if cause.around else "")
         case c.Looping():
             return f"the program loops at line {cause.place}, and nothing moves"
-        case c.UndoResisted() | c.HoldOff() | c.UndoUnknown():
+        case c.UndoResisted() | c.HoldOff() | c.ScrewFast() | c.BackingOut() | c.UndoUnknown():
             return _undo_stopped(cause)
         case c.Recorded():
             return cause.words
@@ -109,6 +109,13 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             gap, kept = _apart(cause.gap, cause.kept)
             held = "held something at" if cause.holding else "stood at"
             return f"the fingers stand at {gap} in; when the step was executed they {held} {kept} in"
+        case c.ScrewFast():
+            torque = f"{cause.torque / OUNCE_INCH:.0f} oz in"
+            return (
+                f"the screw does not come out: it has risen {_inches(cause.risen)}, the driver shows {torque}"
+            )
+        case c.BackingOut():
+            return "the driver has turned a screw out in the step; that is not undone"
         case c.UndoUnknown():
             return "what the step has left for undoing it cannot be used"
     assert_never(cause)

@@ -296,6 +296,19 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
     """They held something then."""
 
 
+class ScrewFast(CauseRecord, frozen=True, kw_only=True):
+    """The driver turned left on a screw, and it did not come out."""
+
+    torque: float
+    """The most that the driver has shown, N m."""
+    risen: float
+    """m"""
+
+
+class BackingOut(CauseRecord, frozen=True, kw_only=True):
+    """In the step the driver turned left; that is not undone."""
+
+
 class UndoUnknown(CauseRecord, frozen=True, kw_only=True):
     """What the step has left cannot be used."""
 
@@ -313,7 +326,7 @@ SenseCause = (
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 """Causes for which a sense is not believed."""
-UndoCause = UndoResisted | HoldOff | UndoUnknown
+UndoCause = UndoResisted | HoldOff | ScrewFast | BackingOut | UndoUnknown
 """Causes for which the arm does not go on undoing what it did."""
 InspectionCause = NoGasket | GasketWrong
 """Causes for which a part does not pass its inspection."""

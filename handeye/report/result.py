@@ -151,6 +151,11 @@ class Result(Record, frozen=True, kw_only=True):
     None: nobody was asked, or not all of it is undone."""
 
     @property
+    def judged(self) -> bool | None:
+        """The referee's word on what was built, or on what was taken apart; None: nobody was asked."""
+        return self.apart if isinstance(self.apart, bool) else self.assembled
+
+    @property
     def cautions(self) -> tuple[str, ...]:
         """What the referee found that is not as it should be and does not make the work wrong, a sentence each."""
         return tuple(check.told for check in self.referee.values() if not check.ok and check.caution)
@@ -162,7 +167,7 @@ class Result(Record, frozen=True, kw_only=True):
             return 0
         if not self.completed:
             return 1
-        return 3 if False in (self.assembled, self.apart) else 0
+        return 3 if self.judged is False else 0
 
 
 def to_json(result: Result, *, line: bool = False) -> bytes:

@@ -7,13 +7,24 @@ from typing import Literal, Protocol
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.events import Choice, OperatorAnswered, OperatorCalled, StageStarted, StepFinished
+from handeye.events import (
+    Choice,
+    OperatorAnswered,
+    OperatorCalled,
+    StageStarted,
+    StepFinished,
+    StepStarted,
+    UndoOrdered,
+    UndoStarted,
+)
 from handeye.execution.servo import Halted
+from handeye.program.stage_names import stage_index
 from handeye.record import Record
 from handeye.runs.advance import Pause, advance, keep, paused_before
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
+from handeye.runs.undo_orders import stage_began
 
 
 class Back(Record, frozen=True, kw_only=True):
@@ -22,7 +33,13 @@ class Back(Record, frozen=True, kw_only=True):
     stage: int
 
 
-OperatorChoice = Choice | Literal["abort"] | Back
+class Unwind(Record, frozen=True, kw_only=True):
+    """Have the arm undo what it did, to where a stage, given by its index, last began, and go on from there."""
+
+    stage: int
+
+
+OperatorChoice = Choice | Literal["abort"] | Back | Unwind
 
 
 class Operator(Protocol):
@@ -65,8 +82,43 @@ class Retry:
         return "retry" if done < self.times else "abort"
 
 
-def parse_policy(text: str) -> Operator | None:
-    """The operator that `abort` or `retry:N` stands for; None for `ask`, which takes somebody to ask.
+@dataclass(frozen=True, slots=True)
+class UnwindOnce:
+    """Has the arm undo what it did, to the beginning of a stage given by its index, once for each stage that fails.
+
+    Like `Retry` it goes by what has happened in the run.
+    """
+
+    stage: int
+
+    def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
+        """How to go on."""
+        given_up = refused is not None or undoing(runner) or runner.stage in _unwound(runner)
+        return "abort" if given_up else Unwind(stage=self.stage)
+
+
+def undoing(runner: Runner) -> bool:
+    """See whether the last step of a run was the undo of one."""
+    last = next((event for event in reversed(runner.events) if isinstance(event, StepStarted)), None)
+    return isinstance(last, UndoStarted)
+
+
+def _unwound(runner: Runner) -> set[int]:
+    """The stages, by their indices, for whose failure the arm has undone what it did."""
+    found, now = set(), -1
+    for event in runner.events:
+        if isinstance(event, StageStarted):
+            now = runner.stages.index(event.stage)
+        elif isinstance(event, UndoOrdered):
+            found.add(now)
+    return found
+
+
+def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
+    """The operator that `abort`, `retry:N` or `unwind:STAGE` stands for; None for `ask`, which takes somebody to ask.
+
+    Args:
+        stages: names of the stages there are.
 
     Raises:
         InvalidInput: it is none of these.
@@ -75,9 +127,14 @@ def parse_policy(text: str) -> Operator | None:
         return Abort()
     if text == "ask":
         return None
+    word, _, stage = text.partition(":")
+    if word == "unwind" and stage:
+        return UnwindOnce(stage_index(stage, stages))
     times = re.fullmatch(r"retry:([1-9][0-9]{0,5})", text)
     if times is None:
-        raise InvalidInput(f"--on-stop takes abort, ask, or retry:N with N from 1 up, not {quoted(text)}")
+        raise InvalidInput(
+            f"--on-stop takes abort, ask, retry:N with N from 1 up, or unwind:STAGE, not {quoted(text)}"
+        )
     return Retry(int(times[1]))
 
 
@@ -111,12 +168,15 @@ def attend(
 
 
 def _carry_out(
-    runner: Runner, answer: Choice | Back, stops: Sequence[AnyStop], kept: Callable[[int], Checkpoint | None]
+    runner: Runner,
+    answer: Choice | Back | Unwind,
+    stops: Sequence[AnyStop],
+    kept: Callable[[int], Checkpoint | None],
 ) -> Pause | None:
     """Do what the operator says; the pause after it, if there is one.
 
     Raises:
-        InvalidInput: no state from so far back was kept.
+        InvalidInput: no state from so far back was kept, or there is nothing to undo.
     """
     if isinstance(answer, Back):
         try:
@@ -124,6 +184,9 @@ def _carry_out(
         except Halted:
             keep(runner, runner.history[-1])
             return Pause(kind="panic", next=runner.at, back=True)
+        return None
+    if isinstance(answer, Unwind):
+        runner.have_undone(stage_began(runner.system.executed, runner.listing, answer.stage))
         return None
     runner.answer(answer)
     return None if runner.ended else paused_before(runner, stops)

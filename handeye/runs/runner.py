@@ -260,7 +260,7 @@ class Runner:
         """
         while len(self.events) < len(events):
             then = events[len(self.events)]
-            if isinstance(then, OperatorAnswered) and self.call is not None:
+            if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
                 self.answer(then.choice)
             elif isinstance(then, UndoOrdered):
                 self.have_undone(then.left, halts=then.halts)

@@ -1,5 +1,7 @@
 """Orders to undo a run that is kept: how far, and the checkpoint that the undoing begins with."""
 
+from collections.abc import Sequence
+
 from msgspec.structs import replace
 
 from handeye.diagnostics import quoted
@@ -9,21 +11,21 @@ from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Done, Undoing
 from handeye.execution.undo.undoing import order
 from handeye.mutable_records import copied
-from handeye.runs.setup import plan_of
 from handeye.runs.snapshot import Checkpoint
+from handeye.runs.system import Listing
+from handeye.runs.systems import listing_of
 
 
-def stage_began(state: ExecutionState, checkpoint: Checkpoint, stage: int) -> int:
+def stage_began(executed: Sequence[Done], listing: Listing, stage: int) -> int:
     """Steps that were executed when a stage, given by its index, last began.
 
     Raises:
         InvalidInput: it has not begun, or what was executed there is undone.
     """
-    steps = plan_of(checkpoint.setup).program.steps
-    found = [n for n, done in enumerate(state.done) if done.enters and steps[done.step].stage == stage]
+    steps = listing.steps
+    found = [n for n, done in enumerate(executed) if done.enters and steps[done.step].stage == stage]
     if not found:
-        name = plan_of(checkpoint.setup).program.stages[stage]
-        raise InvalidInput(f"the stage {quoted(name)} has left nothing to undo")
+        raise InvalidInput(f"the stage {quoted(listing.stages[stage])} has left nothing to undo")
     return found[-1]
 
 
@@ -42,7 +44,9 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
         raise InvalidInput(f"{name} is no run of a program that has begun: there is nothing to undo")
     state = copied(snapshot.state)
     _check_whole(checkpoint, state.done, name)
-    undoing = Undoing(left=0 if stage is None else stage_began(state, checkpoint, stage), halts=True)
+    undoing = Undoing(
+        left=0 if stage is None else stage_began(state.done, listing_of(checkpoint.setup), stage), halts=True
+    )
     order(state, undoing)
     time = checkpoint.events[-1].time
     events = (*checkpoint.events, UndoOrdered(time=time, left=undoing.left, halts=True))

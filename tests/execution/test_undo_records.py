@@ -12,6 +12,7 @@ from handeye.execution.undo.loops import loop_entry
 from handeye.execution.undo.retracing import retracing
 from handeye.execution.undo.way import GRAIN, Track, Way, packed, unpacked
 from handeye.planning.motions import GUARDED_SPEED
+from handeye.program.guards import GuardKind
 from handeye.tasks.water_pump.park import PARK
 
 JOINTS = len(STANFORD.joints)
@@ -147,7 +148,7 @@ def test_rounds_that_carry_things_from_place_to_place_are_undone_one_by_one(plac
 
 
 def test_a_screw_that_was_driven_and_not_backed_out_is_no_round() -> None:
-    driven = executed(4, tool=20.0, torque=True, way=b"way")
+    driven = executed(4, tool=20.0, ended=GuardKind.TORQUE, way=b"way")
     backed = executed(5, tool=-20.0, way=b"way")
     assert entry(executed(3), driven, executed(3)) is None
     assert entry(executed(3), driven, backed, executed(3)) == 0

@@ -123,6 +123,11 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.HoldOff(gap=0.0, kept=0.0254, holding=False),
         "the fingers stand at 0.00 in; when the step was executed they stood at 1.00 in",
     ),
+    (
+        c.ScrewFast(torque=0.5, risen=0.0),
+        "the screw does not come out: it has risen 0.00 in, the driver shows 71 oz in",
+    ),
+    (c.BackingOut(), "the driver has turned a screw out in the step; that is not undone"),
     (c.UndoUnknown(), "what the step has left for undoing it cannot be used"),
     (c.Recorded(words="as it was said"), "as it was said"),
 ]

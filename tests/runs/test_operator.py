@@ -7,11 +7,19 @@ from stepper_bench import AIR, reset
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.errors import InvalidInput
-from handeye.events import OperatorAnswered, OperatorCalled, StageFinished, StepStarted
+from handeye.events import (
+    OperatorAnswered,
+    OperatorCalled,
+    StageFinished,
+    StageStarted,
+    StageUndone,
+    StepStarted,
+    UndoOrdered,
+)
 from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.observer import Observer
-from handeye.runs.operator import Abort, Back, Retry, attend, beginnings, parse_policy
+from handeye.runs.operator import Abort, Back, Retry, UnwindOnce, attend, beginnings, parse_policy
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
@@ -61,15 +69,51 @@ def texts(runner: Runner) -> list[str]:
 
 
 def test_policies_are_written_in_a_word() -> None:
-    assert [parse_policy(text) for text in ("abort", "retry:3", "ask")] == [Abort(), Retry(3), None]
+    assert [parse_policy(text, ()) for text in ("abort", "retry:3", "ask")] == [Abort(), Retry(3), None]
+    assert (
+        parse_policy("unwind:2", ("one", "two")) == parse_policy("unwind:tw", ("one", "two")) == UnwindOnce(1)
+    )
 
 
 @pytest.mark.parametrize("text", ["", "retry", "retry:0", "retry:-1", "retry:x", "Abort", "retry:1.5"])
 def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
     with pytest.raises(
-        InvalidInput, match=r"^--on-stop takes abort, ask, or retry:N with N from 1 up, not .*$"
+        InvalidInput,
+        match=r"^--on-stop takes abort, ask, retry:N with N from 1 up, or unwind:STAGE, not .*$",
     ):
-        parse_policy(text)
+        parse_policy(text, ())
+
+
+def test_a_stage_that_is_not_there_cannot_be_unwound_to() -> None:
+    with pytest.raises(InvalidInput, match=r"^there is no stage `three`; the program has 1 `one`, 2 `two`$"):
+        parse_policy("unwind:three", ("one", "two"))
+
+
+def unwound(runner: Runner) -> list[int]:
+    """How many executed steps were to be left when the arm was told to undo."""
+    return [event.left for event in runner.events if isinstance(event, UndoOrdered)]
+
+
+def test_unwinding_undoes_by_the_arm_what_was_done_since_a_stage_began_and_tries_again_once(
+    runner: Runner,
+) -> None:
+    pause = attend(runner, UnwindOnce(1))
+    assert (pause.kind, calls(runner), len(unwound(runner))) == ("operator", 2, 1)
+    started = [event.stage for event in runner.events if isinstance(event, StageStarted)]
+    undone = [event.stage for event in runner.events if isinstance(event, StageUndone)]
+    assert undone == [started[2], started[1]]
+    assert started == [*started[:3], *started[1:3]]
+
+
+def test_the_operator_can_have_the_arm_undo_a_stage(runner: Runner) -> None:
+    talk = Talk("unwind", "a")
+    attend(runner, talk.operator)
+    assert (calls(runner), len(unwound(runner))) == (2, 1)
+
+
+def test_a_stage_that_has_not_begun_cannot_be_unwound_to(runner: Runner) -> None:
+    assert attend(runner, UnwindOnce(len(runner.stages) - 1)).kind == "operator"
+    assert calls(runner) == 1 + len(unwound(runner))
 
 
 def test_abort_ends_the_run_where_the_operator_was_called(runner: Runner) -> None:
@@ -150,6 +194,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
         "r          retry the stage from line 18, with the world as it is now",
         "s          skip the rest of the stage",
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
+        "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
         "a          abort",
         "show       show joints, hand, force, saved differences, parts and so on",
     ]
@@ -164,9 +209,9 @@ def test_the_end_of_the_answers_is_taken_for_abort(runner: Runner) -> None:
 @pytest.mark.parametrize(
     ("answer", "sentence"),
     [
-        ("maybe", "`maybe` is not an answer; answer p, r, s, b, a or show"),
-        ("", "`` is not an answer; answer p, r, s, b, a or show"),
-        ("p 3", "`p 3` is not an answer; answer p, r, s, b, a or show"),
+        ("maybe", "`maybe` is not an answer; answer p, r, s, b, u, a or show"),
+        ("", "`` is not an answer; answer p, r, s, b, u, a or show"),
+        ("p 3", "`p 3` is not an answer; answer p, r, s, b, u, a or show"),
         ("b shut", "stage 4, shut the hand, has not begun yet"),
         (
             "b nowhere",

@@ -146,12 +146,16 @@ class FakeScrewdriver(ScrewdriverPort):
 
     load: float = 0.0
     speed: float = 0.0
+    magnet: bool = True
 
     def torque(self) -> float:
         return self.load if self.speed else 0.0
 
     def drive(self, speed: float) -> None:
         self.speed = speed
+
+    def attract(self, on: bool) -> None:
+        self.magnet = on
 
 
 @dataclass

@@ -4,6 +4,7 @@ from typing import Annotated
 
 import msgspec
 
+from handeye.program.guards import GuardKind
 from handeye.record import Record
 
 Natural = Annotated[int, msgspec.Meta(ge=0)]
@@ -27,8 +28,8 @@ class Done(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Speed of the screwdriver before, rad/s."""
     force: float = 0.0
     """Greatest force that the hand has felt, N; 0: it felt for none."""
-    torque: bool = False
-    """It ended on the torque of the driver."""
+    ended: GuardKind | None = None
+    """The guard that it ended on."""
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
     """What the program remembered before, as far as that has changed, see `undo.memory`."""
     enters: bool = False
@@ -44,3 +45,5 @@ class Undoing(Record, frozen=True, kw_only=True):
     """Executed steps that are to be left."""
     halts: bool = False
     """The run ends there; otherwise the program can go on."""
+    lets_go: Natural | None = None
+    """The index of the step that took the screw on the bit: undone, it leaves it where it was."""

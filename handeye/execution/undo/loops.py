@@ -6,13 +6,14 @@ place (or the other way round), and whatever the driver drove in, it has backed 
 place to another are no such loop, and are undone one by one.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
 import numpy as np
 
 from handeye.execution.undo.done import Done
 from handeye.pose import Array
+from handeye.program.guards import GuardKind
 
 SAME_GAP: Final = 5e-4
 """m: the hand holds what it held."""
@@ -35,6 +36,15 @@ def loop_entry(done: Sequence[Done], hand: Callable[[int], Array | None]) -> int
     return None
 
 
+def without_rounds(done: Sequence[Done], hand: Callable[[int], Array | None]) -> Iterator[int]:
+    """Indices of the steps as they are undone, the last first, without those of rounds that are left out."""
+    index = len(done) - 1
+    while index >= 0:
+        yield index
+        entry = loop_entry(done[: index + 1], hand)
+        index = index - 1 if entry is None else entry
+
+
 def _alike(one: Done, other: Done) -> bool:
     """The same step, begun with the same in the hand, and the driver off."""
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
@@ -46,7 +56,7 @@ def _undone_itself(done: Sequence[Done], entry: int, hand: Callable[[int], Array
     rounds = range(entry, len(done) - 1)
     if any(done[index].called for index in rounds):
         return False
-    driven = sum(done[index].torque for index in rounds)
+    driven = sum(done[index].ended is GuardKind.TORQUE for index in rounds)
     backed = sum(done[index].tool < 0 and bool(done[index].way) for index in rounds)
     changes = [index for index in rounds if done[index].grasping != done[index + 1].grasping]
     paired = zip(changes[::2], changes[1::2], strict=False)

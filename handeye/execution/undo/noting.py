@@ -6,7 +6,6 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.undo.done import Done
 from handeye.execution.undo.memory import changed, memory
 from handeye.execution.undo.way import packed
-from handeye.program.guards import GuardKind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,7 +43,7 @@ def noted(run: ExecutionContext, found: Before, *, step: int, enters: bool) -> D
     drive, state = run.drive, run.state
     way = drive.track.way(drive.state.q, drive.state.gap)
     operation = run.plan.program.steps[step].operation
-    turned = any(guard.kind is GuardKind.TORQUE for guard in operation.guards) and state.pending is None
+    guards = run.watching(operation.guards) if state.pending is None else ()
     return Done(
         step=step,
         way=b"" if way is None else packed(way),
@@ -54,7 +53,7 @@ def noted(run: ExecutionContext, found: Before, *, step: int, enters: bool) -> D
         load=found.load,
         tool=found.tool,
         force=round(drive.track.force, 3),
-        torque=turned,
+        ended=guards[0].kind if guards else None,
         remembered=changed(found.memory, memory(state)),
         enters=enters,
     )

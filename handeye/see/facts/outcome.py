@@ -71,11 +71,12 @@ def outcome(run: Recorded) -> Outcome:
 
 def _ended(run: Recorded) -> Outcome:
     """The outcome of a run whose program came to its end."""
-    if run.result is None or run.result.assembled is None:
+    judged = None if run.result is None else run.result.judged
+    if run.result is None or judged is None:
         return Outcome(kind="ended", time=run.ends)
     checks = run.result.referee.values()
     return Outcome(
-        kind="right" if run.result.assembled else "wrong",
+        kind="right" if judged else "wrong",
         time=run.ends,
         wrong=tuple(check for check in checks if check.refuses),
         doubts=tuple(check for check in checks if not check.ok and check.caution),

@@ -12,11 +12,13 @@ _NEUTRAL: Final = Words(done="The referee found everything right.", product="the
 
 def title(run: Recorded, outcome: Outcome) -> str:
     """What a run came to, in one sentence."""
-    words = _words(run)
+    words, apart = _words(run), None if run.result is None else run.result.apart
     line = "" if outcome.step is None else f"line {outcome.step.place}"
     match outcome.kind:
         case "right":
-            return words.done
+            return words.apart if apart else words.done
+        case "wrong" if apart is False:
+            return "The arm has undone what it did, but not everything is back."
         case "wrong":
             return f"The program reported success, but {words.product} is not right."
         case "ended":

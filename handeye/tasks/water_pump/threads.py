@@ -134,8 +134,8 @@ class Threads(Mechanism[ThreadsState]):
         self._couple(speed)
 
     def _attract(self) -> None:
-        """Let the bit's permanent magnet pull."""
-        self._data.ctrl[self._magnet] = self._lines.carried("magnet", 1.0)
+        """Let the bit's magnet pull, if it is on."""
+        self._data.ctrl[self._magnet] = self._lines.carried("magnet", float(self._driver.magnet))
 
     def state(self) -> ThreadsState:
         return ThreadsState(holes=self.holes, driven=self.driven)

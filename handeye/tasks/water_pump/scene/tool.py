@@ -77,7 +77,6 @@ def _add_drives(spec: mujoco.MjSpec) -> None:
     and sets its gains.
     """
     d = dimensions()
-    torque = d("driver.torque")
     spin = spec.add_actuator(name="spindle", trntype=mujoco.mjtTrn.mjTRN_JOINT, target="spindle")
     spin.set_to_velocity(kv=0.02)
     spin.forcelimited = True
@@ -91,7 +90,7 @@ def _add_drives(spec: mujoco.MjSpec) -> None:
     )
     drive.set_to_velocity(kv=0.0)
     drive.forcelimited = True
-    drive.forcerange[:] = [-torque, torque]
+    drive.forcerange[:] = [-d("driver.torque"), d("driver.loosening")]  # clockwise it fastens
     magnet = spec.add_actuator(name="magnet", trntype=mujoco.mjtTrn.mjTRN_BODY, target="bit")
     magnet.set_to_adhesion(gain=d("driver.magnet"))
     magnet.ctrllimited = True

@@ -1,0 +1,105 @@
+"""The arm takes a screw out again: it turns it left until it is loose, and stands it back into the dispenser."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from pump_bench import LAID, MACROS, Bench, bench, stacked
+
+from handeye.cell.state import CellState
+from handeye.execution.state import ExecutionState
+from handeye.execution.undo.done import Undoing
+from handeye.mutable_records import copied
+from handeye.program.causes import ScrewFast, UndoResisted
+from handeye.tasks.water_pump.dimensions import dimensions
+from handeye.tasks.water_pump.threads import holes_of
+from handeye.units import INCH, OUNCE_INCH
+
+pytestmark = pytest.mark.slow
+
+ONE = f"{MACROS}        DRIVER\n        SCREW   S1 H0 1\n"
+
+
+@cache
+def dispensed() -> np.ndarray:
+    """Where the first screw stands in the dispenser (in)."""
+    return bench("PARK").place("screw0")
+
+
+@cache
+def finished() -> tuple[CellState, ExecutionState]:
+    """Cell and memory when the screw is in."""
+    run = ready().go()
+    assert run.finished
+    assert holes_of(run.cell.truth)[0].screw == 0
+    return run.cell.capture(), copied(run.executor.state)
+
+
+def ready() -> Bench:
+    return bench(ONE, lay=stacked(), felt={"LAID": LAID})
+
+
+def driven() -> Bench:
+    """A screw that is in, and everything as it was then."""
+    run, (cell, state) = ready(), finished()
+    run.cell.restore(cell)
+    run.run.restore(state)
+    return run
+
+
+def undo(run: Bench) -> Bench:
+    """Undo all of it, or as much as the guards let."""
+    run.executor.undo(Undoing(left=0, halts=True))
+    return run.go()
+
+
+@cache
+def taken_out() -> Bench:
+    return undo(driven())
+
+
+def test_a_screw_is_turned_out_and_stands_in_the_dispenser_again() -> None:
+    run = taken_out()
+    assert run.executor.state.stopped is None
+    assert holes_of(run.cell.truth)[0].screw is None
+    assert np.linalg.norm(run.place("screw0") - dispensed()) * INCH < 1e-3
+
+
+def test_the_magnet_is_on_again_when_the_screw_is_left_behind() -> None:
+    run = taken_out()
+    truth = run.cell.truth
+    assert run.run.drive.state.magnet
+    assert truth.data.ctrl[truth.model.actuator("magnet").id] == 1.0
+
+
+def test_the_pump_stays_where_it_is_while_a_screw_is_turned_out() -> None:
+    run = taken_out()
+    assert run.moved("base") * INCH < 1e-3
+    assert run.moved("top") * INCH < 1e-3
+
+
+def test_a_screw_that_somebody_has_tightened_stays_and_the_operator_is_called() -> None:
+    run = driven()
+    truth = run.cell.truth
+    dof = truth.model.joint("thread_turn0").dofadr[0]
+    threads = next(part for part in truth.mechanisms if part.name == "threads")
+    truth.data.qfrc_applied[dof] = -1.5  # by a hand with a wrench
+    for _ in range(30):
+        threads.rub(0)  # type: ignore[attr-defined] # the pump's own
+        run.rest(1 / 60)
+    truth.data.qfrc_applied[dof] = 0.0
+    undo(run)
+    cause = run.called.cause
+    assert isinstance(cause, ScrewFast | UndoResisted)  # the bit chatters on a head that does not turn
+    if isinstance(cause, ScrewFast):
+        assert cause.risen < 1e-3
+        assert cause.torque > 60 * OUNCE_INCH
+    assert holes_of(truth)[0].screw == 0
+    assert run.run.drive.sensed.braked
+
+
+def test_the_driver_loosens_with_more_torque_than_it_fastens_with() -> None:
+    size, model = dimensions(), bench("PARK").cell.truth.model
+    fastening, loosening = model.actuator_forcerange[model.actuator("drive").id]
+    assert (-fastening, loosening) == (size("driver.torque"), size("driver.loosening"))
+    assert size("driver.loosening") > 0.6 > size("driver.torque")
