@@ -1,5 +1,7 @@
 """Hearing: a typed line is taken for a command and carried out, or refused in a sentence."""
 
+from typing import Final
+
 from handeye.diagnostics import nearest, quoted
 from handeye.errors import InvalidInput
 from handeye.trig.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
@@ -9,7 +11,14 @@ from handeye.trig.place import AXES
 from handeye.trig.session import Session
 from handeye.trig.tabletop import MARK, arrange
 
-WITHDRAWN = "cancelled"
+WITHDRAWN: Final = "cancelled"
+TABLE_HELP: Final = (
+    "To lay the table, as somebody beside it:",
+    "  * STACK 20 X 150 Y 0  put blocks on each other at a place, in mm",
+    "  * BUCKET X 140 Y 0    put a bucket there",
+    "  * CLEAR               take everything away",
+)
+"""What else can be typed."""
 
 
 def hear(session: Session, line: str) -> None:
@@ -72,4 +81,4 @@ def help(word: str) -> str:
     for group in dict.fromkeys(command.group for command in TABLE):
         rows = [f"  {each.usage:{width}}  {each.help}" for each in TABLE if each.group == group]
         lines += [*([""] if lines else []), f"To {group}:", *rows]
-    return "\n".join(lines)
+    return "\n".join([*lines, "", *TABLE_HELP])

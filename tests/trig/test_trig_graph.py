@@ -130,6 +130,15 @@ def test_editing_leaves_the_trail_and_what_was_deleted_cannot_be_undone() -> Non
     ]
 
 
+def test_a_step_that_is_reached_by_one_father_only_is_not_unlinked_from_it() -> None:
+    typist = Typist(straight(3) + "\nL S2\nGOTO S1")
+    with pytest.raises(
+        InvalidInput, match=r"^S2 can be reached from the top by this step only; `DA S2` deletes it$"
+    ):
+        typist.type("DLINK S2")
+    assert typist.names == ["S1", "S2", "S3"]
+
+
 def test_a_link_makes_its_step_the_most_recent_father() -> None:
     typist = Typist(straight(3) + "\nGOTO S1\nN\nGOTO S3\nL S2\nGOTO S2\nP")
     assert typist.active.name == "S3"

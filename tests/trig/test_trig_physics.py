@@ -86,12 +86,17 @@ class Ticking(Clock):
 
 
 class Pressed(FakeAxes):
-    """Axes whose finger is pressed upwards as soon as they leave their zero."""
+    """Axes whose finger is pressed upwards as soon as they leave their zero, and whose gauge has a bias."""
 
-    force = 0.0
+    force, bias = 0.0, 0.0
+    """N"""
 
     def read(self) -> AxesReading:
-        self.channels = {"force_x": 0.0, "force_y": 0.0, "force_z": -self.force if np.any(self.goal) else 0.0}
+        self.channels = {
+            "force_x": 0.0,
+            "force_y": 0.0,
+            "force_z": self.bias - self.force * bool(np.any(self.goal)),
+        }
         return super().read()
 
 
@@ -114,6 +119,14 @@ def test_a_guarded_move_stops_beyond_its_threshold_and_not_at_it(
     axes.force = ounces * OUNCE_FORCE
     arrival = arm.feel(Place(x=0.003), (0, 0, weight), 2 * OUNCE_FORCE, lambda: False)
     assert arrival.kind == kind
+
+
+@pytest.mark.parametrize(("ounces", "kind"), [(1.9, "reached"), (2.1, "tripped")])
+def test_what_the_finger_tells_when_nothing_touches_it_is_no_force(ounces: float, kind: str) -> None:
+    axes = Pressed(FakeClock(), *SPECS)
+    axes.bias, axes.force = 3.0, ounces * OUNCE_FORCE
+    arm = AxesArm(axes, Ticking())
+    assert arm.feel(Place(x=0.003), (0, 0, 1), 2 * OUNCE_FORCE, lambda: False).kind == kind
 
 
 @pytest.mark.trig_row(13)
