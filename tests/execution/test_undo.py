@@ -6,12 +6,13 @@ from functools import cache
 import mujoco
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from short_runs import begin
 
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.execution.undo.resistance import ALLOWED, allowed
-from handeye.program.causes import HoldOff, UndoResisted
+from handeye.program.causes import HoldOff, UndoResisted, UndoUnknown
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -137,6 +138,14 @@ def test_what_stands_in_the_way_stops_the_arm_by_its_force() -> None:
     cause = stopped_by(run).cause
     assert isinstance(cause, UndoResisted)
     assert ALLOWED < cause.force < 60.0
+
+
+def test_a_way_that_cannot_be_used_stops_the_arm_and_breaks_nothing() -> None:
+    def spoil(runner: Runner) -> None:
+        state = context_of(runner.system).state
+        state.done[:] = [replace(done, way=b"spoilt" if done.way else b"") for done in state.done]
+
+    assert isinstance(stopped_by(undone(done(), meddle=spoil)).cause, UndoUnknown)
 
 
 def test_an_undo_that_was_stopped_goes_on_from_where_the_arm_is() -> None:

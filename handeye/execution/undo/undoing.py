@@ -85,8 +85,11 @@ def _first_of_rounds(run: ExecutionContext) -> int:
     """The index of the first step that is undone with the last one."""
     state = run.state
     assert state.undoing is not None
-    entry = loop_entry(state.done, lambda index: _hand_behind(run, index))
     last = len(state.done) - 1
+    try:
+        entry = loop_entry(state.done, lambda index: _hand_behind(run, index))
+    except ValueError:  # a way that cannot be used tells of no round
+        return last
     return last if entry is None or entry < state.undoing.left else entry + 1
 
 
