@@ -35,9 +35,10 @@ _NOTHING: Final = "WHERE"
 _PICTURE: Final = "LOOK SETUP"
 """Programs that a workplace has before it is given one; they are not carried out."""
 _FORGOTTEN: Final = (
-    "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found"
+    "at", "pending", "stage", "stopped", "onward", "idle", "clock", "shots", "general", "found",
+    "done", "undoing",
 )  # fmt: skip
-"""Fields of a state that belong to one plan alone: where it is, and its pictures."""
+"""Fields of a state that belong to one plan alone: where it is, what its steps have left, and its pictures."""
 
 
 class Workplace:
