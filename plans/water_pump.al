@@ -20,9 +20,32 @@ M:      MOVE    S
         TRAVEL  .17 .40         ;socket over the head, or beside it?
         SKIPN   8
         AOJ     M
+        SAVE    RIM
         STOP    [0 0 -45]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
+        SAVE    DS
+        CHANGE  [0 0 1] 1.5
+
+; That screw once more, when the hand came without it: the socket stood on the edge of its head, .1 in higher than over it.
+DEFINE REFETCH S NR
+        SEARCH  .05
+R:      SKIPN   6               ;all places tried
+        WAIT    "SCREW {NR} IS NOT ON THE BIT"
+        MOVE    S
+        RESTORE DRX
+        RESTORE DRV
+        STOP    [0 0 -25]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .5 .4
+        SKIPN   23
+        WAIT    "NO SCREW AT {S}"
+        HEIGHT  RIM -.2 -.05    ;lower than it stood before?
+        SKIPN   9
+        AOJ     R
+        STOP    [0 0 -45]
+        FREE    [1 1 0]
+        CHANGE  [0 0 -1] .3 .2
         SAVE    DS
         CHANGE  [0 0 1] 1.5
 
@@ -30,8 +53,8 @@ M:      MOVE    S
 ; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
 DEFINE SCREW S H NR
         ASSIGN  TAKEN 2
-TAKE:   FETCH   S
-        ASSIGN  N 4
+        FETCH   S
+TRY:    ASSIGN  N 4
         SEARCH  .05
 K:      MOVE    H
         RESTORE Y1
@@ -48,9 +71,11 @@ K:      MOVE    H
         SKIPE   23
         JUMP    DOWN
         CHANGE  [0 0 1] 1       ;no resistance: it has stayed in the dispenser, or is lost
-        SOJG    TAKEN TAKE
+        SOJG    TAKEN ANEW
         WAIT    "SCREW {NR} IS NOT ON THE BIT"
-DOWN:   HEIGHT  LAID 4.26 4.38  ;as high as a screw stands at the mouth of its thread
+ANEW:   REFETCH S NR
+        JUMP    TRY
+DOWN:   HEIGHT  DS -.02 .22     ;a screw stands .1 in higher at the mouth of its thread than in the dispenser
         SKIPE   9
         JUMP    TURN
         CHANGE  [0 0 1] .6
@@ -120,11 +145,13 @@ PUT:    MOVE    DUP
         CHANGE  [0 0 1] 2
 
 ; A pin back into its holder.
-DEFINE UNPIN Q P E C
-        OPEN    .6
+DEFINE UNPIN Q P C
+        OPEN    .8
         MOVE    Q
-        RESTORE E LEVEL
+        RESTORE Y1
+        RESTORE X2
         RESTORE HS LEVEL        ;how far the base has moved since, by the hole of the last screw
+        CENTER  .1              ;that tells it to the play of the screwdriver in the hand
         CLOSE   .1
         CHANGE  [0 0 1] 2
         SEARCH  .05
@@ -138,30 +165,29 @@ R:      MOVE    P
         AOJ     R
         OPEN    1
 
-; The gasket that is held, onto the pins: by where pin 2 went in, or else by where both were felt.
+; The gasket that is held, onto the pins. Fingers that close on its web know where it is along x; along y it is searched for.
 DEFINE LAY
-        SEARCH  .05
+        SEARCH  .05 ALONG 90
 LG:     SKIPN   6               ;all places tried
         JUMP    WIDER
         MOVE    GON
-        RESTORE E2 LEVEL
-        STOP    [0 0 -24]
-        CHANGE  [0 0 -1] 2.3
-        SKIPN   23
-        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
-        TRAVEL  1.6 2.2         ;a gasket that stands on the pins stops high
-        SKIPE   8
-        JUMP    ON
-        AOJ     LG
-WIDER:  SEARCH  .05
-LF:     MOVE    GON
-        RESTORE Y1
         RESTORE X2
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
         WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
-        TRAVEL  1.6 2.2
+        TRAVEL  1.2 2.2         ;a gasket that stands on the pins stops high
+        SKIPE   8
+        JUMP    ON
+        AOJ     LG
+WIDER:  SEARCH  .05
+LF:     MOVE    GON
+        RESTORE E2 LEVEL
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2.3
+        SKIPN   23
+        WAIT    "THE GASKET MEETS NOTHING: IT LIES TURNED ROUND, OR IS LOST"
+        TRAVEL  1.2 2.2
         SKIPN   8
         AOJ     LF
 ON:     OPEN    1.9
@@ -171,7 +197,7 @@ ON:     OPEN    1.9
 DEFINE LIFT
         OPEN    1.9
         MOVE    GON
-        RESTORE E2 LEVEL
+        RESTORE X2
         STOP    [0 0 -24]
         CHANGE  [0 0 -1] 2
         SKIPE   23              ;no resistance: a finger is in each large hole
@@ -179,30 +205,29 @@ DEFINE LIFT
         CLOSE   .7
         CHANGE  [0 0 1] 2
 
-; The top that is held, onto the pins: likewise.
+; The top that is held, onto the pins: likewise. CENTER knows where it is along y.
 DEFINE COVER
-        SEARCH  .05
+        SEARCH  .05 ALONG 0
 LT:     SKIPN   6               ;all places tried
         JUMP    WIDER
         MOVE    TOPON
-        RESTORE E1 LEVEL
+        RESTORE Y1
         STOP    [0 0 -43]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
         WAIT    "THE TOP MEETS NOTHING: IT IS LOST"
-        TRAVEL  1.7 2.1         ;a top that stands on the pins stops high
+        TRAVEL  1.2 2.1         ;a top that stands on the pins stops high
         SKIPE   8
         JUMP    ON
         AOJ     LT
 WIDER:  SEARCH  .05
 LU:     MOVE    TOPON
-        RESTORE Y1
-        RESTORE X2
+        RESTORE E1 LEVEL
         STOP    [0 0 -43]
         CHANGE  [0 0 -1] 2.3
         SKIPN   23
         WAIT    "THE TOP MEETS NOTHING: IT IS LOST"
-        TRAVEL  1.7 2.1
+        TRAVEL  1.2 2.1
         SKIPN   8
         AOJ     LU
 ON:     LOAD    0
@@ -213,7 +238,7 @@ ON:     LOAD    0
 DEFINE UNCOVER
         OPEN    2.8
         MOVE    TOPON
-        RESTORE E1 LEVEL
+        RESTORE Y1
         STOP    [0 0 -43]
         CHANGE  [0 0 -1] 1.95
         SKIPE   23
@@ -392,6 +417,8 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         SAVE    X2              ;where its hole is, along the line of centres
         OPEN    1
         MOVE    FACE            ;over the web of the base
+        RESTORE Y1
+        RESTORE X2
         OPEN    0
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1  ;slowly: .002 in a servo period
@@ -402,19 +429,25 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         PARK
         LOOK    BEFORE          ;the camera was aimed while the pins went in
         OPEN    1.9
-        MOVE    GUP
+        ASSIGN  TRIES 9
+        SEARCH  .1
+GA:     MOVE    GUP
         STOP    [0 0 -25]
-        CHANGE  [0 0 -1] .7
-        SKIPE   23              ;no resistance: a finger is in each large hole
+        CHANGE  [0 0 -1] .75
+        SKIPN   23
+        JUMP    INSIDE          ;no resistance: a finger is in each large hole
+        SOJG    TRIES BESIDE
         WAIT    "THE GASKET LIES OFF ITS PLACE"
-        MOVE    G DIRECT
-        CLOSE   .7
+BESIDE: AOJ     GA
+INSIDE: CLOSE   .7
         CHANGE  [0 0 1] 1
         SKIPN   4               ;it is caught on its stand
         WAIT    "THE GASKET DOES NOT COME UP: IT LIES OFF ITS PLACE"
         ASSIGN  TRIES 2
 LAYING: LAY
         MOVE    FACE
+        RESTORE Y1
+        RESTORE X2
         OPEN    0
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
@@ -432,8 +465,8 @@ FLAT:   SAVE    LAID            ;how high it lies
 
         STAGE   "check the gasket"
         ASSIGN  TRIES 2
-CHECK:  PARK
-        ASSIGN  LOOKS 2
+        PARK
+CHECK:  ASSIGN  LOOKS 2
 LOOKS:  LOOK    AFTER HOLD
         INSPECT PUMP BEFORE AFTER
         SKIPE   32
@@ -442,8 +475,11 @@ LOOKS:  LOOK    AFTER HOLD
         SOJG    TRIES ANEW
         WAIT    "THE GASKET IS NOT ON PROPERLY"
         JUMP    RIGHT
-ANEW:   LIFT
+ANEW:   LIFT                    ;both pictures again, the arm elsewhere: its shadow may have lain on the pump
+        MOVE    ASIDE
+        LOOK    BEFORE
         LAY
+        MOVE    ASIDE
         JUMP    CHECK
 RIGHT:  OPEN    2.8             ;for the top
 
@@ -457,6 +493,8 @@ RIGHT:  OPEN    2.8             ;for the top
 TOPPING: COVER
         OPEN    0               ;before it goes down beside the pin
         MOVE    FLANGE          ;over its narrow end
+        RESTORE Y1
+        RESTORE X2
         STOP    [0 0 -40]
         CHANGE  [0 0 -1] .6 .1
         SKIPN   23
@@ -479,8 +517,8 @@ COVERED: CHANGE [0 0 1] 2       ;above the pins, before the hand opens
         RACK
 
         STAGE   "take out the aligning pins"
-        UNPIN   Q1 P1UP E1 C1
-        UNPIN   Q2 P2UP E2 C2
+        UNPIN   Q1 P1UP C1
+        UNPIN   Q2 P2UP C2
 
         STAGE   "drive the last four screws"
         DRIVER

@@ -22,6 +22,7 @@ from handeye.al.definition import (
     Role,
 )
 from handeye.al.operand_kinds import (
+    ALONG,
     ERROR,
     LENS,
     MOMENT,
@@ -222,8 +223,9 @@ _TABLE = (
     Instruction(
         op="SEARCH",
         group=FLOW,
-        help="start a spiral search with this step (in); the present place is the first",
-        operands=(STEP,),
+        help="start a spiral search with this step (in), or one along a line in a direction, degrees from table x; "
+        "the present place is the first",
+        operands=(STEP, ALONG),
     ),
     Instruction(
         op="AOJ",

@@ -38,6 +38,8 @@ PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
 be felt as upright."""
 PLACES: Final = 49
 """Of a search: three steps to each side."""
+LINE_PLACES: Final = 9
+"""Of a search along a line: four steps to each side."""
 _PLACES: Final = {
     i.op: {
         o.name or o.word: (place, tuple(unit.si for unit in o.units)) for place, o in enumerate(i.operands)
@@ -162,6 +164,11 @@ def _change(operands: Operands, how: _How) -> Change:
     )
 
 
+def _search(operands: Operands) -> Search:
+    along = operands.number_or("direction")
+    return Search(step=operands.number("step"), limit=PLACES if along is None else LINE_PLACES, along=along)
+
+
 def _place(_: Operands, how: _How) -> Change:
     return Change(displacement=(0.0, 0.0, -PLACE_DEPTH), guards=(g.Force(force=(0.0, 0.0, -PLACE_FORCE)),))
 
@@ -188,7 +195,7 @@ _STEPS: Final[dict[str, Callable[[Operands], AnyOperation]]] = {
     "OPEN": lambda o: Open(gap=o.number("gap")),
     "CLOSE": lambda o: Close(minimum=o.number_or("minimum") or 0.0, maximum=o.number_or("maximum")),
     "CENTER": lambda o: Center(minimum=o.number_or("minimum") or 0.0),
-    "SEARCH": lambda o: Search(step=o.number("step"), limit=PLACES),
+    "SEARCH": _search,
     "SKIPE": lambda o: Test(number=int(o.number("error")), raised=None),
     "SKIPN": lambda o: Test(number=int(o.number("error")), raised=None),
     "AOJ": lambda _: Advance(),

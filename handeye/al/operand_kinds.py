@@ -4,7 +4,19 @@ from dataclasses import replace
 from typing import Final
 
 from handeye import units
-from handeye.al.definition import ANY, BIGGEST, IN, MM, ONE, OZ_IN, SMALLEST, Operand, OperandUnit, Refers
+from handeye.al.definition import (
+    ANY,
+    BIGGEST,
+    DEG,
+    IN,
+    MM,
+    ONE,
+    OZ_IN,
+    SMALLEST,
+    Operand,
+    OperandUnit,
+    Refers,
+)
 from handeye.al.syntax import Name, Number, Vector
 from handeye.ports import camera
 
@@ -78,4 +90,7 @@ STEP: Final = Operand(
     low=SMALLEST,
     high=LARGEST_STEP,
     why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends three steps to each side",
+)
+ALONG: Final = Operand(
+    name="direction", takes=(Number,), units=(DEG,), word="ALONG", optional=True, ours=True
 )

@@ -64,7 +64,7 @@ def count_down(run: ExecutionContext, operation: Countdown) -> bool:
 
 def search(run: ExecutionContext, operation: Search) -> None:
     """Set up a search; the present place is the first."""
-    run.state.search = SearchState(step=operation.step, limit=operation.limit)
+    run.state.search = SearchState(step=operation.step, limit=operation.limit, along=operation.along)
 
 
 def advance(run: ExecutionContext, _: Advance) -> Fault | None:

@@ -21,7 +21,7 @@ from handeye.program.causes import Cause
 from handeye.program.world_model import WorldState
 from handeye.record import Record
 from handeye.system_state import Natural, SystemState
-from handeye.touch.spiral import SearchPattern
+from handeye.touch.spiral import SearchPattern, line
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration
 from handeye.vision.camera_model import View
@@ -45,6 +45,8 @@ class SearchState(MutableRecord, kw_only=True):
     count: Natural = 0
     around: str = ""
     """The position to which the last motion of it went."""
+    along: float | None = None
+    """Direction of its line (rad from the table's x), if its places are on one."""
 
     def offset(self, pattern: SearchPattern) -> tuple[float, float]:
         """Horizontal offset of the present place in a pattern, m.
@@ -58,8 +60,10 @@ class SearchState(MutableRecord, kw_only=True):
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
-        """Horizontal offset of a place in a pattern, m; None: the pattern has no more."""
-        found = pattern(number) if number < self.limit else None
+        """Horizontal offset of a place on the line or in a pattern, m; None: there are no more."""
+        if number >= self.limit:
+            return None
+        found = pattern(number) if self.along is None else line(number, self.along)
         return None if found is None else (found[0] * self.step, found[1] * self.step)
 
 

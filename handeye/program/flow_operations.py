@@ -9,7 +9,10 @@ from handeye.program.operation import Branch, Operation, action
 
 
 class Search(Operation, frozen=True, kw_only=True):
-    """Set up a spiral search with this step (m) and at most `limit` places; the present place is the first."""
+    """Set up a search with this step (m) and at most `limit` places, of which the present one is the first.
+
+    The places lie on a square spiral; or on a line, if it is `along` a direction (rad from the table's x).
+    """
 
     family: ClassVar = "search"
     bounds: ClassVar = {"step": (1e-5, 0.5), "limit": (1, 10_000)}
@@ -17,6 +20,7 @@ class Search(Operation, frozen=True, kw_only=True):
 
     step: float
     limit: int
+    along: float | None = None
 
 
 class Advance(Operation, frozen=True, kw_only=True):

@@ -1,4 +1,4 @@
-"""The square spiral in which nearby places are searched."""
+"""The square spiral, and the line, in which nearby places are searched."""
 
 import math
 from collections.abc import Callable
@@ -25,3 +25,9 @@ def spiral(k: int) -> tuple[int, int]:
         case 2:
             return -ring, ring - 1 - along
     return along - ring + 1, -ring
+
+
+def line(k: int, direction: float) -> tuple[float, float]:
+    """Place number `k`, from 0, on a line in a direction (rad from x): 0, then 1, -1, 2, -2 ... steps along it."""
+    along = (k + 1) // 2 * (1 if k % 2 else -1)
+    return along * math.cos(direction), along * math.sin(direction)

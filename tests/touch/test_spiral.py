@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from handeye.touch.spiral import spiral
+from handeye.touch.spiral import line, spiral
 
 LISTED = [
     (0, 0), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (2, -1), (2, 0), (2, 1),
@@ -47,3 +47,13 @@ def test_an_error_in_a_disc_takes_at_most_the_computed_number_of_tries(error: fl
     caught = np.linalg.norm(hole[:, None] - grid, axis=-1) <= CATCH
     assert caught.any(axis=1).all()
     assert caught.argmax(axis=1).max() + 1 <= tries
+
+
+def test_a_line_goes_to_both_sides_in_turn() -> None:
+    assert [line(k, 0.0)[0] for k in range(5)] == [0, 1, -1, 2, -2]
+    assert all(line(k, 0.0)[1] == 0 for k in range(5))
+
+
+def test_a_line_goes_in_its_direction() -> None:
+    x, y = line(3, np.radians(60))
+    assert (x, y) == pytest.approx((1.0, np.sqrt(3)))

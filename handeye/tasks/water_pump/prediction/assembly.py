@@ -6,6 +6,7 @@ from typing import Final, TypeVar
 import numpy as np
 
 from handeye.pose import Array, Pose
+from handeye.program.flow_operations import Search
 from handeye.program.motion_operations import Height, Travel
 from handeye.program.program import Program
 from handeye.program.senses import Sense
@@ -16,7 +17,7 @@ from handeye.tasks.water_pump.prediction.hands import Hands
 from handeye.tasks.water_pump.prediction.instructions import Way, ways
 from handeye.tasks.water_pump.prediction.poses import moved
 from handeye.tasks.water_pump.prediction.worlds import Worlds
-from handeye.touch.spiral import spiral
+from handeye.touch.spiral import line, spiral
 
 _UP: Final = (0.0, 0.0, 1.0)
 C = TypeVar("C", Travel, Height)
@@ -51,15 +52,19 @@ class Assembly:
         return moved(self.hands.at(self.planned(goal)), self.shift(goal, way))
 
     def shift(self, goal: str, way: int = 0) -> Array:
-        """What the program restores on a way to a position, shape (n, 3)."""
+        """What the program restores on a way to a position, shape (n, 3); nothing where no MOVE leads, as to G."""
         total = np.zeros((len(self.worlds), 3))
-        for restore in self.ways[goal][way].restore:
+        for restore in self.ways[goal][way].restore if goal in self.ways else ():
             total += self.saved.get(restore.name, np.zeros(3)) * ((1, 1, not restore.level))
         return total
 
     def gives(self, goal: str, way: int = 0) -> float:
         """How far the hand stands over its set-point where it presses behind a motion to a position, m."""
         return self.hands.gives(self.planned(goal), self.ways[goal][way].pressed)
+
+    def gives_at_last(self, goal: str) -> float:
+        """The same where it presses last before it goes to another position, m."""
+        return self.hands.gives(self.planned(goal), self.ways[goal][0].pressed_last)
 
     def line(self, goal: str) -> Array:
         """The finger line at a position, shape (3,), W."""
@@ -96,10 +101,13 @@ class Assembly:
             self._add(operation, goal, "off", away, catch)
             return
         count = 1 if "search" in self.without else search.limit
-        rings = (int(np.sqrt(count)) - 1) // 2
-        self._add(
-            operation, goal, "off", away, catch + rings * search.step, _places(off, catch, search.step, count)
-        )
+        grid = np.array([_place(k, search) for k in range(count)]) * search.step
+        reach = float(np.abs(grid).max())
+        if search.along is not None:
+            reach = float(np.hypot(*grid[-1]))
+            x, y = np.cos(search.along), np.sin(search.along)
+            self._add(operation, goal, "across", np.abs(off[:, 1] * x - off[:, 0] * y), catch)
+        self._add(operation, goal, "off", away, catch + reach, _places(off, catch, grid))
 
     def window(self, operation: str, goal: str, check: type[C], told: Array, *, way: int = 0) -> None:
         """A check of a height or way behind a motion is met if what is told is within its window, m."""
@@ -134,8 +142,12 @@ class Assembly:
         )  # fmt: skip
 
 
-def _places(off: Array, catch: float, step: float, count: int) -> Array:
+def _place(number: int, search: Search) -> tuple[float, float]:
+    """A place of a search, in its steps."""
+    return spiral(number) if search.along is None else line(number, search.along)
+
+
+def _places(off: Array, catch: float, grid: Array) -> Array:
     """Number of the first place of a search, from 1, from which a hole that is off catches; count + 1 if none does."""
-    grid = np.array([spiral(k) for k in range(count)]) * step
     near = np.hypot(*np.moveaxis(off[:, None, :2] - grid, -1, 0)) <= catch
-    return np.where(near.any(axis=1), near.argmax(axis=1), count) + 1.0
+    return np.where(near.any(axis=1), near.argmax(axis=1), len(grid)) + 1.0

@@ -21,13 +21,17 @@ class Way:
     """The search that it is a place of."""
     pressed: float = 0.0
     """Force down with which the last motion behind it ends, up to the first check, N."""
+    pressed_last: float = 0.0
+    """The same of the last motion, N."""
     checks: tuple[Travel | Height, ...] = ()
     """Up to the next motion to a position."""
 
     def pressing(self, operation: Change) -> "Way":
         """The same with a straight motion behind it."""
         forces = [-guard.force[2] for guard in operation.guards if isinstance(guard, Force)]
-        return self if self.checks or not forces else replace(self, pressed=forces[0])
+        if not forces:
+            return self
+        return replace(self, pressed=self.pressed if self.checks else forces[0], pressed_last=forces[0])
 
     def checked(self, operation: Travel | Height) -> "Way":
         """The same with a check behind it."""

@@ -22,7 +22,7 @@ from handeye.units import INCH
 from handeye.variation import WorldSpec
 
 GOALS: Final = (
-    "A", "B", *(goal for pin in pins.PINS for goal in pin.positions), "GUP", "G", "GON", "TOP", "TOPON", "FACE", "D",
+    "A", "B", *(goal for pin in pins.PINS for goal in pin.positions), "GUP", "GON", "TOP", "TOPON", "FACE", "D",
     "DX", *(goal for screw in screws.SCREWS for goal in (screw.fetched, screw.driven)), "DUP", "CRANK",
 )  # fmt: skip
 """Positions that every program of the pump goes to."""

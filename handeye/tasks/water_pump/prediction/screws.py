@@ -84,6 +84,9 @@ def _fetch(assembly: Assembly, X_TP: Array, screw: Screw) -> None:
     assembly.meets(f"screw {screw.number}", screw.fetched, off, _RING_PLAY + _RING_BEVEL)
     assembly.window(f"screw {screw.number}", screw.fetched, Travel, -off[:, 2])
     assembly.save("DS", off)
+    assembly.heights["DS"] = (
+        assembly.planned(screw.fetched)[2, 3] + off[:, 2] - assembly.gives_at_last(screw.fetched)
+    )
 
 
 def _bring(assembly: Assembly, X_TP: Array, screw: Screw) -> None:
