@@ -49,7 +49,7 @@ class Theatre:
         """How a page of this server opens its socket."""
         target = f"ws://127.0.0.1:{self.port}/live?token={self.server.access.token}"
         own = {"uri": target, "origin": f"http://127.0.0.1:{self.port}", "proxy": None, "open_timeout": 60}
-        return own | more
+        return own | {"close_timeout": 1} | more  # whoever has not read all is not waited for
 
     def viewer(self, **more: Any) -> ClientConnection:
         """Somebody who looks on, told of the drive."""
