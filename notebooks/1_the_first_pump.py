@@ -83,7 +83,7 @@ trace = run.trace
 # %%
 moments = {
     "a pin goes into its hole": trace.stages[3].end - 14,
-    "the gasket goes over the pins": trace.stages[4].end - 14,
+    "the gasket goes over the pins": trace.stages[4].end - 11.5,
     "the top goes over both": trace.stages[6].end - 14,
     "a screw is driven": trace.stages[9].end - 8.5,
 }
