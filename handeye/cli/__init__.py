@@ -12,6 +12,7 @@ from handeye.cli import (
     cache,
     comparisons,
     completion,
+    dismantling,
     editing,
     exports,
     fault_matrix,
@@ -51,6 +52,7 @@ app = App(
 )
 for commands in (
     runs,
+    dismantling,
     records,
     reports,
     videos,
