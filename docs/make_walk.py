@@ -5,6 +5,7 @@ python docs/make_walk.py
 
 import re
 import sys
+import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -13,10 +14,8 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "support"), str(ROOT / "tests" /
 
 from stepping_walk import SAID, SEED, commands, of_command  # noqa: E402
 from test_whole_run import begun, transcript  # noqa: E402
-from whole_runs import whole_run  # noqa: E402
 
-from handeye.planfile.store import read_plan  # noqa: E402
-from handeye.resources import plans  # noqa: E402
+import handeye  # noqa: E402
 from handeye.trace.account import account  # noqa: E402
 
 PAGE = ROOT / "docs" / "stepping.md"
@@ -51,11 +50,12 @@ def with_account(page: str, told: Sequence[str]) -> str:
 
 def main() -> None:
     """Carry out the run of the walk, and write what it comes to."""
-    whole = whole_run(read_plan(plans() / "water_pump.plan.json"), SEED)
     said = [line.removeprefix(SAID) for line in commands() if line.startswith(SAID)]
-    heard = "\n".join(transcript(begun(whole), said)).splitlines()
+    with tempfile.TemporaryDirectory() as folder:
+        run = handeye.assemble(SEED, out=folder)
+        heard = "\n".join(transcript(begun(Path(folder)), said)).splitlines()
     page = with_answers(PAGE.read_text(encoding="utf-8"), heard)
-    PAGE.write_text(with_account(page, list(account(whole.events))), encoding="utf-8")
+    PAGE.write_text(with_account(page, list(account(run.events))), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ for_pins = [step for step in plan.stages[3].steps if step.conditions]
 # find out with its senses what of them matters.
 
 # %%
-world = handeye.World(15)
+world = handeye.World(0)
 print(len(world.values), "quantities, among them")
 print("\n".join(f"{name:24} {world[name]:7.3f} {world.unit(name)}" for name in [*world.values][:8]))
 
@@ -89,7 +89,7 @@ moments = {
 }
 figure, axes = plt.subplots(2, 2, figsize=(7.6, 5.9), dpi=80, layout="constrained")
 named = [axis.set_title(name, fontsize=9) for axis, name in zip(axes.flat, moments, strict=True)]
-frames = [trace.frame(moment, "work", width=400, height=300) for moment in moments.values()]
+frames = [trace.frame(moment, "work", width=400, height=300, exposures=4) for moment in moments.values()]
 shown = [axis.imshow(frame) for axis, frame in zip(axes.flat, frames, strict=True)]
 hidden = [axis.axis("off") for axis in axes.flat]
 
@@ -122,7 +122,7 @@ events[begin + 20 : begin + 36]
 # ## And again?
 #
 # The same world, the same plan and the same version of handeye give the same run, to the last bit of its trace.
-# Another seed gives another: `handeye.assemble(16)`. What was different then, and where it began to be,
+# Another seed gives another: `handeye.assemble(1)`. What was different then, and where it began to be,
 # `handeye.compare("pump", "other")` tells.
 #
 # The next notebook, [2. The language by doing](2_the_language_by_doing.ipynb), writes programs.

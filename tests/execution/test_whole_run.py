@@ -1,24 +1,27 @@
 """One whole run in one drawn world: eleven stages, their senses, their times, the referee's word, and a walk in it.
 
-The run is that of docs/stepping.md; `teaching/test_seventh_screw.py` has the only other one that assembles a pump.
+The run is that of the first notebook, in the world of docs/stepping.md; `teaching/test_seventh_screw.py` has the only
+other one that assembles a pump.
 """
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import pytest
 from figures import as_recorded
-from stepping_walk import SAID, SEED, commands, of_command, pieces, stands
-from whole_runs import STAGES, Whole, whole_run
+from running_notebooks import SCRIPTS, runs_to_its_end
+from stepping_walk import SAID, commands, of_command, pieces, stands
+from whole_runs import STAGES, Whole, whole_in
 
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.formatting import MOST, as_text
 from handeye.debugger.stepper import Stepper
 from handeye.errors import NO_FORCE
 from handeye.events import (
+    AnyEvent,
     ErrorRaised,
-    Event,
     FrictionMeasured,
     GuardTripped,
     OperatorCalled,
@@ -27,21 +30,29 @@ from handeye.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.planfile.store import read_plan
-from handeye.resources import plans
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.folder import CHECKPOINTS
 from handeye.runs.runner import Runner
 from handeye.tasks.water_pump.referee import judge
 from handeye.trace.account import account
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.render]
 
 
 @pytest.fixture(scope="module")
-def whole() -> Whole:
-    return whole_run(read_plan(plans() / "water_pump.plan.json"), SEED)
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What the first notebook leaves."""
+    here = tmp_path_factory.mktemp("notebook")
+    runs_to_its_end(SCRIPTS[0], here)
+    return here / "pump"
 
 
-def count(events: list[Event], kind: type[Event]) -> int:
+@pytest.fixture(scope="module")
+def whole(folder: Path) -> Whole:
+    return whole_in(folder)
+
+
+def count(events: Sequence[AnyEvent], kind: type[AnyEvent]) -> int:
     return sum(isinstance(event, kind) for event in events)
 
 
@@ -51,8 +62,8 @@ def test_row_55_the_eleven_stages_are_done_in_order(whole: Whole) -> None:
 
 
 def test_row_55_nobody_calls_the_operator(whole: Whole) -> None:
-    assert count(list(whole.events), OperatorCalled) == 0
-    assert (whole.finished.result.completed, whole.finished.result.error) == (True, None)
+    assert count(whole.events, OperatorCalled) == 0
+    assert (whole.result.completed, whole.result.error) == (True, None)
 
 
 @pytest.mark.row(60, drawn=1)
@@ -74,8 +85,8 @@ def test_row_55_the_rotor_is_turned_without_resistance(whole: Whole) -> None:
     turning = whole.during("turn the rotor")
     assert count(turning, GuardTripped) == 0
     assert [event.number for event in turning if isinstance(event, ErrorRaised)] == [NO_FORCE]
-    assert math.degrees(whole.finished.runner.cell.truth.data.joint("rotor").qpos[0]) > 50
-    assert whole.finished.result.referee["rotor"].ok
+    assert math.degrees(whole.runner.cell.truth.data.joint("rotor").qpos[0]) > 50
+    assert whole.result.referee["rotor"].ok
 
 
 def test_what_the_arm_has_measured_of_itself_outlasts_the_calibration_of_the_camera(whole: Whole) -> None:
@@ -100,7 +111,7 @@ def test_row_22_after_the_first_hole_the_others_need_one_more_try_at_most(whole:
 
 @pytest.mark.row(58, drawn=1)
 def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> None:
-    result, timing = whole.finished.result, whole.finished.result.timing
+    result, timing = whole.result, whole.result.timing
     assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
     assert whole.lens() == pytest.approx(timing.lens_s, abs=0.01)
     assert timing.working_s == pytest.approx(timing.manipulation_s + timing.lens_s, abs=0.01)
@@ -108,21 +119,21 @@ def test_row_58_the_times_of_the_stages_and_of_the_lens_add_up(whole: Whole) -> 
 
 @pytest.mark.row(58)
 def test_row_58_vision_is_a_tiny_share_and_the_lens_a_large_one(whole: Whole) -> None:
-    timing = whole.finished.result.timing
+    timing = whole.result.timing
     assert timing.vision_cpu_s < 0.02 * timing.working_s
     assert 0.15 < timing.lens_s / timing.working_s < 0.4
 
 
 def test_the_referee_agrees_with_the_program(whole: Whole) -> None:
-    wrong = {name: check for name, check in whole.finished.result.referee.items() if not check.ok}
+    wrong = {name: check for name, check in whole.result.referee.items() if not check.ok}
     assert wrong == {}
-    assert whole.finished.result.exit_code == 0
+    assert whole.result.exit_code == 0
 
 
 def test_the_referee_says_the_same_again(whole: Whole) -> None:
-    findings = judge(whole.finished.runner.cell.truth)
+    findings = judge(whole.runner.cell.truth)
     assert {name: f.value for name, f in findings.items()} == {
-        name: check.value for name, check in whole.finished.result.referee.items()
+        name: check.value for name, check in whole.result.referee.items()
     }
 
 
@@ -139,23 +150,20 @@ def test_every_step_that_began_has_ended(whole: Whole) -> None:
 # -- the walk in docs/stepping.md, which docs/make_walk.py makes anew --------------------------------
 
 
-def begun(whole: Whole) -> Stepper:
+def begun(folder: Path) -> Stepper:
     """The run of the walk taken up where its commands begin."""
-    runner = whole.finished.runner
-    steps = runner.listing.steps
+    runner = whole_in(folder).runner
     first = stage_number("insert", runner.setup.plan.program)
-    (before,) = (
-        state for state in runner.history
-        if state.state.stage is None and state.state.at is not None and steps[state.state.at].stage == first
-    )  # fmt: skip
-    return Stepper(Runner(runner.checkpoint(before)))
+    before = CheckpointStore(folder / CHECKPOINTS).for_stage(runner.setup, first)
+    assert before is not None
+    return Stepper(Runner(before))
 
 
 @pytest.fixture(scope="module")
-def stepper(whole: Whole) -> Stepper:
-    if whole.finished.runner.cell.renderer.method != "opengl":
+def stepper(folder: Path, whole: Whole) -> Stepper:
+    if whole.runner.cell.renderer.method != "opengl":
         pytest.skip("the walk was made with pictures by OpenGL")
-    return begun(whole)
+    return begun(folder)
 
 
 def transcript(stepper: Stepper, said: list[str]) -> Iterator[str]:

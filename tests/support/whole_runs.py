@@ -1,18 +1,24 @@
 """A whole run of the pump's program in a drawn world, and what the reference's rows ask of any."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from pathlib import Path
+
+import msgspec
 
 from handeye.events import (
+    AnyEvent,
     CameraBusy,
-    Event,
     GuardTripped,
     StageFinished,
     StageStarted,
     StepStarted,
 )
 from handeye.planfile.plan import Plan
-from handeye.trials.assembly import Finished, run_plan
+from handeye.report.result import Result
+from handeye.runs.folder import RESULT, open_again
+from handeye.runs.runner import Runner
+from handeye.trials.assembly import run_plan
 from handeye.variation import WorldSpec
 
 STAGES = (
@@ -25,15 +31,17 @@ STAGES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Whole:
-    """A run that has ended, and everything that happened."""
+    """A run that has ended, what it came to, and everything that happened."""
 
-    finished: Finished
+    result: Result
+    runner: Runner
+    """As it stands at the end."""
 
-    @cached_property
-    def events(self) -> tuple[Event, ...]:
-        return tuple(self.finished.runner.events)
+    @property
+    def events(self) -> Sequence[AnyEvent]:
+        return self.runner.events
 
-    def during(self, stage: str) -> list[Event]:
+    def during(self, stage: str) -> list[AnyEvent]:
         """Events of a stage."""
         names = [e.stage if isinstance(e, StageStarted) else None for e in self.events]
         start = names.index(stage)
@@ -69,4 +77,13 @@ class Whole:
 
 def whole_run(plan: Plan, seed: int) -> Whole:
     """The plan, carried out in the drawn world of a seed."""
-    return Whole(finished=run_plan(plan, world=WorldSpec(seed=seed)))
+    finished = run_plan(plan, world=WorldSpec(seed=seed))
+    return Whole(result=finished.result, runner=finished.runner)
+
+
+def whole_in(folder: Path) -> Whole:
+    """A run that was kept in a folder, taken up at its end."""
+    _, end, faults = open_again(folder)
+    assert faults == []
+    result = msgspec.json.decode((folder / RESULT).read_bytes(), type=Result)
+    return Whole(result=result, runner=Runner(end))

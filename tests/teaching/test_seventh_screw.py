@@ -81,11 +81,11 @@ def whole(hole: Position) -> Whole:
 
 @pytest.mark.row(57, drawn=1)
 def test_the_seventh_screw_goes_home_in_the_pump_that_the_program_has_assembled(whole: Whole) -> None:
-    threads = holes_of(whole.finished.runner.cell.truth)
+    threads = holes_of(whole.runner.cell.truth)
     assert (threads[6].screw, sorted(thread.screw for thread in threads)) == (6, list(range(7)))
     assert not any(thread.crossed for thread in threads)
     assert min(thread.clamp for thread in threads) > 40
-    assert whole.finished.result.exit_code == 0
+    assert whole.result.exit_code == 0
 
 
 @pytest.mark.row(55, drawn=1)
@@ -96,7 +96,7 @@ def test_row_55_the_eleven_stages_are_done_in_order_and_five_screws_in_one(whole
 
 @pytest.mark.row(58, drawn=1)
 def test_row_58_the_times_of_another_run_add_up(whole: Whole) -> None:
-    result, timing = whole.finished.result, whole.finished.result.timing
+    result, timing = whole.result, whole.result.timing
     assert sum(stage.arm_s for stage in result.stages) == pytest.approx(timing.manipulation_s, abs=0.1)
     assert timing.working_s == pytest.approx(timing.manipulation_s + whole.lens(), abs=0.01)
     assert timing.vision_cpu_s < 0.02 * timing.working_s
