@@ -1,4 +1,5 @@
-"""Recorded text is compared to the last place of its figures but one, forces to an ounce and a half, and to the letter besides."""
+"""Recorded text is compared to the last place of its figures but one, forces to an ounce and a half, and to the letter
+besides."""
 
 import pytest
 from figures import as_recorded
@@ -18,8 +19,8 @@ def test_a_force_may_differ_by_an_ounce_and_a_half(figure: str) -> None:
 
 @pytest.mark.parametrize(
     ("was", "now"),
-    [("61.0", "62.6"), ("5.27", "5.31"), ("61.0", "61.01"), ("61.0", "61"), ("5.27", "-5.27"), ("4", "5"), ("ounces", "pounds"),
-     ("\n", "\nonce more 61.0\n")],
+    [("61.0", "62.6"), ("5.27", "5.31"), ("61.0", "61.01"), ("61.0", "61"), ("5.27", "-5.27"), ("4", "5"),
+     ("ounces", "pounds"), ("\n", "\nonce more 61.0\n")],
 )  # fmt: skip
 def test_every_other_difference_stays(was: str, now: str) -> None:
     assert as_recorded(RECORDED.replace(was, now), RECORDED) != RECORDED
