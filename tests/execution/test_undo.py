@@ -12,6 +12,7 @@ from short_runs import begin
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.execution.undo.resistance import ALLOWED, allowed
+from handeye.execution.undo.undoing import CLOSER
 from handeye.program.causes import HoldOff, UndoResisted, UndoUnknown
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
@@ -38,6 +39,8 @@ ROUND:  MOVE    T1
         CHANGE  [0 0 1] 1
 """
 """Takes a pin out of its holder and goes down with it three times."""
+CLOSED = 4
+"""Its step that grasps the pin."""
 DROP = f"{TAKE}        OPEN    1\n"
 
 
@@ -123,6 +126,16 @@ def test_a_thing_that_is_no_longer_where_it_was_put_down_stops_the_arm_by_the_ga
     assert cause.gap < cause.kept - 1e-3
     assert run.ended
     assert context_of(run.system).drive.sensed.braked
+
+
+def test_what_came_to_lie_straighter_while_it_was_carried_is_let_go_all_the_same() -> None:
+    def grasped_skew(runner: Runner) -> None:
+        done = context_of(runner.system).state.done
+        before, after = done[CLOSED].gap
+        done[CLOSED] = replace(done[CLOSED], gap=(before, after + 1.3 * CLOSER))
+
+    run = undone(done(), left=CLOSED, meddle=grasped_skew)
+    assert run.call is None
 
 
 def test_what_stands_in_the_way_stops_the_arm_by_its_force() -> None:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.undo.done import Done
-from handeye.execution.undo.loops import loop_entry
+from handeye.execution.undo.loops import loop_entry, touch_entry
 from handeye.execution.undo.retracing import retracing
 from handeye.execution.undo.way import GRAIN, Track, Way, packed, unpacked
 from handeye.planning.motions import GUARDED_SPEED
@@ -128,6 +128,11 @@ def test_a_round_in_which_the_operator_was_called_is_none() -> None:
     assert entry(executed(3), executed(4, called=True), executed(3)) is None
 
 
+def test_a_round_in_which_a_stage_began_is_none() -> None:
+    assert entry(executed(3), executed(4), executed(3, enters=True)) is None
+    assert entry(executed(3, enters=True), executed(4), executed(3)) == 0
+
+
 HOLDING = {"grasping": True}
 FREE = {"grasping": False}
 
@@ -152,3 +157,37 @@ def test_a_screw_that_was_driven_and_not_backed_out_is_no_round() -> None:
     backed = executed(5, tool=-20.0, way=b"way")
     assert entry(executed(3), driven, executed(3)) is None
     assert entry(executed(3), driven, backed, executed(3)) == 0
+
+
+# -- touches ------------------------------------------------------------------------------------------
+
+FORCE = GuardKind.FORCE
+WENT = {"way": b"way"}
+TOUCH = (executed(3), executed(4, **WENT, ended=FORCE), executed(5), executed(6, **WENT))
+"""A step, a motion that ends on a force, a test of that, and the motion that leaves it."""
+
+
+def test_a_touch_is_undone_with_the_motion_that_left_it() -> None:
+    assert touch_entry(TOUCH, grasping=False) == 0
+    assert touch_entry(TOUCH[1:], grasping=False) == -1
+
+
+@pytest.mark.parametrize(
+    ("index", "other"),
+    [
+        (1, executed(4, **WENT)),  # met nothing
+        (1, executed(4, **WENT, ended=FORCE, grasping=True)),  # with something in the hand
+        (1, executed(4, **WENT, ended=GuardKind.TORQUE, tool=20.0)),
+        (1, executed(4, **WENT, ended=FORCE, called=True)),
+        (2, executed(5, fingers=0.02)),  # the fingers moved while it touched
+        (3, executed(6, **WENT, gap=(0.01, 0.02))),  # they move now
+        (3, executed(6, **WENT, enters=True)),
+        (3, executed(6)),  # nothing has left it
+    ],
+)
+def test_what_is_no_touch_is_undone_step_by_step(index: int, other: Done) -> None:
+    assert touch_entry((*TOUCH[:index], other, *TOUCH[index + 1 :]), grasping=False) is None
+
+
+def test_fingers_that_have_closed_on_what_they_touched_have_not_left_it() -> None:
+    assert touch_entry(TOUCH, grasping=True) is None

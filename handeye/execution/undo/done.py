@@ -47,3 +47,5 @@ class Undoing(Record, frozen=True, kw_only=True):
     """The run ends there; otherwise the program can go on."""
     lets_go: Natural | None = None
     """The index of the step that took the screw on the bit: undone, it leaves it where it was."""
+    held: float | None = None
+    """Finger gap with which the hand took what it holds, or held it when undoing began, m; None: it held nothing."""

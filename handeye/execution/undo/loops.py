@@ -1,9 +1,12 @@
-"""Rounds of a loop that changed nothing but what the program remembers: they need not be gone back one by one.
+"""Steps that changed nothing but what the program remembers: they are undone as one lift, and not one by one.
 
-Where a program has jumped back to a step at which it was before, it takes the world for what it was then. That is so
-if in between nobody was called, the hand holds what it held, whatever it put down it has taken up again at the same
-place (or the other way round), and whatever the driver drove in, it has backed out. Rounds that carry things from one
-place to another are no such loop, and are undone one by one.
+These are rounds of a loop, and touches. Where a program has jumped back to a step at which it was before, it takes the
+world for what it was then. That is so if in between no stage began and nobody was called, the hand holds what it held,
+whatever it put down it has taken up again at the same place (or the other way round), and whatever the driver drove in,
+it has backed out. Rounds that carry things from one place to another are no such loop, and are undone one by one.
+
+A touch is a motion of an empty hand that ended on something, and the one that left it. The way back would end on the
+thing a second time, and a finger that came to its side comes down on its edge if it has been pushed since.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -36,6 +39,33 @@ def loop_entry(done: Sequence[Done], hand: Callable[[int], Array | None]) -> int
     return None
 
 
+def touch_entry(done: Sequence[Done], *, grasping: bool) -> int | None:
+    """The index of the step behind which an empty hand set out to touch what the last one left; -1: before the first.
+
+    Args:
+        grasping: the fingers were last told to close.
+
+    Returns:
+        None: the last one left no touch.
+    """
+    last = len(done) - 1
+    if grasping or last < 1 or not _goes_empty(done[last]):
+        return None
+    for index in range(last, 0, -1):
+        one, other = done[index - 1], done[index]
+        if one.called or one.grasping or other.enters or one.fingers != other.fingers:
+            return None
+        if one.way:
+            return index - 2 if _goes_empty(one) and one.ended is not None else None
+    return None
+
+
+def _goes_empty(done: Done) -> bool:
+    """It moved an empty hand, and not its fingers."""
+    before, after = done.gap
+    return bool(done.way) and not done.grasping and not done.tool and abs(after - before) < SAME_GAP
+
+
 def without_rounds(done: Sequence[Done], hand: Callable[[int], Array | None]) -> Iterator[int]:
     """Indices of the steps as they are undone, the last first, without those of rounds that are left out."""
     index = len(done) - 1
@@ -54,7 +84,7 @@ def _alike(one: Done, other: Done) -> bool:
 def _undone_itself(done: Sequence[Done], entry: int, hand: Callable[[int], Array | None]) -> bool:
     """Nothing but memory is another now than when a step was first executed."""
     rounds = range(entry, len(done) - 1)
-    if any(done[index].called for index in rounds):
+    if any(done[index].called or done[index + 1].enters for index in rounds):
         return False
     driven = sum(done[index].ended is GuardKind.TORQUE for index in rounds)
     backed = sum(done[index].tool < 0 and bool(done[index].way) for index in rounds)

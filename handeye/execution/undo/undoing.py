@@ -15,7 +15,7 @@ from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import ExecutionState, vector
 from handeye.execution.undo.done import Done, Undoing
-from handeye.execution.undo.loops import loop_entry, without_rounds
+from handeye.execution.undo.loops import loop_entry, touch_entry, without_rounds
 from handeye.execution.undo.memory import remember
 from handeye.execution.undo.resistance import Resistance, allowed
 from handeye.execution.undo.retracing import retracing
@@ -53,25 +53,26 @@ def order(state: ExecutionState, undoing: Undoing) -> None:
     """
     if undoing.left >= len(state.done):
         raise InvalidInput("there is nothing to undo")
-    state.undoing, state.stopped, state.onward, state.idle = undoing, None, None, 0
+    held = state.done[-1].gap[1] if state.grasping else None
+    state.undoing, state.stopped, state.onward, state.idle = replace(undoing, held=held), None, None, 0
     state.pending, state.at = None, state.done[-1].step
 
 
 def undo_last(run: ExecutionContext) -> Stopped | None:
-    """Undo the step that was executed last, or the rounds of its loop; what is undone is taken off the list.
+    """Undo the step that was executed last, or with it those that a lift undoes; what is undone is taken off the list.
 
     Returns:
         None, or what stopped it: then the last step is as far undone as it came.
     """
     state = run.state
-    first = _first_of_rounds(run)
+    first = _first_of_lift(run)
     here = state.done[-1].step
     state.stage = run.plan.program.steps[here].stage
     run.drive.track.begin(run.drive.state.q, run.drive.state.gap)
     _tell(run, here, len(state.done) - first)
     try:
-        rounds = first < len(state.done) - 1
-        stopped = _lift(run, first - 1) if rounds else _undo(run, state.done[-1])
+        several = first < len(state.done) - 1
+        stopped = _lift(run, first - 1) if several else _undo(run, state.done[-1])
         undone = [] if stopped else _forget(run, first)
     except ValueError:  # a way or a memory that is none of this program and its arm
         stopped, undone = Stopped(cause=UndoUnknown()), []
@@ -81,16 +82,17 @@ def undo_last(run: ExecutionContext) -> Stopped | None:
     return stopped
 
 
-def _first_of_rounds(run: ExecutionContext) -> int:
+def _first_of_lift(run: ExecutionContext) -> int:
     """The index of the first step that is undone with the last one."""
     state = run.state
     assert state.undoing is not None
     last = len(state.done) - 1
     try:
-        entry = loop_entry(state.done, lambda index: _hand_behind(run, index))
+        rounds = loop_entry(state.done, lambda index: _hand_behind(run, index))
     except ValueError:  # a way that cannot be used tells of no round
         return last
-    return last if entry is None or entry < state.undoing.left else entry + 1
+    entry = touch_entry(state.done, grasping=state.grasping) if rounds is None else rounds
+    return last if entry is None or entry + 1 < state.undoing.left else entry + 1
 
 
 def _tell(run: ExecutionContext, number: int, steps: int) -> None:
@@ -162,7 +164,7 @@ def _retrace(run: ExecutionContext, done: Done) -> Stopped | None:
 
 def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
     """Undo a grasp: the fingers open to where they were; what they held already they hold as firmly as before."""
-    off = _off_hold(run, done.gap[1])
+    off = _lost(run, done.gap[1])
     if off is not None or not done.grasping:
         return off or _fingers_back(run, done)
     stopped = _retrace(run, done)
@@ -173,15 +175,25 @@ def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
 
 def _take_again(run: ExecutionContext, done: Done) -> Stopped | None:
     """Undo an opening: the fingers close to where they were, on what they held there."""
-    return _fingers_back(run, done)
+    stopped = _fingers_back(run, done)
+    if stopped is None and done.grasping:
+        assert run.state.undoing is not None
+        run.state.undoing = replace(run.state.undoing, held=run.drive.sensed.gap)
+    return stopped
 
 
 def _fingers_back(run: ExecutionContext, done: Done) -> Stopped | None:
-    stopped = _go(run, done, _way(run, done))
+    stopped = _go(run, replace(done, force=_under(run, done)), _way(run, done))
     if stopped is not None:
         return stopped
     _press(run, done.fingers)
-    return _off_hold(run, done.gap[0], holding=done.grasping)
+    return _off_hold(run, done.gap[0], CLOSER if done.grasping else SAME_HOLD, holding=done.grasping)
+
+
+def _under(run: ExecutionContext, done: Done) -> float:
+    """The force that fingers bring back with what they held, N: that with which the motion before had ended."""
+    before = next((earlier for earlier in reversed(run.state.done[:-1]) if earlier.way), done)
+    return max(done.force, before.force)
 
 
 def _press(run: ExecutionContext, gap: float) -> None:
@@ -208,10 +220,20 @@ def _turn_out(run: ExecutionContext, done: Done) -> Stopped | None:
     return None
 
 
-def _off_hold(run: ExecutionContext, kept: float, *, holding: bool = True) -> Stopped | None:
-    """See that the fingers stand where they stood when the step was executed."""
+def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
+    """See that the fingers hold what they took: where they stood when it was grasped, or since it was taken again.
+
+    What is carried may come to lie straighter between them: one base of seed 1, by 1.1 mm.
+    """
+    undoing = run.state.undoing
+    held = kept if undoing is None or undoing.held is None else undoing.held
+    return _off_hold(run, kept, CLOSER + max(0.0, kept - held))
+
+
+def _off_hold(run: ExecutionContext, kept: float, closer: float, *, holding: bool = True) -> Stopped | None:
+    """See that the fingers stand where they stood when the step was executed, or no more than so much closer (m)."""
     gap = run.drive.sensed.gap
-    if -(CLOSER if holding else SAME_HOLD) <= gap - kept <= SAME_HOLD:
+    if -closer <= gap - kept <= SAME_HOLD:
         return None
     return Stopped(cause=HoldOff(gap=round(gap, 6), kept=kept, holding=holding))
 
