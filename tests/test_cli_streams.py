@@ -60,6 +60,7 @@ CHEAP = {
     "export mjcf": "export mjcf ✓ -o ✓",
     "export glb": "export glb ✓ -o ✓.jpg",
     "trials assembly": "trials assembly --seeds ✓",
+    "trials dismantling": "trials dismantling --to ✓",
     "trials compare": "trials compare ✓ ✓",
     "trials base": "trials base ✓",
     "trials gasket": "trials gasket 1 --set ✓",

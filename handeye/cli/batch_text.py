@@ -9,6 +9,7 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from handeye.trials.batch.comparing import Paired
+    from handeye.trials.batch.dismantling import DismantlingFigures
     from handeye.trials.batch.figures import Failure, Figures
     from handeye.trials.batch.rates import Rate
 
@@ -24,7 +25,7 @@ def page(found: "Figures") -> RenderableType:
     return Group(*spaced, *(Text(line) for line in failures(found)), Text(verdict(found)))
 
 
-def failures(found: "Figures") -> Iterator[str]:
+def failures(found: "Figures | DismantlingFigures") -> Iterator[str]:
     """The failures, each with the command that carries it out again, and their causes counted."""
     for failure in found.failures:
         yield from _failure(failure)
@@ -34,15 +35,30 @@ def failures(found: "Figures") -> Iterator[str]:
 
 def verdict(found: "Figures") -> str:
     """How many trials were assembled, and how sure that is."""
+    return _counted(found, found.assembled, "assembled")
+
+
+def dismantling_page(found: "DismantlingFigures") -> RenderableType:
+    """All that is told of trials of dismantling."""
+    told = _counted(found, found.apart, "apart")
+    if found.force is not None:
+        told += f"\ngreatest force that the hand met: {found.force:.1f} N"
+    if found.not_built:
+        told += f"\nnot built, and not counted: {found.not_built}"
+    tables = [table for table in (_margins(found),) if table.rows]
+    return Group(*tables, *(Text(line) for line in failures(found)), Text(told))
+
+
+def _counted(found: "Figures | DismantlingFigures", successes: int, right: str) -> str:
     counts = [
         f"{found.silent_failures} silent failures",
         f"{found.stopped} stopped",
         f"{found.failed} broken off",
     ]
-    text = f"{found.assembled} of {found.n} assembled, {', '.join(counts)}"
+    text = f"{successes} of {found.n} {right}, {', '.join(counts)}"
     if found.wilson95 is None or found.p_s is None:
         return text
-    return f"{text}\nassembled: {percent(*found.wilson95)} (Wilson, 95 %), at least {percent(found.p_s)} (exact, 95 %)"
+    return f"{text}\n{right}: {percent(*found.wilson95)} (Wilson, 95 %), at least {percent(found.p_s)} (exact, 95 %)"
 
 
 def comparison(first: str, found: "Iterable[Paired]") -> RenderableType:
@@ -100,7 +116,7 @@ def _searches(found: "Figures") -> Table:
     return table
 
 
-def _margins(found: "Figures") -> Table:
+def _margins(found: "Figures | DismantlingFigures") -> Table:
     table = plain_table(("margin to the limit of", "unit"), "median", "5 %", "worst", "seed", "deviations")
     for each in found.margins:
         deviations = "" if each.deviations is None else f"{each.deviations:.3g}"

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from handeye.trials.batch.engines import Engine
     from handeye.trials.batch.figures import Figures
     from handeye.trials.batch.folder import BatchFolder
-    from handeye.trials.batch.row import Row
+    from handeye.trials.batch.row import Row, Verdict
     from handeye.trials.batch.trial import Trial
     from handeye.variation import WorldSpec
 
@@ -234,7 +234,9 @@ def kept_batch(out: Path | None, trial: "Trial", world: "WorldSpec") -> "Iterato
         folder.close()
 
 
-def progress(count: int, kept: int, timer: HostTimer, rows: "list[Row]") -> "Callable[[Row], None]":
+def progress(
+    count: int, kept: int, timer: HostTimer, rows: "list[Row]", right: "Verdict" = "assembled"
+) -> "Callable[[Row], None]":
     """What tells of each trial as it ends: how it ended, the rate until now with its interval, and the time left."""
     from handeye.cli.batch_text import percent
     from handeye.trials.batch.rates import rate
@@ -244,12 +246,12 @@ def progress(count: int, kept: int, timer: HostTimer, rows: "list[Row]") -> "Cal
 
     def tell(row: "Row") -> None:
         rows.append(row)
-        sure = rate(sum(each.verdict == "assembled" for each in rows), len(rows))
+        sure = rate(sum(each.verdict == right for each in rows), len(rows))
         assert sure.wilson95 is not None
         left = timer.wall_s / len(rows) * (count - kept - len(rows))
         note(
             f"{kept + len(rows):4} of {count}  seed {row.seed:4}  {row.verdict:9}  {sure.successes} of {sure.trials} "
-            f"assembled ({percent(*sure.wilson95)}), {_left(left)} left{row.detail and '  '}{row.detail}"
+            f"{right} ({percent(*sure.wilson95)}), {_left(left)} left{row.detail and '  '}{row.detail}"
         )
 
     return tell

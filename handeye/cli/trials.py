@@ -9,6 +9,7 @@ from cyclopts import App, Parameter
 from handeye.cli.batches import assembly_trials, compare_trials
 from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
+from handeye.cli.dismantling import dismantling_trials
 from handeye.cli.predictions import predict_trials
 from handeye.cli.world_options import (
     ANY_WORLD,
@@ -36,6 +37,7 @@ def register(app: App) -> None:
     """Add the commands to the command line."""
     trials = App(name="trials", help="Try in many worlds and count.")
     trials.command(assembly_trials, name="assembly")
+    trials.command(dismantling_trials, name="dismantling")
     trials.command(compare_trials, name="compare")
     trials.command(predict_trials, name="predict")
     trials.command(base_vision_trials, name="base")

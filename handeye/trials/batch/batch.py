@@ -28,6 +28,7 @@ def head_of(trial: Trial, world: WorldSpec) -> Head:
         InvalidInput: the installation is incomplete.
     """
     return Head(
+        work=trial.work,
         plan=plan_digest(trial.plan),
         program=trial.plan.program.name,
         world=world,

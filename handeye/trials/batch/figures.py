@@ -89,7 +89,7 @@ def figures(
     counts = Counter(row.verdict for row in rows)
     sure = rate(counts["assembled"], len(rows))
     simulated = sum(_simulated_s(row) for row in fresh)
-    failures = tuple(_failure(row, command) for row in rows if row.verdict != "assembled")
+    failures = failures_of(rows, command, "assembled")
     return Figures(
         n=len(rows),
         assembled=counts["assembled"],
@@ -100,7 +100,7 @@ def figures(
         wilson95=sure.wilson95,
         p_s=sure.p_s,
         failures=failures,
-        causes=_causes(failures),
+        causes=causes_of(failures),
         operations=_operations(rows),
         stages=tuple(stage_times(rows)),
         searches=tuple(search_places(rows)),
@@ -109,6 +109,16 @@ def figures(
         wall_s=round(wall_s, 3),
         real_time_factor=round(simulated / wall_s, 3) if fresh and wall_s > 0 else None,
     )
+
+
+def failures_of(rows: Sequence[Row], command: Callable[[Row], str], *right: Verdict) -> tuple[Failure, ...]:
+    """The trials that did not end as they should.
+
+    Args:
+        command: the command that carries a trial out again.
+        right: verdicts of those that did.
+    """
+    return tuple(_failure(row, command) for row in rows if row.verdict not in right)
 
 
 def _simulated_s(row: Row) -> float:
@@ -122,7 +132,8 @@ def _operations(rows: Sequence[Row]) -> dict[str, Rate]:
     return {name: rate(sum(each), len(each)) for name, each in done.items()}
 
 
-def _causes(failures: Sequence[Failure]) -> tuple[Cause, ...]:
+def causes_of(failures: Sequence[Failure]) -> tuple[Cause, ...]:
+    """The causes of failures, the most frequent first."""
     counts = Counter((failure.stage, failure.cause) for failure in failures)
     first = {(failure.stage, failure.cause): failure.command for failure in reversed(failures)}
     return tuple(

@@ -22,7 +22,7 @@ R = TypeVar("R", bound=Record)
 TRIALS: Final = "trials.jsonl"
 PLAN: Final = "plan.json"
 _NAMES: Final = {
-    "plan": "plan", "world": "worlds", "camera": "camera", "without": "senses",
+    "work": "work", "plan": "plan", "world": "worlds", "camera": "camera", "without": "senses",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
 """What parts of a head are called."""
@@ -33,6 +33,8 @@ class Head(Record, frozen=True, kw_only=True):
 
     format: Literal["handeye batch"] = "handeye batch"
     version: Literal[1] = 1
+    work: str = ""
+    """What is done in each trial, where that is not to assemble."""
     plan: str
     """Digest of the plan."""
     program: str

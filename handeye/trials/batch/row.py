@@ -9,12 +9,14 @@ from handeye.record import Record
 from handeye.report.result import Result
 from handeye.trials.batch.contacts import Contact, SearchEnd
 
-Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit"]
+Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit", "not built"]
 """How a trial ended: by its program; by an exception; because its process was killed; at a limit of simulated seconds,
-or of the host's."""
-Verdict = Literal["assembled", "silent", "stopped", "failed"]
-"""The referee found all right; the program said done and it was not; the program called for help; the run broke off."""
+or of the host's; before there was anything to take apart."""
+Verdict = Literal["assembled", "apart", "silent", "stopped", "failed", "not built"]
+"""The referee found all right; everything was where the run had found it; the program said done and it was not; the
+program called for help; the run broke off; what was to be taken apart was not built."""
 
+_LEFT_RESULT: Final = ("ended", "not built")
 _BROKEN_OFF: Final[dict[Ended, str]] = {
     "killed": "its process was killed twice",
     "simulated limit": "over the limit of simulated time",
@@ -39,6 +41,8 @@ class Row(Record, frozen=True, kw_only=True):
     contacts: tuple[Contact, ...] = ()
     """Contact operations that were begun."""
     searches: tuple[SearchEnd, ...] = ()
+    force: float | None = None
+    """Greatest force that the hand met while it undid, N; None: nothing was undone."""
     killed: Annotated[int, msgspec.Meta(ge=0)] = 0
     """How often its process was killed."""
     wall_s: float = 0.0
@@ -47,9 +51,12 @@ class Row(Record, frozen=True, kw_only=True):
     @property
     def verdict(self) -> Verdict:
         """How it counts."""
+        if self.ended == "not built":
+            return "not built"
         if self.result is None or self.ended != "ended":
             return "failed"
-        codes: dict[int, Verdict] = {0: "assembled", 1: "stopped", 3: "silent"}
+        right: Verdict = "apart" if self.result.apart is True else "assembled"
+        codes: dict[int, Verdict] = {0: right, 1: "stopped", 3: "silent"}
         return codes[self.result.exit_code]
 
     @property
@@ -62,7 +69,7 @@ class Row(Record, frozen=True, kw_only=True):
     @property
     def cause(self) -> str:
         """Cause of a failure, the same words for the same cause; empty if there was none."""
-        if self.ended != "ended" or self.result is None:
+        if self.ended not in _LEFT_RESULT or self.result is None:
             return self.raised or _BROKEN_OFF[self.ended]
         if not self.result.completed:
             return ERRORS[self.result.error] if self.result.error is not None else self.result.message
@@ -71,7 +78,7 @@ class Row(Record, frozen=True, kw_only=True):
     @property
     def detail(self) -> str:
         """The same with its figures."""
-        if self.ended != "ended" or self.result is None:
+        if self.ended not in _LEFT_RESULT or self.result is None:
             return self.cause
         if not self.result.completed:
             return self.result.message

@@ -15,7 +15,6 @@ from handeye.program.senses import Sense
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
-from handeye.runs.setup import plan_of
 from handeye.trials.assembly import Finished, run_plan
 from handeye.trials.batch.contacts import contacts, searches
 from handeye.trials.batch.row import Ended, Row
@@ -49,12 +48,17 @@ class Trial:
     simulated_limit_s: float = SIMULATED_LIMIT_S
     wall_limit_s: float = WALL_LIMIT_S
 
+    @property
+    def work(self) -> str:
+        """What is done in each, where that is not to assemble."""
+        return ""
+
     def __call__(self, job: Job) -> Row:
         """Carry one out. An exception is a result: of a thousand trials, none is worth the others."""
-        timer, watch = HostTimer(), _Watch(simulated_s=self.simulated_limit_s, wall_s=self.wall_limit_s)
+        timer, watch = HostTimer(), Watch(simulated_s=self.simulated_limit_s, wall_s=self.wall_limit_s)
         row = Row(trial=job.trial, seed=job.world.seed, ended="raised")
         try:
-            found = _facts(self._run(job.world, timer, watch), watch)
+            found = self._facts(job.world, timer, watch)
         except Exception as error:
             found = (
                 {"raised": f"{type(error).__name__}: {error}"}
@@ -64,8 +68,9 @@ class Trial:
         spent = {"wall_s": round(timer.wall_s, 3), "cpu_s": round(timer.cpu_s, 3)}
         return msgspec.structs.replace(row, **found, **spent)
 
-    def _run(self, world: WorldSpec, timer: HostTimer, watch: "_Watch") -> Finished:
-        return run_plan(
+    def _facts(self, world: WorldSpec, timer: HostTimer, watch: "Watch") -> dict[str, object]:
+        """What a row tells of a trial that no exception broke off."""
+        done = run_plan(
             self.plan,
             world=world,
             camera=self.camera,
@@ -74,6 +79,11 @@ class Trial:
             halt=watch.over,
             without=self.without,
         )
+        program, where = self.plan.program, done.runner.task.contacts
+        return facts(done, watch.ended) | {
+            "contacts": tuple(contacts(program, done.runner.events, where, completed=done.result.completed)),
+            "searches": tuple(searches(program, done.runner.events)),
+        }
 
 
 def row_of(answer: Answer[Job, Row]) -> Row:
@@ -104,22 +114,19 @@ def events_digest(events: list[AnyEvent]) -> str:
     return digest.hexdigest()[:16]
 
 
-def _facts(done: Finished, watch: "_Watch") -> dict[str, object]:
-    """What a row tells of a run that was not broken off by an exception."""
+def facts(done: Finished, ended: Ended) -> dict[str, object]:
+    """What a row tells of any run."""
     steps = [event for event in done.runner.events if isinstance(event, StepStarted)]
-    program, where = plan_of(done.runner.setup).program, done.runner.task.contacts
     return {
-        "ended": watch.ended,
+        "ended": ended,
         "result": done.result,
         "line": None if done.result.completed or not steps else steps[-1].place,
         "events": events_digest(done.runner.events),
-        "contacts": tuple(contacts(program, done.runner.events, where, completed=done.result.completed)),
-        "searches": tuple(searches(program, done.runner.events)),
     }
 
 
 @dataclass(slots=True, kw_only=True)
-class _Watch:
+class Watch:
     """Ends a run that takes too long, as the panic button does."""
 
     simulated_s: float
