@@ -1,6 +1,6 @@
 """Bench: machines whose servos are closed outside the computer, in one scene under one clock."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Final
 
 import mujoco
@@ -19,6 +19,8 @@ class Bench(Clock):
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model, self.data = model, mujoco.MjData(model)
+        self.before_step: list[Callable[[], None]] = []
+        """What the machines do before every step of the physics."""
         self._step = round(model.opt.timestep * MICROSECONDS)
         self._now = 0
         mujoco.mj_forward(self.model, self.data)
@@ -32,10 +34,17 @@ class Bench(Clock):
     def now(self) -> float:
         return self._now / MICROSECONDS
 
+    @property
+    def step(self) -> float:
+        """s of one step of the physics."""
+        return self._step / MICROSECONDS
+
     def advance(self, seconds: float) -> None:
-        steps = whole_steps(seconds, self._step / MICROSECONDS)
-        mujoco.mj_step(self.model, self.data, steps)
-        self._now += steps * self._step
+        for _ in range(whole_steps(seconds, self.step)):
+            for act in self.before_step:
+                act()
+            mujoco.mj_step(self.model, self.data)
+            self._now += self._step
         if not np.isfinite(self.data.qpos).all():
             raise InvalidInput(f"the physics of the bench has failed at {self.now:.3f} s")
 
@@ -62,6 +71,9 @@ class BenchAxes(Axes):
         """
         self._bench, self._specs, self._period = bench, tuple(specs), period
         self._hand, self._channels = hand, channels
+        self._goal, self._steps = self.read().q, whole_steps(period, bench.step)
+        self._way, self._left = np.zeros(len(specs)), 0
+        bench.before_step.append(self._interpolate)
 
     @property
     def specs(self) -> tuple[AxisSpec, ...]:
@@ -85,7 +97,23 @@ class BenchAxes(Axes):
     def put(self, goal: Array, hand: float) -> None:
         if not (np.isfinite(goal).all() and np.isfinite(hand)):
             raise InvalidInput("a goal of an axis is not a finite number")
+        self._way = (goal - self._put) / self._steps
+        self._goal, self._left = np.array(goal), self._steps
+        self._bench.data.actuator(self._hand).ctrl = hand
+
+    def _interpolate(self) -> None:
+        """Go on towards the goal, evenly for a period: goals that jump shake what lies on the axes.
+
+        Measured: the platter's acceleration had peaks of 10.8 m/s2 on ways planned with 1, which drew blocks along.
+        """
+        if not self._left:
+            return
+        self._left -= 1
         data = self._bench.data
-        for spec, value in zip(self._specs, goal, strict=True):
+        for spec, value in zip(self._specs, self._put, strict=True):
             data.actuator(spec.name).ctrl = value
-        data.actuator(self._hand).ctrl = hand
+
+    @property
+    def _put(self) -> Array:
+        """What the servos are told now, shape (n,)."""
+        return self._goal - self._left * self._way

@@ -1,7 +1,7 @@
 """An arm for TRIG whose axes go where they are told: moves as set-points, and guarded ones that feel with a finger."""
 
 from collections.abc import Iterable
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from handeye.ports.axes import Axes
 from handeye.ports.clock import Clock
 from handeye.pose import Array
 from handeye.record import Vector3
+from handeye.trig.obstacles import RESISTANCE, LeftBehind, Obstacle, Resisted, Unsupported
 from handeye.trig.place import Place
 from handeye.trig.teachable import Arrival, Halted, Teachable
 
@@ -17,12 +18,23 @@ OPEN: Final = 0.048
 """m between the fingers."""
 CLOSED: Final = -0.020
 """m, as told: it never gets there, and so presses with all its force."""
-ACCELERATION: Final = (1.0, 1.0, 1.0, 10.0, 10.0, 10.0)
+ACCELERATION: Final = (0.8, 0.8, 0.8, 10.0, 10.0, 10.0)
 """m/s2 and rad/s2. A stack of twenty blocks of 12 mm on 30 mm tips at 1.2 m/s2."""
 GUARDED: Final = (0.015, 0.015, 0.015, 0.2, 0.2, 0.2)
 """m/s and rad/s of a guarded move."""
 SETTLING: Final = 0.15
 """s that the servos are given behind a move."""
+STANDING: Final = np.array([*3 * (1e-3,), *3 * (1e-2,)])
+"""m and rad that an axis may be from where it was told to be. The platter's servo is pushed so far by 100 N."""
+APPROACH: Final = 5e-3
+"""m from above, straight down, to where what the hand holds is set down: a slanted way would push over a stack."""
+DEEPER: Final = 2e-3
+"""m below that place within which there must be something to set it down on. Places are taught to .3 mm, so that what
+was put down may have dropped by two or three of these, and is grasped again so much higher."""
+CARRIED: Final = 0.28
+"""N, an ounce: upwards on the finger when something else carries what it holds. A block weighs as much."""
+LAG: Final = 0.03
+"""s that an axis may lag behind where it is told to be. The servos lag by .02 s."""
 GRASPING: Final = 0.5
 """s that the hand is given."""
 _TARE: Final = 10
@@ -64,16 +76,82 @@ class AxesArm(Teachable):
         for q in slow_line(self._goal, np.array(goal), np.array(GUARDED), self._axes.period):
             force = float(np.dot(vector, self._force() - tare))
             if force > threshold or halted():
-                break
+                self._stand()
+                return Arrival(kind="tripped" if force > threshold else "halted", force=force)
             self._put(q)
-        else:
-            return Arrival(kind="reached", force=force)
+        return Arrival(kind="reached", force=force)
+
+    def back(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+        self.check_travel(goal)
+        tare = self._tared()
+        for q in quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period):
+            if halted():
+                self._wait(SETTLING)
+                return "halted"
+            speed = (q - self._goal) / self._axes.period
+            self._put(q)
+            obstacle = self._met(tare, speed)
+            if obstacle is not None:
+                return obstacle
         self._wait(SETTLING)
-        return Arrival(kind="tripped" if force > threshold else "halted", force=force)
+        return self._met(tare, np.zeros(len(self._goal)))
+
+    def set_down(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+        stop = self.back(self.within_travel(goal._replace(z=goal.z + APPROACH)), halted)
+        if stop is not None:
+            return stop
+        tare = self._tared()
+        lowest = self.within_travel(goal._replace(z=goal.z - DEEPER))
+        for q in slow_line(self._goal, np.array(lowest), np.array(GUARDED), self._axes.period):
+            if halted():
+                self._stand()
+                return "halted"
+            speed = (q - self._goal) / self._axes.period
+            self._put(q)
+            if (self._force() - tare)[2] > CARRIED:
+                self._stand()
+                return None
+            obstacle = self._met(tare, speed)
+            if obstacle is not None:
+                return obstacle
+        return Unsupported()
+
+    @property
+    def gap(self) -> float:
+        return self._axes.read().channels["gap"]
 
     def hand(self, closed: bool) -> None:
         self._closed = closed
         self._wait(GRASPING)
+
+    def _met(self, tare: Array, speed: Array) -> Obstacle | None:
+        """What stops the arm, which then stands still: a force on the finger, or an axis that is left behind.
+
+        Args:
+            tare: the force that was felt before, N.
+            speed: that the axes were told last, shape (n,).
+        """
+        found = self._resistance(tare) or self._left_behind(speed)
+        if found is not None:
+            self._stand()
+        return found
+
+    def _stand(self) -> None:
+        """Stand still where the axes are by now, and not where they were told to be."""
+        self._goal = self._axes.read().q
+        self._wait(SETTLING)
+
+    def _resistance(self, tare: Array) -> Resisted | None:
+        force = float(np.linalg.norm(self._force() - tare))
+        return Resisted(force=round(force, 6), limit=RESISTANCE) if force > RESISTANCE else None
+
+    def _left_behind(self, speed: Array) -> LeftBehind | None:
+        off = np.abs(self._goal - self._axes.read().q)
+        limits = STANDING + LAG * np.abs(speed)
+        axis = int(np.argmax(off / limits))
+        if off[axis] <= limits[axis]:
+            return None
+        return LeftBehind(axis=axis, off=round(float(off[axis]), 6), limit=round(float(limits[axis]), 6))
 
     def _follow(self, way: Iterable[Array], halted: Halted) -> bool:
         for q in way:

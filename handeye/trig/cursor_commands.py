@@ -4,6 +4,7 @@ from handeye.errors import InvalidInput
 from handeye.plain_text import counted
 from handeye.trig.given import Given
 from handeye.trig.node import NONE, TOP
+from handeye.trig.obstacles import told_obstacle
 from handeye.trig.running import Ran
 from handeye.trig.session import Session
 
@@ -69,6 +70,8 @@ def run(session: Session, given: Given) -> None:
 def told_run(ran: Ran, *, back: bool = False) -> str:
     """How a run has ended, in words."""
     steps = f"{counted(ran.steps, 'step')} {'undone' if back else 'done'}"
+    if ran.obstacle is not None:
+        return f"{steps}; the arm has stopped at the step before that: {told_obstacle(ran.obstacle)}"
     return {
         "count": steps,
         "none": f"{steps}; the program has ended",

@@ -7,7 +7,7 @@ go through them.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, Literal
 
 from handeye.record import Vector3
 from handeye.trig.place import Place
@@ -18,8 +18,12 @@ TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), mat
 """m and rad: that of the Purbrick arm, which the paper does not give."""
 BLOCK: Final = 0.030
 """m, along and across."""
+OPEN: Final = 0.048
+"""m between the fingers."""
 HEIGHT: Final = 0.012
 """m, of a block."""
+_SAME: Final = 1e-9
+"""m: places that are no farther apart are the same."""
 _TOUCH: Final = 1.01
 """Times the threshold: the force at which it is noticed that there is one."""
 
@@ -78,6 +82,16 @@ class NoArm(Teachable, Tabletop):
         force = 0.0 if top is None else max(_TOUCH * threshold, math.ulp(0.0))
         return Arrival(kind="reached" if top is None else "tripped", force=force)
 
+    def back(self, goal: Place, halted: Halted) -> Literal["halted"] | None:
+        return None if self.go(goal, halted) else "halted"
+
+    def set_down(self, goal: Place, halted: Halted) -> Literal["halted"] | None:
+        return self.back(goal, halted)
+
+    @property
+    def gap(self) -> float:
+        return BLOCK if self.held else 0.0 if self._closed else OPEN
+
     def hand(self, closed: bool) -> None:
         if closed and not self._closed:
             self.held = next((block for block in self.blocks if block.between(self._at)), None)
@@ -104,7 +118,7 @@ class NoArm(Teachable, Tabletop):
     def _met(self, goal: Place) -> float | None:
         """The height of what the hand meets first on its way down to a goal."""
         tops = [block.z for block in self.blocks if block.under(goal) and block is not self.held]
-        return max((z for z in tops if goal.z < z <= self._at.z), default=None)
+        return max((z for z in tops if goal.z < z <= self._at.z + _SAME), default=None)
 
     def _carry(self, goal: Place) -> None:
         if self.held is not None:

@@ -31,6 +31,10 @@ class Done(NamedTuple):
     """Name of the position that the step has changed."""
     data: Place = NOWHERE
     """Of that position."""
+    gaps: tuple[float, float] = (0.0, 0.0)
+    """Between the fingers before and after a step of the hand, m."""
+    touched: Place | None = None
+    """Where the arm was when a guarded step had met something."""
 
 
 class Cut(NamedTuple):

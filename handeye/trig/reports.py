@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from handeye.record import Record
 from handeye.trig.no_arm import NoArm
+from handeye.trig.obstacles import Obstacle
 from handeye.trig.place import Measures, Place
 from handeye.trig.position import is_named
 from handeye.trig.running import Ran
@@ -15,6 +16,8 @@ class Way(Record, frozen=True, kw_only=True):
 
     steps: int
     end: str
+    obstacle: Obstacle | None = None
+    """What stopped it."""
 
 
 class BlockPlace(Record, frozen=True, kw_only=True):
@@ -41,7 +44,7 @@ class TrigReport(Record, frozen=True, kw_only=True):
 
 def report(session: Session, ways: Sequence[Ran]) -> TrigReport:
     """Tell how runs have ended, and where everything is."""
-    told = [Way(steps=ran.steps, end=ran.end) for ran in ways]
+    told = [Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle) for ran in ways]
     known = session.program.positions
     blocks = session.arm.blocks if isinstance(session.arm, NoArm) else ()
     return TrigReport(

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 from handeye.trig.node import GUARDED, NONE, NORMAL, TOP, Node
+from handeye.trig.obstacles import Obstacle
 from handeye.trig.place import Place
 from handeye.trig.program import NOWHERE, Cut, Done, TrigProgram
 from handeye.trig.teachable import Halted, Teachable
+from handeye.trig.undoing import undo_last
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,8 +22,11 @@ class Ran:
 
     steps: int
     """Done or undone."""
-    end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted"]
-    """As many as wanted, the end of the program, somebody's key, nothing left to undo, no memory of it, or no step."""
+    end: Literal["count", "none", "halted", "beginning", "forgotten", "deleted", "stopped"]
+    """As many as wanted, the end of the program, somebody's key, nothing left to undo, no memory of it, no step, or an
+    obstacle."""
+    obstacle: Obstacle | None = None
+    """What the arm met as it undid the active step."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -104,7 +109,9 @@ class Runner:
                 return self._move(node)
             case "grasp" | "ungrasp":
                 self._remember(node)
+                before = self.arm.gap
                 self.arm.hand(node.type == "grasp")
+                self._amend(gaps=(before, self.arm.gap))
             case "savpos" if node.position is not None:
                 position = self.program.positions[node.position]
                 self._remember(node, position=node.position, data=position.data)
@@ -142,6 +149,8 @@ class Runner:
         if node.threshold is None or node.vector is None:
             return NORMAL if self.arm.go(goal, self.halted) else None
         arrival = self.arm.feel(goal, node.vector, node.threshold, self.halted)
+        if arrival.kind == "tripped":
+            self._amend(touched=self.arm.here())
         return {"reached": NORMAL, "tripped": GUARDED, "halted": None}[arrival.kind]
 
     def goal(self, node: Node) -> Place:
@@ -161,6 +170,11 @@ class Runner:
         done = Done(node.id, self.arm.here(), self.arm.closed, rounds, position, data)
         self.program.remember(done)
 
+    def _amend(self, *, gaps: tuple[float, float] = (0.0, 0.0), touched: Place | None = None) -> None:
+        """Add to what is remembered of the last step what is known when it is done."""
+        trail = self.program.trail
+        trail[-1] = trail[-1]._replace(gaps=gaps, touched=touched)
+
     # -- backwards -------------------------------------------------------------------------------------
 
     def back(self, wanted: int) -> Ran:
@@ -173,14 +187,16 @@ class Runner:
         while steps < wanted:
             if not program.trail:
                 return Ran(steps=steps, end="forgotten" if program.forgotten else "beginning")
-            done = program.trail[-1]
-            if done.node not in program.graph:
+            id = program.trail[-1].node
+            if id not in program.graph:
                 return Ran(steps=steps, end="deleted")
-            node = program.graph[done.node]
+            node = program.graph[id]
             if node.shown and not self._begin(node.id):
                 return Ran(steps=steps, end="halted")
-            if not self._undo(node, done):
-                return Ran(steps=steps, end="halted")
+            stop = undo_last(program, self.arm, self.halted)
+            if stop is not None:
+                obstacle = None if stop == "halted" else stop
+                return Ran(steps=steps, end="stopped" if obstacle else "halted", obstacle=obstacle)
             program.trail.pop()
             steps += node.shown
             self._come_from()
@@ -198,19 +214,3 @@ class Runner:
 
     def _is_step(self, id: int) -> bool:
         return id in self.program.graph and self.program.graph[id].shown
-
-    def _undo(self, node: Node, done: Done) -> bool:
-        """Make it as it was before a node was carried out; False: the arm was halted on its way."""
-        graph, positions = self.program.graph, self.program.positions
-        match node.type:
-            case "normal" | "guarded":
-                return self.arm.go(done.place, self.halted)
-            case "grasp" | "ungrasp":
-                self.arm.hand(done.closed)
-            case "savpos":
-                positions[done.position].data = done.data
-            case "loop":
-                node.count = done.rounds
-            case "bloop":
-                graph[node.partner].count = done.rounds
-        return True

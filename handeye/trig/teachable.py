@@ -7,6 +7,7 @@ from typing import Literal
 
 from handeye.errors import InvalidInput
 from handeye.record import Vector3
+from handeye.trig.obstacles import Obstacle
 from handeye.trig.place import AXES, SIZES, UNITS, Place
 
 Halted = Callable[[], bool]
@@ -66,14 +67,39 @@ class Teachable(ABC):
         """
 
     @abstractmethod
+    def back(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+        """Go back to a place where the arm was, under guards; None: it is there.
+
+        Whatever has stopped it, it stands still where it is.
+
+        Raises:
+            OutOfTravel: it cannot go there, and has not moved.
+        """
+
+    @abstractmethod
+    def set_down(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+        """Go back to a place from where the hand has taken up what it holds, and set it down there; as `back`."""
+
+    @abstractmethod
     def hand(self, closed: bool) -> None:
         """Close the hand, or open it."""
+
+    @property
+    @abstractmethod
+    def gap(self) -> float:
+        """How far the fingers are apart, as sensed, m."""
 
     def check_travel(self, goal: Place) -> None:
         """Raises OutOfTravel if the arm cannot go to a place."""
         for axis, (value, (lower, upper)) in enumerate(zip(goal, self.travel, strict=True)):
             if not lower - _SLACK <= value <= upper + _SLACK:
                 raise OutOfTravel(axis, value, lower, upper)
+
+    def within_travel(self, goal: Place) -> Place:
+        """The nearest place to a goal that the arm can go to, axis by axis."""
+        return Place(
+            *(min(max(a, lower), upper) for a, (lower, upper) in zip(goal, self.travel, strict=True))
+        )
 
 
 _SLACK = 1e-9

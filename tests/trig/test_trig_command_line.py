@@ -21,7 +21,7 @@ def test_a_script_is_typed_run_and_run_back(command: Command) -> None:
 def test_a_run_is_told_as_json(command: Command) -> None:
     code, out, err = command("trig", "run", PALLETISE, "--json")
     told = json.loads(out)
-    assert (code, told["forward"], told["back"]) == (0, {"steps": 227, "end": "none"}, None)
+    assert (code, told["forward"], told["back"]) == (0, {"steps": 227, "end": "none", "obstacle": None}, None)
     assert (told["cursor"], told["arm"][:3], len(told["blocks"])) == ("FINISH", [0, 150, 200], 20)
     assert err == "227 steps done; the program has ended\n"
 

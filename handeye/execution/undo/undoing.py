@@ -27,12 +27,8 @@ from handeye.program.causes import BackingOut, Cause, HoldOff, ScrewFast, UndoRe
 from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation
+from handeye.touch.hold import CLOSER, SAME_HOLD, as_before
 
-SAME_HOLD: Final = 5e-4
-"""m that the fingers may stand off the gap that they had."""
-CLOSER: Final = 1e-3
-"""m that fingers may be closer on what they hold: grasped anew it lies straighter in them, and CENTER holds lightly.
-Measured: .8 on the base after it was pushed, .5 on pins. On fingers an inch wide, 2 degrees are as much."""
 BESIDE: Final = 1e-4
 """rad or m: an arm that is no farther from where a loop was entered is there."""
 
@@ -233,7 +229,7 @@ def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
 def _off_hold(run: ExecutionContext, kept: float, closer: float, *, holding: bool = True) -> Stopped | None:
     """See that the fingers stand where they stood when the step was executed, or no more than so much closer (m)."""
     gap = run.drive.sensed.gap
-    if -closer <= gap - kept <= SAME_HOLD:
+    if as_before(gap, kept, closer):
         return None
     return Stopped(cause=HoldOff(gap=round(gap, 6), kept=kept, holding=holding))
 
