@@ -32,6 +32,7 @@ def _planning(meaning: str, example: str, severity: Severity = "error") -> Code:
 
 
 CODES: Final[dict[str, Code]] = {
+    "always-undone": _warning("a stage is undone and nothing is tested before", "MOVE P\nUNDO STAGE"),
     "aoj-without-search": _warning("no SEARCH comes before an AOJ on any path to it", "L: MOVE T\nAOJ L"),
     "axis-count": _error("a FREE or SPIN names more or fewer axes than its count", "FREE 2 X\nCHANGE X 1"),
     "carries-through-fixture": _planning(

@@ -264,11 +264,12 @@ class WentBack(Event, frozen=True, kw_only=True):
 
 
 class UndoOrdered(Event, frozen=True, kw_only=True):
-    """Somebody has the arm undo what it did, until so many executed steps are left."""
+    """Somebody, or the program, has the arm undo what it did, until so many executed steps are left."""
 
     left: int
     halts: bool
     """The run ends there; otherwise the program can go on."""
+    asked_by: Literal["person", "program"] = "person"
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):

@@ -87,7 +87,7 @@ class Operand:
     @property
     def plain(self) -> str:
         """As a sentence calls it."""
-        return f"vector {self.name}" if self.is_vector else self.name
+        return f"vector {self.name}" if self.is_vector else self.name or f"word `{self.word}`"
 
     @property
     def shown(self) -> str:

@@ -27,6 +27,7 @@ from handeye.al.operand_kinds import (
     LENS,
     MOMENT,
     STEP,
+    TIMES,
     also,
     gap,
     name_of,
@@ -264,6 +265,13 @@ _TABLE = (
         group=FLOW,
         help="set the brakes and show the operator a text; without an operator the run ends there",
         operands=(Operand(name="text", takes=(Text,), free=True),),
+    ),
+    Instruction(
+        op="UNDO",
+        group=FLOW,
+        help="have the arm undo its stage and begin it anew, once or so many times; then go on",
+        operands=(word("STAGE", optional=False), TIMES),
+        ours=True,
     ),
     Instruction(
         op="TRANS",

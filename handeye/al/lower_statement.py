@@ -21,6 +21,7 @@ from handeye.program.flow_operations import (
     Search,
     Test,
     Tool,
+    Undo,
     Wait,
     Where,
 )
@@ -203,6 +204,7 @@ _STEPS: Final[dict[str, Callable[[Operands], AnyOperation]]] = {
     "SOJG": lambda o: Countdown(counter=o.name("counter"), positive=None),
     "JUMP": lambda _: Jump(),
     "WAIT": lambda o: Wait(message=o.name("text")),
+    "UNDO": lambda o: Undo(times=int(o.number_or("number") or 1)),
     "SAVE": lambda o: Save(name=o.name("name")),
     "HERE": lambda o: Here(position=o.name("name")),
     "WHERE": lambda _: Where(),

@@ -65,9 +65,9 @@ def also(name: str, refers: Refers) -> Operand:
     return Operand(name=name, takes=(Name,), refers=refers, optional=True)
 
 
-def word(word: str, *, ours: bool = True) -> Operand:
-    """A word of the language, which may be left out."""
-    return Operand(name="", takes=(), word=word, optional=True, ours=ours)
+def word(word: str, *, optional: bool = True, ours: bool = True) -> Operand:
+    """A word of the language, which may be left out or not."""
+    return Operand(name="", takes=(), word=word, optional=optional, ours=ours)
 
 
 MOMENT: Final = Operand(
@@ -90,6 +90,18 @@ STEP: Final = Operand(
     low=SMALLEST,
     high=LARGEST_STEP,
     why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends three steps to each side",
+)
+TIMES: Final = Operand(
+    name="number",
+    takes=(Number,),
+    units=(ONE,),
+    low=1,
+    high=100,
+    why="a stage is undone 1 to 100 times",
+    whole=True,
+    word="TIMES",
+    optional=True,
+    ours=True,
 )
 ALONG: Final = Operand(
     name="direction", takes=(Number,), units=(DEG,), word="ALONG", optional=True, ours=True

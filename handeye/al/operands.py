@@ -137,7 +137,9 @@ class _Reader(msgspec.Struct, gc=False):
     def operand(self, operand: Operand) -> Value | None:
         if operand.word:
             if not self.takes(operand.word):
-                return None
+                if operand.optional:
+                    return None
+                raise self.missing(operand)
             if not operand.takes:
                 read = self.tokens[self.at - 1]
                 return Name(read.start, read.end, operand.word)
@@ -154,6 +156,8 @@ class _Reader(msgspec.Struct, gc=False):
 
     def takes(self, word: str) -> bool:
         """Read a word of the language, if one stands here."""
+        if self.at == len(self.tokens):
+            return False
         token = self.tokens[self.at]
         found = token.kind is NAME and token.text.upper() == word
         self.at += found
@@ -290,7 +294,7 @@ class _Reader(msgspec.Struct, gc=False):
 
     def missing(self, operand: Operand) -> Mistake:
         message = f"`{self.definition.op}` lacks its {operand.plain}"
-        end = (self.tokens[-1] if self.tokens else self.head).end
+        end = (self.tokens[self.at - 1] if self.at else self.head).end
         said = None if self.tokens else alone(self.definition.op)
         help = self.usage() if said is None else f"{self.usage()}: {said}"
         return Mistake("missing-operand", message, Span(start=end, end=end), "it is expected here", help)

@@ -68,6 +68,8 @@ class Executor:
         run.emit(self._finished(here))
         if step.operation.calls is not None:
             self._stop(message=step.operation.calls)
+        elif self.state.unwound.get(here, 0) < step.operation.undoes:
+            self._undo_stage(here)
         elif self.state.pending is not None and not self._tests(self.state.at):
             self._stop(error=self.state.pending.number, cause=self.state.pending.cause)
         else:
@@ -89,6 +91,7 @@ class Executor:
         )
         if choice != "proceed":
             self.state.undoing = None
+            self.state.unwound.clear()
         run.emit(OperatorAnswered(time=run.time, choice=choice, step=self.state.at))
         self._leave("skipped" if choice == "skip" else "done")
 
@@ -98,8 +101,20 @@ class Executor:
         Raises:
             InvalidInput: there are no more than that.
         """
+        if undoing.asked_by == "person":
+            self.state.unwound.clear()
         order(self.state, undoing)
-        self.run.emit(UndoOrdered(time=self.run.time, left=undoing.left, halts=undoing.halts))
+        asked_by = undoing.asked_by
+        self.run.emit(
+            UndoOrdered(time=self.run.time, left=undoing.left, halts=undoing.halts, asked_by=asked_by)
+        )
+
+    def _undo_stage(self, number: int) -> None:
+        """Have the stage undone by a step, and count that."""
+        self.state.unwound[number] = self.state.unwound.get(number, 0) + 1
+        done = self.state.done
+        began = next(index for index in reversed(range(len(done))) if done[index].enters)
+        self.undo(Undoing(left=began, asked_by="program"))
 
     def _undo(self) -> None:
         """Undo the step that was executed last; what stops that is told to the operator."""
@@ -171,6 +186,7 @@ class Executor:
         if self.state.at is None or program.steps[self.state.at].stage != self.state.stage:
             run.emit(StageFinished(time=run.time, stage=program.stages[self.state.stage], status=status))
             self.state.stage = None
+            self.state.unwound.clear()
 
     def _stop(self, *, message: str = "", error: int | None = None, cause: Cause | None = None) -> None:
         """Set the brakes and tell the operator."""

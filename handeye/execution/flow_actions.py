@@ -18,6 +18,7 @@ from handeye.program.flow_operations import (
     Search,
     Test,
     Tool,
+    Undo,
     Wait,
     Where,
 )
@@ -133,6 +134,7 @@ FLOW_ACTIONS: Final[dict[type[Operation], Action]] = {
     Load: load,
     Tool: tool,
     Jump: nothing,
+    Undo: nothing,
     Wait: nothing,
 }
 DECISIONS: Final[dict[type[Operation], Decision]] = {Test: test_error, Countdown: count_down}

@@ -186,6 +186,8 @@ class ExecutionState(SystemState, kw_only=True):
     """Steps that were executed and not undone by the arm, in order."""
     undoing: Undoing | None = None
     """The arm undoes what it did; None: the program goes on."""
+    unwound: dict[int, int] = msgspec.field(default_factory=dict)
+    """How often each step of the stage under way has had it undone; undoing does not take that back."""
     drive: DriveState
 
 
@@ -209,6 +211,7 @@ def _fits_program(state: ExecutionState, plan: Plan) -> bool:
         and (state.stage is None or state.stage < len(program.stages))
         and (state.stopped is None or (state.stage is not None and state.at is None))
         and all(done.step < len(program.steps) for done in state.done)
+        and all(step < len(program.steps) for step in state.unwound)
         and (state.undoing is None or state.undoing.left < len(state.done))
         and {*world.measured, *state.general} <= set(program.parts)
         and {*state.shots, *state.found} <= program.written("picture")  # names that become file names

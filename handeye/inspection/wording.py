@@ -5,7 +5,9 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from handeye.errors import NOTHING_HELD, WRONG_HEIGHT, WRONG_THICKNESS, WRONG_TRAVEL
+from handeye.plain_text import counted
 from handeye.program import guards as g
+from handeye.program.flow_operations import Undo
 from handeye.program.motion_operations import Center, Change, Close, Height, Move, Travel
 from handeye.program.operations import AnyOperation
 from handeye.record import Vector3
@@ -118,6 +120,7 @@ _CONDITIONS: Final[dict[type[AnyOperation], Callable[[Any], list[str]]]] = {
     Center: lambda operation: [_held(operation)],
     Travel: _gone,
     Height: _stands,
+    Undo: lambda operation: [f"undoes the stage, {counted(operation.times, 'time')} at most"],
 }
 """More that is to be said of an operation than its guards."""
 

@@ -128,6 +128,19 @@ class Wait(Operation, frozen=True, kw_only=True):
         return self.message
 
 
+class Undo(Operation, frozen=True, kw_only=True):
+    """Have the arm undo its stage and begin it anew; when that was done `times` since the stage began, go on."""
+
+    bounds: ClassVar = {"times": (1, 100)}
+
+    times: int
+
+    @property
+    def undoes(self) -> int:
+        """How often."""
+        return self.times
+
+
 class Load(Operation, frozen=True, kw_only=True):
     """Declare the weight (N) of what the hand carries, so that the servo compensates it."""
 
@@ -146,4 +159,6 @@ class Tool(Operation, frozen=True, kw_only=True):
     speed: float
 
 
-FlowOperation = Search | Advance | Test | Assign | Countdown | Jump | Save | Here | Where | Wait | Load | Tool
+FlowOperation = (
+    Search | Advance | Test | Assign | Countdown | Jump | Save | Here | Where | Wait | Undo | Load | Tool
+)

@@ -116,6 +116,11 @@ class Operation(
         return None
 
     @property
+    def undoes(self) -> int:
+        """How often, at most, it has the arm undo its stage and begin it anew; then the program goes on behind it."""
+        return 0
+
+    @property
     def branch(self) -> Branch | None:
         """The other way it may lead, if there is one."""
         return None

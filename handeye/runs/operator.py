@@ -109,7 +109,7 @@ def _unwound(runner: Runner) -> set[int]:
     for event in runner.events:
         if isinstance(event, StageStarted):
             now = runner.stages.index(event.stage)
-        elif isinstance(event, UndoOrdered):
+        elif isinstance(event, UndoOrdered) and event.asked_by == "person":
             found.add(now)
     return found
 

@@ -72,4 +72,9 @@ class Checkpoint(Record, frozen=True, kw_only=True):
 
 def interfered(events: Iterable[AnyEvent]) -> bool:
     """See whether somebody has taken a hand in what happened."""
-    return any(isinstance(event, ExperimentMade | OperatorAnswered | UndoOrdered) for event in events)
+    return any(
+        event.asked_by == "person"
+        if isinstance(event, UndoOrdered)
+        else isinstance(event, ExperimentMade | OperatorAnswered)
+        for event in events
+    )

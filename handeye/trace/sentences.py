@@ -143,7 +143,8 @@ def sentence(event: Event) -> str:
             return "panic button: drives off, brakes set"
         case happened.UndoOrdered():
             but = f", but for the first {counted(event.left, 'step')}" if event.left else ""
-            return f"the arm is told to undo what it did{but}"
+            who = "the program has the arm undo" if event.asked_by == "program" else "the arm is told to undo"
+            return f"{who} what it did{but}"
         case happened.StageUndone():
             return f"stage “{event.stage}” undone"
         case happened.UndoEnded():

@@ -98,6 +98,7 @@ def test_what_has_felt_force_goes_back_no_faster_than_a_guarded_motion() -> None
 
 # -- rounds -------------------------------------------------------------------------------------------
 
+WENT = {"way": b"way"}
 PLACES = {0: (0.0, 0.0, 0.0), 1: (0.0, 0.0, 0.1), 2: (0.1, 0.0, 0.1)}
 
 
@@ -115,8 +116,17 @@ def test_of_several_rounds_the_first_counts() -> None:
     assert entry(*rounds) == 1
 
 
-def test_a_step_that_is_come_to_from_above_closes_none() -> None:
-    assert entry(executed(3), executed(4), executed(5), executed(3), executed(4)) is None
+def test_without_a_jump_back_there_is_no_round() -> None:
+    assert entry(executed(3), executed(4), executed(5)) is None
+
+
+def test_what_went_through_free_air_since_the_jump_belongs_to_its_rounds() -> None:
+    rounds = (executed(3), executed(4, force=9.0), executed(5), executed(3), executed(4, **WENT))
+    assert entry(*rounds) == 0
+    assert entry(*rounds[:-1], executed(4, **WENT, force=9.0)) is None
+    assert entry(*rounds[:-1], executed(4, **WENT, gap=(0.01, 0.02))) is None
+    assert entry(*rounds[:-1], executed(4, **WENT, tool=20.0)) is None
+    assert loop_entry(rounds, lambda _: None, grasping=True) is None  # the fingers have closed
 
 
 @pytest.mark.parametrize("other", [{"gap": (0.02, 0.02)}, {"load": 5.0}, {"grasping": True}, {"tool": 20.0}])
@@ -162,7 +172,6 @@ def test_a_screw_that_was_driven_and_not_backed_out_is_no_round() -> None:
 # -- touches ------------------------------------------------------------------------------------------
 
 FORCE = GuardKind.FORCE
-WENT = {"way": b"way"}
 TOUCH = (executed(3), executed(4, **WENT, ended=FORCE), executed(5), executed(6, **WENT))
 """A step, a motion that ends on a force, a test of that, and the motion that leaves it."""
 

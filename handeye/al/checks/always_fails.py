@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Final
 
-from handeye.program.flow_operations import Tool, Wait
+from handeye.program.flow_operations import Tool, Undo, Wait
 from handeye.program.graph import Graph
 from handeye.program.guards import Force, GuardKind
 from handeye.program.motion_operations import Center, Change, Close, Open, Travel
@@ -38,6 +38,7 @@ def in_vain(graph: Graph) -> Iterator[AlwaysFails]:
     yield from _torques(graph)
     yield from _touches(graph)
     yield from _pauses(graph)
+    yield from _undoes(graph)
 
 
 def _stops(graph: Graph) -> Iterator[AlwaysFails]:
@@ -144,4 +145,23 @@ def _pauses(graph: Graph) -> Iterator[AlwaysFails]:
                 step=number,
                 message="`WAIT` stops the run and calls the operator: it does not wait for a time",
                 help="leave it out: the arm is at rest when a motion ends",
+            )
+
+
+def _undoes(graph: Graph) -> Iterator[AlwaysFails]:
+    """Stages that are undone whatever happens in them."""
+    steps = graph.steps
+    for number, _ in graph.each(Undo):
+        stage = steps[number].stage
+        here: int | None = next(first for first, step in enumerate(steps) if step.stage == stage)
+        seen: set[int] = set()
+        while here is not None and here != number and here not in seen and not steps[here].operation.branches:
+            seen.add(here)
+            here = steps[here].next
+        if here == number:
+            yield AlwaysFails(
+                code="always-undone",
+                step=number,
+                message="the stage is undone whatever happens in it",
+                help="test an error before it, with `SKIPE` or `SKIPN`",
             )

@@ -1,6 +1,6 @@
 """Record of an executed step: what it takes to undo it by motion."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 
@@ -45,6 +45,7 @@ class Undoing(Record, frozen=True, kw_only=True):
     """Executed steps that are to be left."""
     halts: bool = False
     """The run ends there; otherwise the program can go on."""
+    asked_by: Literal["person", "program"] = "person"
     lets_go: Natural | None = None
     """The index of the step that took the screw on the bit: undone, it leaves it where it was."""
     held: float | None = None

@@ -24,19 +24,40 @@ SAME_PLACE: Final = (0.005, 0.02)
 """m sideways and in height within which a thing is taken up where it was put down: fingers slide on it."""
 
 
-def loop_entry(done: Sequence[Done], hand: Callable[[int], Array | None]) -> int | None:
-    """The index of the step behind which the last one that was executed found the world as it left it, if there is one.
+def loop_entry(
+    done: Sequence[Done], hand: Callable[[int], Array | None], *, grasping: bool | None = None
+) -> int | None:
+    """The index of the step behind which a jump back, the last there was, found the world as that step had left it.
+
+    That counts as long as the hand has only gone through free air since: the way back of a MOVE to the next place of a
+    search would end on what was met at the place before.
 
     Args:
         hand: where the hand was when a step, given by its index, had been done, shape (3,), W; None: it never moved.
+        grasping: the fingers were last told to close; None: as before the last step.
     """
     last = len(done) - 1
-    if last < 1 or done[last - 1].step < done[last].step:  # no jump back has led here
-        return None
-    for entry, earlier in enumerate(done[:last]):
-        if _alike(earlier, done[last]) and _undone_itself(done, entry, hand):
-            return entry
+    for head in range(last, 0, -1):
+        jumped = done[head - 1].step >= done[head].step
+        if not (jumped and head == last) and not _in_air(done, head, grasping):
+            return None
+        if jumped:
+            return next(
+                (n for n in range(head) if _alike(done[n], done[head]) and _undone_itself(done, n, hand)),
+                None,
+            )
     return None
+
+
+def _in_air(done: Sequence[Done], index: int, grasping: bool | None) -> bool:
+    """A step felt nothing, called nobody, and changed nothing of what the hand and the driver do."""
+    here = done[index]
+    after = (
+        done[index + 1].grasping if index + 1 < len(done) else here.grasping if grasping is None else grasping
+    )
+    before, behind = here.gap
+    same = here.grasping == after and abs(behind - before) < SAME_GAP and not here.tool
+    return same and here.force == 0.0 and not here.called and not here.enters
 
 
 def touch_entry(done: Sequence[Done], *, grasping: bool) -> int | None:

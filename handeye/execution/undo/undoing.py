@@ -84,7 +84,7 @@ def _first_of_lift(run: ExecutionContext) -> int:
     assert state.undoing is not None
     last = len(state.done) - 1
     try:
-        rounds = loop_entry(state.done, lambda index: _hand_behind(run, index))
+        rounds = loop_entry(state.done, lambda index: _hand_behind(run, index), grasping=state.grasping)
     except ValueError:  # a way that cannot be used tells of no round
         return last
     entry = touch_entry(state.done, grasping=state.grasping) if rounds is None else rounds
