@@ -47,8 +47,9 @@ def _is_hoped_for(run: ExecutionContext, operation: Test) -> bool:
 
 def _gives_up(run: ExecutionContext, number: int | None) -> bool:
     operation = None if number is None else run.plan.program.steps[number].operation
-    return operation is not None and (
-        operation.calls is not None or errors.SEARCH_EXHAUSTED in operation.raising
+    return isinstance(operation, Countdown) or (
+        operation is not None
+        and (operation.calls is not None or errors.SEARCH_EXHAUSTED in operation.raising)
     )
 
 

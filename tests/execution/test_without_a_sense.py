@@ -53,9 +53,16 @@ TRANS   ABOVE [25 38 6 90 90 0]
         CHANGE  [0 0 -1] .2
         SKIPE   23
         WAIT    "MEETS SOMETHING"
-        OPEN    1
+        ASSIGN  N 2
+DOWN:   STOP    [0 0 -40]
+        CHANGE  [0 0 -1] .2
+        SKIPN   23
+        JUMP    FREE
+        SOJG    N DOWN
+        WAIT    "MEETS SOMETHING AGAIN AND AGAIN"
+FREE:   OPEN    1
 """
-"""It should meet something, and then nothing; in fact it meets nothing at all."""
+"""It should meet something, then nothing, and nothing once more; in fact it meets nothing at all."""
 
 
 def begun(script: str, *without: Sense, world: WorldSpec = WORLD) -> Runner:
