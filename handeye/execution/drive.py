@@ -13,6 +13,8 @@ from handeye.ports.clock import Clock
 from handeye.pose import Array, Pose
 from handeye.touch.guards import Monitor
 
+_STANDS: Final = 0.1
+"""s in which the brakes bring the arm to rest. Chosen."""
 _DUE: Final = 1e-9
 """s that count as none: what floating-point numbers lose."""
 
@@ -45,6 +47,10 @@ class ArmDrive(ServoLoop):
     def brake(self, seconds: float) -> None:
         """Set the brakes and let time pass; the set-point becomes where the arm then is."""
         self._pass(self.braking(seconds))
+
+    def stop(self) -> None:
+        """Set the brakes, and wait until the arm stands."""
+        self.brake(_STANDS)
 
     def float(self, seconds: float) -> None:
         """Let go of the arm and let time pass: gravity and load are borne, and whoever pushes the hand moves it."""

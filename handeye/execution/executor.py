@@ -192,7 +192,7 @@ class Executor:
         """Set the brakes and tell the operator."""
         run = self.run
         run.drive.state.tool = 0.0
-        run.drive.brake(0.1)
+        run.drive.stop()
         self.state.stopped = OperatorCalled(time=run.time, message=message, error=error, cause=cause)
         run.emit(self.state.stopped)
         self.state.at, self.state.onward = None, self.state.at

@@ -1,6 +1,7 @@
 """Executor of programs in the cell of a task: the first system that runs drive."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Final
 
 import numpy as np
@@ -96,6 +97,9 @@ class ProgramSystem(System):
             seconds = self._prepare(self._eye)
         else:
             seconds = self._measure_joints()
+        if self.trouble is not None:
+            with suppress(SimulationError):  # broken physics has no brakes either
+                self.run.drive.stop()
         return [self._started(), *self._friction(seconds)]
 
     def _prepare(self, eye: Eye) -> float:

@@ -11,6 +11,7 @@ from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.trials.brakes import brakes_hold
 from handeye.variation import Overrides, WorldSpec
 
 pytestmark = pytest.mark.slow
@@ -107,3 +108,7 @@ def test_a_run_whose_joints_do_not_move_says_so_and_does_nothing() -> None:
     assert runner.trouble == (
         "the friction of the joints could not be measured: the column does not move as it is driven"
     )
+
+
+def test_a_run_that_its_joints_do_not_let_begin_leaves_the_brakes_on() -> None:
+    assert brakes_hold(stiff(FEELING, 100.0).cell)
