@@ -72,7 +72,7 @@ K:      MOVE    H
         JUMP    DOWN
         CHANGE  [0 0 1] 1       ;no resistance: it has stayed in the dispenser, or is lost
         SOJG    TAKEN ANEW
-        WAIT    "SCREW {NR} IS NOT ON THE BIT"
+        WAIT    "SCREW {NR} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
 ANEW:   REFETCH S NR
         JUMP    TRY
 DOWN:   HEIGHT  DS -.02 .22     ;a screw stands .1 in higher at the mouth of its thread than in the dispenser
@@ -103,6 +103,7 @@ TURN:   SAVE    HS
         WAIT    "SCREW {NR} STOPS HIGH AGAIN AND AGAIN: IT CROSSES, OR ITS HOLE IS BLOCKED"
         JUMP    HOME
 LOOSE:  TOOL    0
+        ASSIGN  TAKEN 1         ;it was on the bit; if it stays in its hole, there is none to fetch
         CHANGE  [0 0 1] .6
         SEARCH  .05
         SOJG    N K
@@ -219,6 +220,7 @@ LT:     SKIPN   6               ;all places tried
         TRAVEL  1.2 2.1         ;a top that stands on the pins stops high
         SKIPE   8
         JUMP    ON
+        ASSIGN  STOOD 2         ;skew on the pins, it may take them along
         AOJ     LT
 WIDER:  SEARCH  .05
 LU:     MOVE    TOPON
@@ -454,11 +456,13 @@ LAYING: LAY
         HEIGHT  BARE .04 .08    ;one gasket, .06 in thick
         SKIPE   9
         JUMP    FLAT
-        CHANGE  [0 0 1] 1
+        HEIGHT  BARE .08 1      ;higher: it is caught on something; lower: there is none to take up
+        SKIPE   9
         SOJG    TRIES AGAIN
         WAIT    "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
         JUMP    FLAT
-AGAIN:  LIFT
+AGAIN:  CHANGE  [0 0 1] 1
+        LIFT
         JUMP    LAYING
 FLAT:   SAVE    LAID            ;how high it lies
         CHANGE  [0 0 1] 1
@@ -490,6 +494,7 @@ RIGHT:  OPEN    2.8             ;for the top
         LOAD    36
         CHANGE  [0 0 1] 1
         ASSIGN  TRIES 2
+        ASSIGN  STOOD 1
 TOPPING: COVER
         OPEN    0               ;before it goes down beside the pin
         MOVE    FLANGE          ;over its narrow end
@@ -507,8 +512,19 @@ TOPPING: COVER
         WAIT    "THE TOP DOES NOT LIE FLAT ON THE GASKET"
         JUMP    COVERED
 OFF:    UNCOVER
+        ASSIGN  STOOD 2
         JUMP    TOPPING
 COVERED: CHANGE [0 0 1] 2       ;above the pins, before the hand opens
+        SOJG    STOOD PINS
+        JUMP    TOPPED
+PINS:   FEEL    T1END           ;do both still stand?
+        SKIPN   23
+        WAIT    "PIN 1 DOES NOT STAND: THE TOP HAS DRAWN IT OUT"
+        FEEL    T2END
+        SKIPN   23
+        WAIT    "PIN 2 DOES NOT STAND: THE TOP HAS DRAWN IT OUT"
+        CHANGE  [0 0 1] 1
+TOPPED: OPEN    1.6             ;for the screwdriver
 
         STAGE   "drive the first two screws"
         DRIVER

@@ -1,4 +1,4 @@
-"""The video that leads the README: long enough, small enough, and all eleven steps to be told apart."""
+"""The video that leads the README: long enough, small enough, and all twelve stages to be told apart."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -9,13 +9,11 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from whole_runs import STAGES as ALL
+from whole_runs import STAGES
 
 from handeye.video.captions import DONE
 
 ROOT = Path(__file__).parent.parent
-STAGES = ALL[:-1]
-"""The eleven steps of 1973: the video is of a run without the inspection behind them."""
 VIDEO = ROOT / "docs" / "pictures" / "assembly.webp"
 
 pytestmark = pytest.mark.slow
@@ -63,7 +61,7 @@ def test_it_is_long_enough_and_small_enough() -> None:
     assert VIDEO.stat().st_size < 1.5e6
 
 
-def test_the_eleven_steps_come_in_order_and_each_stands_long_enough_to_be_read() -> None:
+def test_the_twelve_stages_come_in_order_and_each_stands_long_enough_to_be_read() -> None:
     stages = [frame.stage for frame in shown()]
     assert stages == sorted(stages)
     seconds = np.zeros(len(STAGES) + 1)
@@ -73,13 +71,15 @@ def test_the_eleven_steps_come_in_order_and_each_stands_long_enough_to_be_read()
     assert seconds[1:].min() > 0.6
 
 
-def test_no_two_steps_show_the_same() -> None:
-    of_stages = [[frame.scene.astype(int) for frame in shown() if frame.stage == n] for n in range(1, 12)]
+def test_no_two_stages_show_the_same() -> None:
+    of_stages = [
+        [frame.scene.astype(int) for frame in shown() if frame.stage == n] for n in range(1, len(STAGES) + 1)
+    ]
     middles = [frames[len(frames) // 2] for frames in of_stages]
     assert min(np.abs(one - other).mean() for one, other in pairwise(middles)) > 5
 
 
-def test_something_moves_in_every_step_but_the_first_and_the_check() -> None:
+def test_something_moves_in_every_stage_but_the_first_and_the_check() -> None:
     for number, name in enumerate(STAGES, 1):
         frames = [frame.scene.astype(int) for frame in shown() if frame.stage == number]
         moved = max(np.abs(one - other).mean() for one, other in pairwise(frames))

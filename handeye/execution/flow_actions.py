@@ -46,11 +46,11 @@ def _is_hoped_for(run: ExecutionContext, operation: Test) -> bool:
 
 
 def _gives_up(run: ExecutionContext, number: int | None) -> bool:
-    operation = None if number is None else run.plan.program.steps[number].operation
-    return isinstance(operation, Countdown) or (
-        operation is not None
-        and (operation.calls is not None or errors.SEARCH_EXHAUSTED in operation.raising)
-    )
+    if number is None:
+        return False
+    operation = run.plan.program.steps[number].operation
+    counted = operation.branch is not None and operation.branch.counter is not None
+    return operation.calls is not None or errors.SEARCH_EXHAUSTED in operation.raising or counted
 
 
 def assign(run: ExecutionContext, operation: Assign) -> None:

@@ -151,7 +151,7 @@ class Teacher:
     def _brake(self) -> None:
         self.afloat = False
         with suppress(Halted):  # the button is pressed again: the brakes are set, and stay so
-            self.workplace.run.drive.brake(0.1)
+            self.workplace.run.drive.stop()
 
     # -- naming ---------------------------------------------------------------------------------------
 

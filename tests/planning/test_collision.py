@@ -2,6 +2,7 @@
 
 import pytest
 from checking import message, said
+from figures import as_recorded
 
 IN_HAND = "OPEN 1\nMOVE PEG\nCLOSE .2\n"
 
@@ -13,9 +14,8 @@ def test_a_goal_inside_a_fixture_is_found() -> None:
 
 
 def test_a_fixture_on_the_way_is_found_with_the_place() -> None:
-    assert message("MOVE WEST\nMOVE EAST DIRECT") == (
-        "hand-through-fixture: the hand would go 0.77 in into `STAND` 4.9 in along its way to EAST"
-    )
+    deepest = "hand-through-fixture: the hand would go 0.77 in into `STAND` 4.9 in along its way to EAST"
+    assert as_recorded(message("MOVE WEST\nMOVE EAST DIRECT"), deepest) == deepest
 
 
 def test_departure_and_approach_lead_over_a_fixture() -> None:

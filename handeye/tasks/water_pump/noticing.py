@@ -57,7 +57,11 @@ OFF: Final = ("THE GASKET IS NOT ON PROPERLY", "THE GASKET CANNOT BE TAKEN UP AG
 
 def _lost(screw: int) -> tuple[str, ...]:
     """It is fetched once more, and may lie elsewhere by then."""
-    return f"SCREW {screw} IS NOT ON THE BIT", f"NO SCREW AT S{screw}"
+    return f"SCREW {screw} IS NOT ON THE BIT", _gone(screw), f"NO SCREW AT S{screw}"
+
+
+def _gone(screw: int) -> str:
+    return f"SCREW {screw} IS NOT ON THE BIT: IT IS LOST, OR LOOSE IN ITS HOLE"
 
 
 def _misfit(screw: int) -> str:
@@ -77,7 +81,7 @@ def _screws() -> Iterator[tuple[str, Expected]]:
         yield f"screw.{screw}.missing", Expected(calls=(f"NO SCREW AT S{screw}",))
         yield f"screw.{screw}.burred", Expected(calls=(_misfit(screw), _loose(screw)))
         yield f"screw.{screw}.slotless", Expected(calls=(_loose(screw),))
-        yield f"thread.{hole}.stripped", Expected(calls=(_loose(screw),))
+        yield f"thread.{hole}.stripped", Expected(calls=(_loose(screw), _gone(screw)))
         yield f"thread.{hole}.crosses", Expected(calls=(_high(screw),))
         if hole not in PINNED:
             yield f"hole.{hole}.blocked", Expected(calls=(_misfit(screw), _high(screw)))
@@ -120,7 +124,7 @@ EXPECTED: Final[dict[str, Expected]] = {
     "screwdriver.motor": Expected(errors=(CURRENT_WRONG,), calls=(_loose(1),)),
     "screwdriver.missing": Expected(errors=(NOTHING_HELD,), stages=(_DRIVER,)),
     "servo": Expected(errors=(WATCHDOG,)),
-    "magnet": Expected(calls=_lost(1)),
+    "magnet": Expected(calls=tuple(call for screw in range(1, 7) for call in _lost(screw))),
     "bit": Expected(calls=(_loose(1),)),
     "lamp": Expected(at_setup=True),
     "picture": Expected(errors=(PICTURE_WRONG,), at_setup=True),
@@ -181,6 +185,7 @@ EXPECTED: Final[dict[str, Expected]] = {
     ),
     "top.tilted": Expected(
         errors=(NOTHING_HELD, WRONG_HEIGHT, SEARCH_EXHAUSTED),
+        calls=tuple(f"PIN {pin} DOES NOT STAND: THE TOP HAS DRAWN IT OUT" for pin in (1, 2)),
         stages=(_TOP,),
         harmless="Fingers that close on two flats set the top straight.",
     ),

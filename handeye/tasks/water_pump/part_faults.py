@@ -95,7 +95,7 @@ def _base() -> Iterator[PartFault]:
     )  # fmt: skip
     yield _fault(
         "base.far", "The belt has carried the base so much too far: out of the arm's reach, or out of sight.",
-        _shift("base", (0.0, 1.0)), Size(unit="in", usual=12.0, limits=(-60.0, 60.0)),
+        _shift("base", (0.0, 1.0)), Size(unit="in", usual=18.0, limits=(-60.0, 60.0)),
     )  # fmt: skip
     yield _fault(
         "base.reversed", "The base lies end for end.", lambda spec, _: _reverse(spec, "base", _plate_centre())
