@@ -10,6 +10,7 @@ from handeye.cli.batches import assembly_trials, compare_trials
 from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
 from handeye.cli.dismantling import dismantling_trials
+from handeye.cli.pallet_trials import pallet_trials
 from handeye.cli.predictions import predict_trials
 from handeye.cli.world_options import (
     ANY_WORLD,
@@ -44,6 +45,7 @@ def register(app: App) -> None:
     trials.command(gasket_vision_trials, name="gasket")
     trials.command(breaking_trials, name="breaking")
     trials.command(chaos_trials, name="chaos")
+    trials.command(pallet_trials, name="pallet")
     app.command(trials)
 
 

@@ -9,6 +9,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say, screen
 from handeye.cli.panic_button import PanicButton
+from handeye.cli.trig_jobs import bucket, palletise
 from handeye.errors import InvalidInput
 from handeye.extras import MissingExtra
 
@@ -36,7 +37,7 @@ trig = App(
 def register(app: App) -> None:
     """Add the commands to the command line."""
     trig.default(edit)
-    for command in (run, show):
+    for command in (run, show, palletise, bucket):
         trig.command(command)
     app.command(trig)
 

@@ -8,9 +8,10 @@ from typing import Literal
 from rich.status import Status
 
 from handeye.cli.common import note, notes
-from handeye.plain_text import printable
+from handeye.plain_text import counted, printable
 from handeye.source import read_source
 from handeye.tasks.benches import open_bench
+from handeye.trig.desk import Desk
 from handeye.trig.no_arm import NoArm
 from handeye.trig.script import Script, type_script
 from handeye.trig.session import Session
@@ -31,7 +32,7 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
     if file is not None and file.name.endswith(ENDING):
         session.program, session.file = read_program(file), file
     elif file is not None:
-        script = Script(read_source(file).text.splitlines(), halted=_interrupting(halted))
+        script = Script(read_source(file).text.splitlines(), halted=interrupting(halted))
         session.desk = script
         with notes.status(f"typing {printable(str(file))}"):
             type_script(session, script, str(file))
@@ -50,9 +51,16 @@ def _new(name: ArmName) -> Session:
 @contextmanager
 def watched(session: Session, halted: Halted) -> Iterator[None]:
     """While a program runs, show at a terminal how far it is: an arm with physics takes its time."""
-    with notes.status("running") as status:
-        session.desk = _Watched(session, status, halted)
+    with watched_desk(session, halted) as desk:
+        session.desk = desk
         yield
+
+
+@contextmanager
+def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
+    """A desk that shows at a terminal how far a program is."""
+    with notes.status("running") as status:
+        yield _Watched(session, status, halted)
 
 
 class _Watched(Script):
@@ -63,11 +71,14 @@ class _Watched(Script):
         self._session, self._status = session, status
 
     def refresh(self) -> None:
-        active = self._session.program.active
-        self._status.update(f"running: {active.name or active.position or active.type}")
+        program = self._session.program
+        steps = sum(program.graph[done.node].shown for done in program.trail if done.node in program.graph)
+        active = program.active
+        what = active.name or active.position or active.type
+        self._status.update(f"running: {counted(steps, 'step')} done and not undone, at {what}")
 
 
-def _interrupting(halted: Callable[[], bool]) -> Halted:
+def interrupting(halted: Callable[[], bool]) -> Halted:
     """Asked while a script is typed, where nobody could say how to go on: to halt is to interrupt."""
 
     def ask() -> bool:

@@ -1,14 +1,54 @@
-"""Benches by name: machines that no task's program drives, opened where somebody asks for one."""
+"""Benches by name: machines that no task's program drives, opened where somebody asks for one, and jobs on them."""
 
+from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
+    from handeye.judge.finding import Findings
+    from handeye.trig.session import Session
     from handeye.trig.tabletop import Tabletop
-    from handeye.trig.teachable import Teachable
+    from handeye.trig.teachable import Halted, Teachable
+
+JobName = Literal["palletise", "bucket"]
+MOST_BLOCKS = 20
+"""Of the palletiser's stack: the arm reaches over no more."""
 
 
 def open_bench(name: Literal["purbrick"]) -> "tuple[Teachable, Tabletop]":
-    """An arm for TRIG that is switched on, and what lies before it."""
+    """An arm for TRIG that is switched on, and what lies before it, in the world without errors."""
     from handeye.tasks.blocks.bench import purbrick  # with its physics: only where it is asked for
 
     return {"purbrick": purbrick}[name]()
+
+
+class TaughtJob(ABC):
+    """A program of TRIG that is taught in a drawn world, carried out, and judged by a referee."""
+
+    session: "Session"
+    """A new one; the desk is whoever's carries it out."""
+
+    @abstractmethod
+    def teach(self, halted: "Halted") -> None:
+        """Type the program, as the paper has it, with a teach box that is a little off, and lay the table for a run."""
+
+    @property
+    @abstractmethod
+    def now(self) -> float:
+        """s of the arm's clock."""
+
+    @abstractmethod
+    def findings(self) -> "Findings":
+        """Ask the referee about a program that has ended."""
+
+    @abstractmethod
+    def findings_back(self) -> "Findings | None":
+        """Ask the referee about one that was undone; None: it cannot be, by what it does."""
+
+
+def open_job(name: JobName, seed: int | None, blocks: int = MOST_BLOCKS) -> TaughtJob:
+    """A job in the world of a seed, or in the one without errors; `blocks` are those of the palletiser's stack."""
+    from handeye.tasks.blocks.jobs import BucketJob, PalletJob
+    from handeye.tasks.blocks.world import BlocksWorld
+
+    world = BlocksWorld(seed)
+    return PalletJob(world, blocks) if name == "palletise" else BucketJob(world)

@@ -46,7 +46,7 @@ class AxesArm(Teachable):
 
     def __init__(self, axes: Axes, clock: Clock) -> None:
         self._axes, self._clock = axes, clock
-        self._goal, self._closed = axes.read().q, False
+        self._goal, self._closed = self._where(), False
         self._speed = np.array([spec.speed for spec in axes.specs])
         self._wait(GRASPING)
 
@@ -138,8 +138,13 @@ class AxesArm(Teachable):
 
     def _stand(self) -> None:
         """Stand still where the axes are by now, and not where they were told to be."""
-        self._goal = self._axes.read().q
+        self._goal = self._where()
         self._wait(SETTLING)
+
+    def _where(self) -> Array:
+        """Where the axes are, within their travel: at its ends, potentiometers may tell a little more."""
+        lower, upper = np.transpose(self.travel)
+        return np.clip(self._axes.read().q, lower, upper)
 
     def _resistance(self, tare: Array) -> Resisted | None:
         force = float(np.linalg.norm(self._force() - tare))

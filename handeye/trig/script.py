@@ -6,12 +6,15 @@ The lines are those of a terminal: commands, with or without the prompt; behind 
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 from handeye.errors import InvalidInput
-from handeye.trig.desk import Button, Desk, Withdrawn, buttons
+from handeye.trig.desk import Button, Desk, Jog, Withdrawn, buttons
 from handeye.trig.hearing import hear, stripped
+from handeye.trig.place import SIZES
 from handeye.trig.session import Session
 from handeye.trig.teachable import Halted
+from handeye.units import MILLIMETRE
 
 
 class Script(Desk):
@@ -22,9 +25,15 @@ class Script(Desk):
         lines: Iterable[str],
         tell: Callable[[str], None] = lambda _: None,
         halted: Halted = lambda: False,
+        slip: Callable[[int], float] = lambda _: 0.0,
     ) -> None:
+        """Take the lines of a text.
+
+        Args:
+            slip: how far off (m) a place is that the teach box drives X, Y or Z to, by how many there were before.
+        """
         self._lines, self._halted = enumerate(lines, 1), halted
-        self._told = tell
+        self._told, self._slip, self._jogs = tell, slip, 0
         self._pressed = deque[Button]()
         self.number = 0
         """Of the line that was read last, from 1."""
@@ -49,7 +58,14 @@ class Script(Desk):
             if line is None:
                 raise Withdrawn
             self._pressed.extend(buttons(line))
-        return self._pressed.popleft()
+        return self._slipped(self._pressed.popleft())
+
+    def _slipped(self, button: Button) -> Button:
+        """What becomes of a button where the person is a little off."""
+        if not isinstance(button, Jog) or SIZES[button.axis] != MILLIMETRE:
+            return button
+        self._jogs += 1
+        return replace(button, amount=button.amount + self._slip(self._jogs - 1))
 
     def tell(self, sentence: str) -> None:
         self._told(sentence)

@@ -7,7 +7,7 @@ import pytest
 from handeye.cell.bench import Bench
 from handeye.errors import InvalidInput
 from handeye.ports.axes import AxisSpec
-from handeye.tasks.blocks.bench import purbrick
+from handeye.tasks.blocks.bench import NOMINAL, purbrick
 from handeye.tasks.blocks.machine import PERIOD, SPECS, machine, scene
 from handeye.tasks.blocks.table import HEIGHT, BlockTable
 from handeye.trig.axes_arm import ACCELERATION, OPEN
@@ -65,7 +65,7 @@ def test_a_bench_keeps_time_in_whole_microseconds(bench: Bench) -> None:
 
 
 def test_the_axes_go_where_they_are_told(bench: Bench) -> None:
-    axes = machine(bench)
+    axes = machine(bench, np.zeros_like)
     goal = np.array([0.01, -0.02, 0.1, 0.1, 0.0, -0.1])
     axes.put(goal, OPEN)
     bench.advance(1.0)
@@ -78,13 +78,13 @@ def test_the_axes_go_where_they_are_told(bench: Bench) -> None:
 
 
 def test_what_lies_on_the_platter_stays_there_when_more_is_put_there() -> None:
-    table = BlockTable()
+    table = BlockTable(NOMINAL)
     table.stack(2, 0.05, 0.0)
     table.bench.advance(0.2)
-    before = table.tops()
+    before = table.poses
     table.stack(1, -0.05, 0.0)
     table.bucket(0.1, 0.1)
-    after = table.tops()
+    after = table.poses
     assert all(after[name] == pytest.approx(at, abs=1e-6) for name, at in before.items())
     assert table.count == 3
     with pytest.raises(InvalidInput, match=r"^there is a bucket already"):

@@ -7,6 +7,18 @@ import pytest
 from conftest import Command
 from trig_sessions import PLANS
 
+import handeye.trials.pallet
+from handeye.cli.panic_button import PanicButton
+from handeye.judge.finding import Findings, at_most
+from handeye.tasks import benches
+from handeye.tasks.benches import TaughtJob
+from handeye.trials.pallet import broken_off_after
+from handeye.trig.no_arm import NoArm
+from handeye.trig.obstacles import Resisted
+from handeye.trig.script import Script, type_script
+from handeye.trig.session import Session
+from handeye.trig.teachable import Halted
+
 PALLETISE = str(PLANS / "palletise.trig")
 
 
@@ -68,3 +80,119 @@ def test_a_run_that_the_arm_cannot_do_is_stopped(command: Command) -> None:
 def test_wrong_words_are_told(command: Command, words: tuple[str, ...]) -> None:
     code, _, err = command(*words)
     assert (code, err.startswith("handeye: ")) == (2, True)
+
+
+class ImaginedJob(TaughtJob):
+    """The palletiser on the imagined arm, with a referee whose mind is made up."""
+
+    placed = back = now = 0.0
+    """mm, mm and s"""
+
+    def __init__(self, blocks: int) -> None:
+        self._text = (
+            PLANS.joinpath("palletise.trig")
+            .read_text(encoding="utf-8")
+            .replace("STACK 20", f"STACK {blocks}")
+        )
+        arm = NoArm()
+        self.session = Session(arm=arm, table=arm, desk=Script(()))
+
+    def teach(self, halted: Halted) -> None:
+        halted()
+        self.session.desk = script = Script(self._text.splitlines())
+        type_script(self.session, script, "imagined")
+
+    def findings(self) -> Findings:
+        return {"placed": at_most(self.placed, 2.0, "mm", "block from its place")}
+
+    def findings_back(self) -> Findings:
+        return {"blocks": at_most(self.back, 3.0, "mm", "block from where it was")}
+
+
+@pytest.fixture
+def imagined(monkeypatch: pytest.MonkeyPatch) -> type[ImaginedJob]:
+    """Jobs are imagined."""
+    job = type("Job", (ImaginedJob,), {})
+    for module in (benches, handeye.trials.pallet):
+        monkeypatch.setattr(module, "open_job", lambda name, seed, blocks: job(blocks))
+    return job
+
+
+def test_a_job_that_is_right_is_told_and_kept(command: Command, imagined: type[ImaginedJob]) -> None:
+    code, out, err = command("trig", "palletise", "--blocks", "7", "--seed", "3", "--json", "--out", "job")
+    told = json.loads(out)
+    assert (code, told["outcome"], told["seed"], told["blocks"]) == (0, "right", 3, 7)
+    assert told["forward"]["steps"] == told["back"]["steps"] == 109
+    assert told["checks"]["placed"]["ok"]
+    assert err.startswith(
+        "teaching palletise in the world of seed 3\n109 steps done; the program has ended\n"
+    )
+    assert json.loads(Path("job/result.json").read_bytes()) == told
+    assert command("trig", "show", "job/program.trig.json")[0] == 0
+    assert command("trig", "palletise", "--out", "job")[0] == 2  # it is not overwritten by chance
+    assert command("trig", "palletise", "--out", "job", "--overwrite")[0] == 0
+
+
+@pytest.mark.parametrize(("placed", "back"), [(2.1, 0.0), (0.0, 3.1)])
+def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
+    command: Command, imagined: type[ImaginedJob], placed: float, back: float
+) -> None:
+    imagined.placed, imagined.back = placed, back
+    code, out, _ = command("trig", "palletise", "--blocks", "1")
+    assert (code, out.splitlines()[-1]) == (3, "Done, and the referee disagrees.")
+    assert out.count("WRONG") == 1
+    code, out, _ = command("trials", "pallet", "--n", "2", "--blocks", "1", "--json")
+    told = json.loads(out)
+    assert (code, told["silent_failures"], len(told["failures"])) == (3, 2, 2)
+    assert told["failures"][1]["command"] == "handeye trials pallet --n 1 --seed 1 --blocks 1"
+
+
+def test_a_job_whose_arm_is_stopped_says_what_it_has_met(
+    command: Command, imagined: type[ImaginedJob], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(NoArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    code, out, _ = command("trig", "palletise", "--blocks", "1")
+    assert (code, out.splitlines()[-2:]) == (
+        1,
+        [
+            "0 steps undone; the arm has stopped at the step before that: "
+            "the finger met 4.0 N, and going back may meet 3.0 N",
+            "The arm has stopped.",
+        ],
+    )
+
+
+def test_a_job_that_somebody_stops_is_interrupted(
+    command: Command, imagined: type[ImaginedJob], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PanicButton, "__call__", lambda _: True)
+    assert command("trig", "palletise", "--blocks", "1")[0] == 130
+
+
+def test_palletisers_are_tried_in_many_worlds_to_their_end_or_broken_off(
+    command: Command, imagined: type[ImaginedJob]
+) -> None:
+    code, out, _ = command("trials", "pallet", "--n", "5", "--blocks", "6", "--interrupt")
+    assert (code, out.splitlines()[0]) == (0, "5 trials with 6 blocks: 5 right (56.6% to 100.0%)")
+    assert len({broken_off_after(seed, 6) for seed in range(20)}) > 10
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("trig", "palletise", "--blocks", "21"),
+        ("trig", "palletise", "--blocks", "-1"),
+        ("trig", "bucket", "--seed", "-1"),
+        ("trials", "pallet", "--n", "0"),
+        ("trials", "pallet", "--blocks", "21"),
+    ],
+)
+def test_jobs_that_cannot_be_are_refused(command: Command, words: tuple[str, ...]) -> None:
+    code, out, err = command(*words)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+
+
+@pytest.mark.slow
+def test_the_bucket_job_is_carried_out_in_a_drawn_world(command: Command) -> None:
+    code, out, _ = command("trig", "bucket", "--seed", "4")
+    assert (code, out.splitlines()[-1], out.count("  right  ")) == (0, "Right.", 5)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from fakes import FakeAxes, FakeClock
-from trig_bench import Bench, Ticking, low_palletiser, taught
+from trig_bench import Bench, Ticking, taught
 from trig_sessions import BUCKET, PALLETISE
 
 from handeye.ports.axes import AxesReading
@@ -165,13 +165,3 @@ def test_a_key_in_mid_move_stops_the_arm_and_a_run_goes_on_or_back() -> None:
     assert bench.at == near((100, 0, 300), 0.5)
     bench.type("RUN -1000")
     assert bench.at == near((0, 0, 300), 0.5)
-
-
-def test_two_blocks_are_put_on_a_pallet_and_back_on_their_stack() -> None:
-    bench = taught(low_palletiser(2), "* STACK 2 X 150 Y 0")
-    before = bench.blocks
-    bench.type("RUN")
-    assert sorted(bench.blocks) == [near((-50, -100, 12), 0.1), near((0, -100, 12), 0.1)]
-    assert bench.session.program.active.name == "FINISH"
-    bench.type("RUN -1000")
-    assert bench.blocks == [near(place, 0.1) for place in before]

@@ -6,6 +6,8 @@ from trig_sessions import PALLETISE, typed
 
 from handeye.ports.clock import Clock
 from handeye.tasks.blocks.bench import purbrick
+from handeye.tasks.blocks.jobs import PalletJob
+from handeye.tasks.blocks.world import BlocksWorld
 from handeye.trig.hearing import hear
 from handeye.trig.script import Script
 from handeye.trig.session import Session
@@ -45,7 +47,7 @@ class Bench:
     @property
     def blocks(self) -> list[tuple[float, ...]]:
         """Where the blocks are, mm."""
-        return [tuple(1000 * value for value in at) for at in self.table.tops().values()]
+        return [tuple(1000 * pose[:3, 3] + 6 * pose[:3, 2]) for pose in self.table.poses.values()]
 
 
 def taught(text: str, table: str) -> Bench:
@@ -60,3 +62,18 @@ def low_palletiser(blocks: int) -> str:
     """The palletiser for few blocks, with the arm no higher than it takes them."""
     low = PALLETISE.replace("Z 260", "Z 45").replace("Z 270 X", "Z 55 X").replace("Z 270", "Z 60")
     return low.replace("STACK 20", f"STACK {blocks}")
+
+
+class LowPalletJob(PalletJob):
+    """The job of the palletiser for few blocks, with the arm no higher than it takes them."""
+
+    def _text(self) -> str:
+        text = low_palletiser(self._blocks)
+        return text if self._blocks else text.replace("* STACK 0 X 150 Y 0", "")
+
+
+def low_job(blocks: int, seed: int) -> LowPalletJob:
+    """That job, taught in the world of a seed."""
+    job = LowPalletJob(BlocksWorld(seed), blocks)
+    job.teach(lambda: False)
+    return job

@@ -5,12 +5,14 @@ gives no figures: all of them are chosen, and said to be in scenes/purbrick_arm/
 """
 
 import math
+from collections.abc import Callable
 from typing import Final
 
 import mujoco
 
 from handeye.cell.bench import Bench, BenchAxes
 from handeye.ports.axes import AxisSpec
+from handeye.pose import Array
 from handeye.resources import scenes
 
 PERIOD: Final = 0.01
@@ -34,6 +36,6 @@ def scene() -> mujoco.MjSpec:
     return mujoco.MjSpec.from_file(str(scenes() / "purbrick_arm" / "purbrick.xml"))
 
 
-def machine(bench: Bench) -> BenchAxes:
-    """The arm of a bench."""
-    return BenchAxes(bench, SPECS, hand="hand", period=PERIOD, channels={FORCE: "strain"})
+def machine(bench: Bench, bent: Callable[[Array], Array]) -> BenchAxes:
+    """The arm of a bench, with how far its axes are from where their potentiometers tell them to be."""
+    return BenchAxes(bench, SPECS, hand="hand", period=PERIOD, channels={FORCE: "strain"}, bent=bent)

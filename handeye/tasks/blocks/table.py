@@ -1,13 +1,15 @@
 """The platter's load: blocks and a bucket, put there by somebody between two commands."""
 
+import math
 from typing import Final
 
 import mujoco
-import numpy as np
 
 from handeye.cell.bench import Bench
 from handeye.errors import InvalidInput
+from handeye.pose import Pose, pose
 from handeye.tasks.blocks.machine import scene
+from handeye.tasks.blocks.world import ALIGNED, STACKED, TURNED, BlocksWorld
 from handeye.trig.tabletop import Tabletop
 
 HEIGHT: Final = 0.012
@@ -23,8 +25,11 @@ _WIDE: Final = 0.035
 class BlockTable(Tabletop):
     """A bench, and what lies on its platter."""
 
-    def __init__(self) -> None:
+    def __init__(self, world: BlocksWorld) -> None:
+        self._world, self._stacks = world, 0
         self._spec = scene()
+        for geom in (self._spec.geom("platter"), self._spec.find_default("block").geom):
+            geom.friction[0] = world.friction
         self.bench = Bench(self._spec.compile())
         key = self.bench.model.joint("z").qposadr[0]
         self.bench.data.qpos[key] = 0.3
@@ -37,10 +42,17 @@ class BlockTable(Tabletop):
 
     def stack(self, count: int, x: float, y: float) -> None:
         names = [f"block_{len(self._names) + number}" for number in range(1, count + 1)]
-        platter = self.bench.data.body("platter").xpos
+        px, py, pz = self.bench.data.body("platter").xpos
+        self._stacks += 1
+        draw, here = self._world.normal, f"stack_{self._stacks}"
+        x += draw(f"{here}.x", STACKED)
+        y += draw(f"{here}.y", STACKED)
         for level, name in enumerate(names):
-            z = platter[2] + HEIGHT / 2 + level * (HEIGHT + _GAP) + _GAP
-            body = self._spec.worldbody.add_body(name=name, pos=[platter[0] + x, platter[1] + y, z])
+            at = [x + draw(f"{here}.{level}.x", ALIGNED), y + draw(f"{here}.{level}.y", ALIGNED)]
+            half = draw(f"{here}.{level}.turn", TURNED) / 2
+            z = HEIGHT / 2 + level * (HEIGHT + _GAP) + _GAP
+            turned = [math.cos(half), 0, 0, math.sin(half)]
+            body = self._spec.worldbody.add_body(name=name, pos=[px + at[0], py + at[1], pz + z], quat=turned)
             body.add_freejoint(name=name)
             body.add_geom(self._spec.find_default("block"), name=name)
         self._names += names
@@ -66,13 +78,12 @@ class BlockTable(Tabletop):
         self._names = []
         self.bench.replace(self._spec)
 
-    def tops(self) -> dict[str, tuple[float, float, float]]:
-        """The middles of the upper faces of the blocks over the platter (m), for a referee."""
+    @property
+    def poses(self) -> dict[str, Pose]:
+        """The truth, for a referee: poses of the blocks' middles over the platter, those below first."""
         data = self.bench.data
         platter = data.body("platter").xpos
-        found = {}
-        for name in self._names:
-            body = data.body(name)
-            x, y, z = body.xpos - platter + body.xmat.reshape(3, 3) @ np.array([0, 0, HEIGHT / 2])
-            found[name] = (float(x), float(y), float(z))
-        return found
+        return {
+            name: pose(data.body(name).xmat.reshape(3, 3), data.body(name).xpos - platter)
+            for name in self._names
+        }

@@ -1,0 +1,23 @@
+"""Folder of a taught job: its result, and its program."""
+
+from pathlib import Path
+from typing import Final
+
+import msgspec
+
+from handeye.folders import FolderKind, write_folder
+from handeye.report.taught_job import JobReport
+from handeye.tasks.benches import TaughtJob
+from handeye.trig.storage import encoded
+
+RESULT: Final = "result.json"
+PROGRAM: Final = "program.trig.json"
+JOB_FOLDER: Final = FolderKind(
+    name="the result of a job", known_by=RESULT, begins=b'{\n "job"', holds=(RESULT, PROGRAM, "*.svg")
+)
+
+
+def write_job(path: Path, done: JobReport, job: TaughtJob) -> None:
+    """Write the folder of a job, whole or not at all."""
+    result = msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n"
+    write_folder(path, {RESULT: result, PROGRAM: encoded(job.session.program)})
