@@ -104,15 +104,18 @@ class DebugSession:
             raise InvalidInput(refusal)
         return self._go(stops, steps)
 
-    def have_undone(self, left: int) -> Pause:
+    def have_undone(self, left: int, *, halts: bool = False) -> Pause:
         """Have the arm undo what it did until so many executed steps are left.
+
+        Args:
+            halts: the run ends there; otherwise the program can go on.
 
         Raises:
             InvalidInput: so much was not executed, or the cell cannot go on.
         """
         if self.runner.trouble is not None:
             raise InvalidInput(self.at_its_end() or "")
-        self.runner.have_undone(left)
+        self.runner.have_undone(left, halts=halts)
         return self._go([Undone()], None)
 
     def _go(self, stops: Sequence[AnyStop], steps: int | None) -> Pause:

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -40,6 +40,7 @@ from handeye.runs.operator import Operator, attend, beginnings
 from handeye.runs.programs import context_of
 from handeye.runs.setup import plan_of
 from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
+from handeye.runs.undo_orders import stage_began
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 
@@ -133,6 +134,47 @@ class Run:
                 raise InvalidInput(f"{steps} steps cannot be undone; {self._runner.position} are done")
         self._hands.back_to(position)
         return self._stand("gone back")
+
+    def undo(self, steps: Place = 1) -> State:
+        """Have the arm undo what it did, the last step first, under guards; the program can go on from there.
+
+        `back` puts the simulator back; here the arm does it, so that it could be done on a real one. What was undone
+        stays in the events. Where something resists, or the hand holds something else than then, the operator is
+        called.
+
+        Args:
+            steps: how many executed steps to undo; or a stage, by its name or a part of it: to where it last began.
+
+        Raises:
+            InvalidInput: so much was not executed, or the run cannot go on.
+
+        >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
+        >>> run.until().ended
+        True
+        >>> run.undo().line
+        2
+        """
+        self._check_open()
+        executed = self._runner.system.executed
+        if isinstance(steps, str):
+            stage = stage_number(steps, self._runner.listing)
+            left = stage_began(executed, self._runner.listing, stage)
+        else:
+            left = len(executed) - given_count(steps, "steps")
+            if left < 0:
+                raise InvalidInput(f"{steps} steps cannot be undone; {len(executed)} were executed")
+        return self._stand(reason(self._hands.have_undone(left)))
+
+    def dismantle(self) -> State:
+        """Have the arm undo all that it did; the run ends there, and `result.apart` is the word of the referee.
+
+        Raises:
+            InvalidInput: nothing was done that it could undo.
+        """
+        self._check_open()
+        pause = self._hands.have_undone(0, halts=True)
+        self._keeping = replace(self._keeping, judged=True)
+        return self._stand(reason(pause))
 
     def break_at(self, place: Place) -> Break:
         """Pause at a place whenever the run comes to it; places are those of `until`.

@@ -114,6 +114,20 @@ def test_a_run_goes_back_by_steps_and_by_stages(run: handeye.Run) -> None:
     assert [list(state.joints) for state in again] == [list(state.joints) for state in before]
 
 
+def test_the_arm_undoes_steps_and_stages_and_that_is_part_of_the_run(run: handeye.Run) -> None:
+    opened = run.step().gap
+    run.until()
+    assert run.undo().text == "OPEN 1.5"
+    state = run.undo("open")
+    assert (state.text, state.stage, state.position) == ("OPEN 1", "open up", 8)
+    assert state.gap < opened / 2
+    with pytest.raises(InvalidInput, match=r"^1 steps cannot be undone; 0 were executed$"):
+        run.undo()
+    assert run.step().text == "OPEN 2"
+    assert not run.dismantle().step
+    assert (run.ended, run.result.apart) == (True, True)
+
+
 def test_what_is_undone_has_not_happened(run: handeye.Run) -> None:
     run.step(2)
     run.back(2)
