@@ -77,7 +77,9 @@ def cause_sentence(cause: Cause) -> str:
             return f"{cause.places} places tried" + (f" around {cause.around}" if cause.around else "")
         case c.Looping():
             return f"the program loops at line {cause.place}, and nothing moves"
-        case c.UndoResisted() | c.HoldOff() | c.ScrewFast() | c.BackingOut() | c.UndoUnknown():
+        case (
+            c.UndoResisted() | c.HoldOff() | c.ScrewFast() | c.ScrewLost() | c.BackingOut() | c.UndoUnknown()
+        ):
             return _undo_stopped(cause)
         case c.Recorded():
             return cause.words
@@ -114,6 +116,9 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             return (
                 f"the screw does not come out: it has risen {_inches(cause.risen)}, the driver shows {torque}"
             )
+        case c.ScrewLost():
+            force = f"{cause.force / OUNCE_FORCE:.0f} oz"
+            return f"the screw has not come along: the hand goes down {_inches(cause.way)} and does not meet {force}"
         case c.BackingOut():
             return "the driver has turned a screw out in the step; that is not undone"
         case c.UndoUnknown():

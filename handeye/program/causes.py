@@ -305,6 +305,15 @@ class ScrewFast(CauseRecord, frozen=True, kw_only=True):
     """m"""
 
 
+class ScrewLost(CauseRecord, frozen=True, kw_only=True):
+    """A screw that was turned out has not come along to where it was taken: nothing bears the hand there."""
+
+    way: float
+    """That the hand goes down, m."""
+    force: float
+    """That it does not meet, N."""
+
+
 class BackingOut(CauseRecord, frozen=True, kw_only=True):
     """In the step the driver turned left; that is not undone."""
 
@@ -326,7 +335,7 @@ SenseCause = (
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 """Causes for which a sense is not believed."""
-UndoCause = UndoResisted | HoldOff | ScrewFast | BackingOut | UndoUnknown
+UndoCause = UndoResisted | HoldOff | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 """Causes for which the arm does not go on undoing what it did."""
 InspectionCause = NoGasket | GasketWrong
 """Causes for which a part does not pass its inspection."""

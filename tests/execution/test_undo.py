@@ -12,11 +12,11 @@ from short_runs import begin
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.execution.undo.resistance import ALLOWED, allowed
-from handeye.execution.undo.undoing import CLOSER
 from handeye.program.causes import HoldOff, UndoResisted, UndoUnknown
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.touch.hold import SKEW
 
 pytestmark = pytest.mark.slow
 
@@ -132,7 +132,7 @@ def test_what_came_to_lie_straighter_while_it_was_carried_is_let_go_all_the_same
     def grasped_skew(runner: Runner) -> None:
         done = context_of(runner.system).state.done
         before, after = done[CLOSED].gap
-        done[CLOSED] = replace(done[CLOSED], gap=(before, after + 1.3 * CLOSER))
+        done[CLOSED] = replace(done[CLOSED], gap=(before, after + 1.3 * SKEW))
 
     run = undone(done(), left=CLOSED, meddle=grasped_skew)
     assert run.call is None

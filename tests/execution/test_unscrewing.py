@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from pump_bench import LAID, MACROS, Bench, bench, stacked
 
+from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import CellState
 from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Undoing
 from handeye.mutable_records import copied
-from handeye.program.causes import ScrewFast, UndoResisted
+from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.threads import holes_of
 from handeye.units import INCH, OUNCE_INCH
@@ -95,6 +96,16 @@ def test_a_screw_that_somebody_has_tightened_stays_and_the_operator_is_called() 
         assert cause.risen < 1e-3
         assert cause.torque > 60 * OUNCE_INCH
     assert holes_of(truth)[0].screw == 0
+    assert run.run.drive.sensed.braked
+
+
+def test_a_screw_that_does_not_come_along_is_missed_before_the_magnet_lets_go(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(SimulatedScrewdriver, "attract", lambda self, _: setattr(self, "magnet", False))
+    run = undo(driven())  # the magnet is dead
+    assert isinstance(run.called.cause, ScrewLost)
+    assert run.moved("top") * INCH < 1e-3
     assert run.run.drive.sensed.braked
 
 

@@ -127,6 +127,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.ScrewFast(torque=0.5, risen=0.0),
         "the screw does not come out: it has risen 0.00 in, the driver shows 71 oz in",
     ),
+    (
+        c.ScrewLost(way=0.002, force=6.0),
+        "the screw has not come along: the hand goes down 0.08 in and does not meet 22 oz",
+    ),
     (c.BackingOut(), "the driver has turned a screw out in the step; that is not undone"),
     (c.UndoUnknown(), "what the step has left for undoing it cannot be used"),
     (c.Recorded(words="as it was said"), "as it was said"),

@@ -19,16 +19,18 @@ from handeye.execution.undo.loops import loop_entry, touch_entry, without_rounds
 from handeye.execution.undo.memory import remember
 from handeye.execution.undo.resistance import Resistance, allowed
 from handeye.execution.undo.retracing import retracing
-from handeye.execution.undo.unscrewing import taken_by, unscrew
+from handeye.execution.undo.unscrewing import LOWER, lower, taken_by, unscrew
 from handeye.execution.undo.way import Way, packed, unpacked
 from handeye.planning.motions import Unreachable, directions, move_trajectory
 from handeye.pose import Array
-from handeye.program.causes import BackingOut, Cause, HoldOff, ScrewFast, UndoResisted, UndoUnknown
+from handeye.program.causes import BackingOut, Cause, HoldOff, ScrewFast, ScrewLost, UndoResisted, UndoUnknown
 from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation
-from handeye.touch.hold import CLOSER, SAME_HOLD, as_before
+from handeye.touch.hold import SAME_HOLD, SKEW, as_before
 
+STANDS: Final = 0.5
+"""Of the force with which a screw was taken: so much has to bear the hand that brings it back."""
 BESIDE: Final = 1e-4
 """rad or m: an arm that is no farther from where a loop was entered is there."""
 
@@ -139,6 +141,9 @@ def _undo(run: ExecutionContext, done: Done) -> Stopped | None:
     if not done.way:
         return None
     if undoing is not None and undoing.lets_go == len(run.state.done) - 1:
+        lost = _screw_lost(run, done)
+        if lost is not None:
+            return lost
         drive.magnet = False
     if done.tool:
         return _turn_out(run, done)
@@ -183,7 +188,8 @@ def _fingers_back(run: ExecutionContext, done: Done) -> Stopped | None:
     if stopped is not None:
         return stopped
     _press(run, done.fingers)
-    return _off_hold(run, done.gap[0], CLOSER if done.grasping else SAME_HOLD, holding=done.grasping)
+    off = SKEW if done.grasping else SAME_HOLD
+    return _off_hold(run, done.gap[0], off, off, holding=done.grasping)
 
 
 def _under(run: ExecutionContext, done: Done) -> float:
@@ -216,6 +222,15 @@ def _turn_out(run: ExecutionContext, done: Done) -> Stopped | None:
     return None
 
 
+def _screw_lost(run: ExecutionContext, done: Done) -> Stopped | None:
+    """See that the screw stands where a step has taken it, before the magnet lets go of it."""
+    force = STANDS * done.force
+    outcome = lower(run, force)
+    if outcome.error is not None or outcome.trip is not None:
+        return None if outcome.error is None else Stopped(error=outcome.error, cause=outcome.cause)
+    return Stopped(cause=ScrewLost(way=LOWER, force=round(force, 6)))
+
+
 def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
     """See that the fingers hold what they took: where they stood when it was grasped, or since it was taken again.
 
@@ -223,13 +238,15 @@ def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
     """
     undoing = run.state.undoing
     held = kept if undoing is None or undoing.held is None else undoing.held
-    return _off_hold(run, kept, CLOSER + max(0.0, kept - held))
+    return _off_hold(run, kept, SKEW + max(0.0, kept - held), SAME_HOLD + max(0.0, held - kept))
 
 
-def _off_hold(run: ExecutionContext, kept: float, closer: float, *, holding: bool = True) -> Stopped | None:
-    """See that the fingers stand where they stood when the step was executed, or no more than so much closer (m)."""
+def _off_hold(
+    run: ExecutionContext, kept: float, closer: float, wider: float, *, holding: bool = True
+) -> Stopped | None:
+    """See that the fingers stand where they stood when the step was executed, or closer or wider by no more (m)."""
     gap = run.drive.sensed.gap
-    if as_before(gap, kept, closer):
+    if as_before(gap, kept, closer, wider):
         return None
     return Stopped(cause=HoldOff(gap=round(gap, 6), kept=kept, holding=holding))
 

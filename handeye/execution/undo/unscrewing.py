@@ -1,7 +1,7 @@
 """Turning a screw out: left, with the hand following it as it rises, until the torque is gone."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -29,6 +29,11 @@ RISING: Final = 2e-4
 """m of height that count as risen."""
 PATIENCE: Final = 120
 """Servo periods in which a screw must have begun to rise."""
+
+
+LOWER: Final = 0.002
+"""m that the hand goes down at most, in a second, to see whether a screw stands under the bit. Half the height of its
+head: without it, the bit meets nothing there."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -91,6 +96,12 @@ def unscrew(run: ExecutionContext, done: Done, way: Way) -> Outcome | Loosened:
     drive.hold(run.arm.servo.settle)
     met = outcome.trip is not None and outcome.trip.guard is GuardKind.TORQUE
     return loosened if met else outcome
+
+
+def lower(run: ExecutionContext, force: float) -> Outcome:
+    """Go down a little, until a force (N) bears the hand, giving way to the side; no trip: nothing does."""
+    course = replace(_course(run), distance=LOWER, speed=LOWER, force=None)
+    return run.drive.comply(course, Resistance(limit=force))
 
 
 def _course(run: ExecutionContext) -> Course:
