@@ -25,8 +25,11 @@ def test_pump_scripts_have_nothing_to_be_warned_of(name: str) -> None:
 
 def test_the_same_is_taught_for_the_careful_program_as_for_that_of_1973() -> None:
     careful, of_1973 = (load_taught(PLANS / f"water_pump{year}.toml") for year in ("", "_1973"))
-    more = {name: careful.positions.pop(name) for name in ("ASIDE", "SIDE", "WAIST", "RIM1", "RIM2")}
-    assert (careful, len(more)) == (of_1973, 5)
+    more = {
+        name: careful.positions.pop(name)
+        for name in ("ASIDE", "SIDE", "WAIST", "RIM1", "RIM2", "T1END", "T2END")
+    }
+    assert (careful, len(more)) == (of_1973, 7)
 
 
 def test_listing_of_1973_has_nothing_to_be_warned_of() -> None:
