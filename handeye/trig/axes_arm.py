@@ -35,8 +35,10 @@ CARRIED: Final = 0.28
 """N, an ounce: upwards on the finger when something else carries what it holds. A block weighs as much."""
 LAG: Final = 0.03
 """s that an axis may lag behind where it is told to be. The servos lag by .02 s."""
-GRASPING: Final = 0.5
-"""s that the hand is given."""
+HAND_SPEED: Final = 0.2
+"""m/s of the gap: told to go at once, fingers strike a block with .8 m/s."""
+GRASPING: Final = 0.2
+"""s that the hand is given behind that."""
 _TARE: Final = 10
 """Readings of the force that are averaged before a guarded move."""
 
@@ -46,7 +48,7 @@ class AxesArm(Teachable):
 
     def __init__(self, axes: Axes, clock: Clock) -> None:
         self._axes, self._clock = axes, clock
-        self._goal, self._closed = self._where(), False
+        self._goal, self._closed, self._opening = self._where(), False, OPEN
         self._speed = np.array([spec.speed for spec in axes.specs])
         self._wait(GRASPING)
 
@@ -122,6 +124,10 @@ class AxesArm(Teachable):
 
     def hand(self, closed: bool) -> None:
         self._closed = closed
+        way = np.array([self._opening]), np.array([CLOSED if closed else OPEN])
+        for opening in slow_line(*way, np.array([HAND_SPEED]), self._axes.period):
+            self._opening = float(opening[0])
+            self._put(self._goal)
         self._wait(GRASPING)
 
     def _met(self, tare: Array, speed: Array) -> Obstacle | None:
@@ -167,7 +173,7 @@ class AxesArm(Teachable):
 
     def _put(self, q: Array) -> None:
         self._goal = q
-        self._axes.put(q, CLOSED if self._closed else OPEN)
+        self._axes.put(q, self._opening)
         self._clock.advance(self._axes.period)
 
     def _wait(self, seconds: float) -> None:

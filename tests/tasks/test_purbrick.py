@@ -12,6 +12,7 @@ from handeye.tasks.blocks.machine import PERIOD, SPECS, machine, scene
 from handeye.tasks.blocks.table import HEIGHT, BlockTable
 from handeye.trig.axes_arm import ACCELERATION, OPEN
 from handeye.trig.no_arm import BLOCK, TRAVEL
+from handeye.trig.place import Place
 
 
 @pytest.fixture
@@ -98,3 +99,18 @@ def test_an_arm_is_switched_on_above_the_middle_with_its_hand_open() -> None:
     arm, table = purbrick()
     assert arm.here().measures() == (0, 0, 300, 0, 0, 0)
     assert (arm.closed, table.count) == (False, 0)
+
+
+@pytest.mark.parametrize("turn", [-0.02, 0.005, 0.02])
+def test_a_block_that_lies_turned_between_the_fingers_is_grasped_without_a_blow(turn: float) -> None:
+    arm, table = purbrick()
+    table.stack(1, 0.0005, 0.001)
+    data = table.bench.data
+    data.joint("block_1").qpos[3:] = np.cos(turn / 2), 0, 0, np.sin(turn / 2)
+    arm.go(Place(z=0.006), lambda: False)
+    speeds: list[float] = []
+    table.bench.before_step.append(lambda: speeds.append(float(np.abs(data.joint("block_1").qvel[:3]).max())))
+    arm.hand(closed=True)
+    assert max(speeds) < 1.0
+    assert arm.gap == pytest.approx(0.030, abs=3e-4)
+    assert table.poses["block_1"][:2, 3] == pytest.approx((0.0005, 0.0), abs=5e-4)  # centred along Y

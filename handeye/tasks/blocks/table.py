@@ -16,6 +16,8 @@ HEIGHT: Final = 0.012
 """m, of a block; 30 mm along and across, of aluminium: 29 g."""
 _GAP: Final = 2e-5
 """m between two blocks that are put on each other."""
+_COLOURS: Final = ((0.72, 0.73, 0.75, 1.0), (0.50, 0.56, 0.62, 1.0))
+"""In turn, so that people can tell them apart."""
 _WALL: Final = 0.003
 _DEEP: Final = 0.060
 _WIDE: Final = 0.035
@@ -54,7 +56,7 @@ class BlockTable(Tabletop):
             turned = [math.cos(half), 0, 0, math.sin(half)]
             body = self._spec.worldbody.add_body(name=name, pos=[px + at[0], py + at[1], pz + z], quat=turned)
             body.add_freejoint(name=name)
-            body.add_geom(self._spec.find_default("block"), name=name)
+            body.add_geom(self._spec.find_default("block"), name=name, rgba=_COLOURS[level % len(_COLOURS)])
         self._names += names
         self.bench.replace(self._spec)
 
