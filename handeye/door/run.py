@@ -149,8 +149,8 @@ class Run:
             InvalidInput: so much was not executed, or the run cannot go on.
 
         >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
-        >>> run.until().ended
-        True
+        >>> run.until().why
+        'the program came to its end'
         >>> run.undo().line
         2
         """

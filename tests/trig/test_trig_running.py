@@ -118,7 +118,8 @@ def test_a_run_that_is_halted_goes_on_as_if_it_had_not_been() -> None:
 
 
 def test_the_first_example_carries_both_blocks_and_brings_them_back() -> None:
-    typist = Typist(BUCKET + "RUN -1000\nRUN")
+    taught, _, _ = BUCKET.partition("* CLEAR")  # blocks are where teaching has left them
+    typist = Typist(taught + "RUN -1000\nRUN")
     assert typist.blocks == {"1": (140, 0, 156), "2": (-120, 60, 12)}
     assert (typist.at, typist.arm.closed) == ((0, 0, 150), False)
     typist.type("RUN -1000")
