@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put, put_json, say, screen
-from handeye.cli.kept_records import kept
+from handeye.cli.kept_records import KeptRecords
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
 from handeye.errors import InvalidInput
@@ -45,7 +45,9 @@ def faults(
     workers: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
     camera: Camera = "auto",
     json: Json = False,
-    out: Annotated[Path | None, Parameter(help="File for the outcomes, one JSON object a line.")] = None,
+    out: Annotated[
+        Path | None, Parameter(help="File for the outcomes, one JSON object a line; written as runs end.")
+    ] = None,
 ) -> int:
     """Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
 
@@ -100,21 +102,21 @@ def _tried(
 
     tally = Tally(len(kinds), "faults")
     note(f"{len(kinds)} runs, {workers} at a time")
-    with kept(out, OUTCOMES, by="name") as tried:
-        try:
-            with tally:
-                for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, workers=workers):
-                    tried.append(trial)
-                    if not json:
-                        with tally.aside():
-                            say(_told(trial))
-                    tally.one_more()
-        finally:
-            matrix = matrix_of(tried)
-            if json:
-                put_json(matrix)
-            elif tried:
-                say(f"{matrix.n} faults: {counted_outcomes(tried)}; {matrix.undetected} undetected")
+    tried = KeptRecords(out, OUTCOMES, by="name")
+    try:
+        with tally:
+            for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, workers=workers):
+                tried.keep(trial)
+                if not json:
+                    with tally.aside():
+                        say(_told(trial))
+                tally.one_more()
+    finally:
+        matrix = matrix_of(tried)
+        if json:
+            put_json(matrix)
+        elif tried:
+            say(f"{matrix.n} faults: {counted_outcomes(tried)}; {matrix.undetected} undetected")
     return 3 if matrix.undetected else 0
 
 

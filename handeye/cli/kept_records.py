@@ -1,7 +1,5 @@
 """Records of trials, kept in a file as they end."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -9,21 +7,29 @@ from typing import Any
 from handeye.files import Kind, check_place, write_over
 
 
-@contextmanager
-def kept(out: Path | None, kind: Kind, *, by: str) -> Iterator[list[Any]]:
-    """A list of records that are written to a file in the end, in order of a field; also where trials are broken off.
+class KeptRecords(list[Any]):
+    """Records, of which those that there are so far stand in a file, in order of a field: nothing that ends is lost."""
 
-    Raises:
-        InvalidInput: that file cannot be written.
-    """
-    import msgspec
+    def __init__(self, out: Path | None, kind: Kind, *, by: str) -> None:
+        """None yet. `out`: the file; None: they are not written.
 
-    if out is not None:
-        check_place(out, kind)
-    records: list[Any] = []
-    try:
-        yield records
-    finally:
-        if out is not None and records:
-            lines = [msgspec.json.encode(each) + b"\n" for each in sorted(records, key=attrgetter(by))]
-            write_over(out, b"".join(lines), kind)
+        Raises:
+            InvalidInput: that file cannot be written.
+        """
+        super().__init__()
+        if out is not None:
+            check_place(out, kind)
+        self._out, self._kind, self._order = out, kind, attrgetter(by)
+
+    def keep(self, record: Any) -> None:
+        """Add a record, and write all of them.
+
+        Raises:
+            InvalidInput: the file cannot be written.
+        """
+        import msgspec
+
+        self.append(record)
+        if self._out is not None:
+            lines = [msgspec.json.encode(each) + b"\n" for each in sorted(self, key=self._order)]
+            write_over(self._out, b"".join(lines), self._kind)

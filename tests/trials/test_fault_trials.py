@@ -144,6 +144,20 @@ def test_the_matrix_that_is_interrupted_tells_what_has_ended(
     assert json.loads(place.read_text())["outcome"] == "unnoticed"
 
 
+def test_an_outcome_is_in_the_file_before_the_next_run_ends(
+    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    place, seen = tmp_path / "kept.jsonl", []
+
+    def looked_at(*_: object, **__: object) -> Iterator[FaultTrial]:
+        yield trial_of(Fault(name="picture.frozen"), CATALOGUE, RIGHT, [], braked=True)
+        seen.append(json.loads(place.read_text())["name"])
+
+    monkeypatch.setattr(fault_trials, "try_faults", looked_at)
+    command("faults", "--out", str(place))
+    assert seen == ["picture.frozen"]
+
+
 def test_a_fault_that_goes_undetected_has_an_exit_code_of_its_own(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
