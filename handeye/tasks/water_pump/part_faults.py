@@ -38,6 +38,9 @@ _JAM: Final = 20.0
 _THREAD: Final = "thread"
 _SCARRED: Final = "scarred"
 _CROSSES: Final = "crosses"
+_SCREW: Final = "screw"
+_SLOTLESS: Final = "slotless"
+_SMOOTH: Final = "bit.smooth"
 _CARD: Final = 0.08
 """m: half the side of a card that throws a shadow."""
 _FOREMOST: Final = 3
@@ -163,7 +166,7 @@ def _screws(count: int) -> Iterator[PartFault]:
             "mm on it enters no tapped hole.", _thick_point(screw), Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
-            f"screw.{number}.slotless", f"The head of screw {number} has no slot: the bit slips on it.",
+            f"{_SCREW}.{number}.{_SLOTLESS}", f"The head of screw {number} has no slot: the bit slips on it.",
             _slippery(f"screw_head{number - 1}"),
         )  # fmt: skip
 
@@ -198,7 +201,7 @@ def _holes(count: int) -> Iterator[PartFault]:
 
 def _screwdriver() -> Iterator[PartFault]:
     yield _fault("screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"))
-    yield _fault("bit.smooth", "The bit does not rub on what it turns.", _slippery("bit"))
+    yield _fault(_SMOOTH, "The bit does not rub on what it turns.", _slippery("bit"))
 
 
 def _light() -> Iterator[PartFault]:
@@ -219,10 +222,25 @@ def crossing_threads(faults: Sequence[Fault]) -> frozenset[int]:
     return _threads(faults, _CROSSES)
 
 
+def slipping_screws(faults: Sequence[Fault], count: int) -> frozenset[int]:
+    """Those of so many screws, from 0, on which by faults the bit slips: they have no slot, or it is smooth.
+
+    No thread takes one, also if something else than the bit turns it a little.
+    """
+    if any(fault.name == _SMOOTH for fault in faults):
+        return frozenset(range(count))
+    return _numbered(faults, _SCREW, _SLOTLESS)
+
+
 def _threads(faults: Sequence[Fault], what: str) -> frozenset[int]:
+    return _numbered(faults, _THREAD, what)
+
+
+def _numbered(faults: Sequence[Fault], thing: str, what: str) -> frozenset[int]:
+    """Those of some things, from 0, that a fault is of."""
     names = (fault.name.split(".") for fault in faults)
     return frozenset(
-        int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (_THREAD, what)
+        int(name[1]) - 1 for name in names if len(name) == 3 and (name[0], name[2]) == (thing, what)
     )
 
 

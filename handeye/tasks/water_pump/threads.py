@@ -25,7 +25,7 @@ from handeye.cell.truth import Truth
 from handeye.pose import Array, Pose, pose, translated
 from handeye.record import Record
 from handeye.tasks.water_pump.carriers import Carriers
-from handeye.tasks.water_pump.part_faults import crossing_threads, scarred_threads
+from handeye.tasks.water_pump.part_faults import crossing_threads, scarred_threads, slipping_screws
 from handeye.tasks.water_pump.pump_world import PumpWorld
 
 CAPTURE: Final = 0.0004  # m, tip to axis. The bore leaves the point .35 mm of play.
@@ -95,6 +95,7 @@ class Threads(Mechanism[ThreadsState]):
         holes, scarred = range(self._carriers.count), scarred_threads(world.drawn.spec.faults)
         self.holes: tuple[Thread, ...] = tuple(Thread(scarred=k in scarred) for k in holes)
         self._crossing = crossing_threads(world.drawn.spec.faults)
+        self._slipping = slipping_screws(world.drawn.spec.faults, len(holes))
         self._phase = world.thread_phase
         self._friction = THREAD_FRICTION * world.friction["thread"]
         self._base = model.body("base").id
@@ -159,7 +160,7 @@ class Threads(Mechanism[ThreadsState]):
         taken = {hole.screw for hole in self.holes}
         mouths = self._data.xpos[self._base] + self._carriers.mouths @ self._axes().T
         for j, body in enumerate(self._screw):
-            if j in taken:
+            if j in taken or j in self._slipping:
                 continue
             offsets = (self._data.xpos[body] - mouths) @ self._axes()
             k = int(np.argmin(np.hypot(offsets[:, 0], offsets[:, 1])))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from thread_bench import HEAD, LENGTH, MOUTH, SPEED, STOP, Outcome, ThreadBench, drive_screw
 
+from handeye.faults import Fault
 from handeye.units import JIFFY
 
 
@@ -92,6 +93,14 @@ def test_the_motor_turns_no_screw_beside_or_over_which_the_bit_stands() -> None:
     mujoco.mj_forward(bench.model, bench.data)
     bench.threads.before(JIFFY)
     assert bench.model.actuator_gainprm[bench.model.actuator("drive").id, 0] == 0.0
+
+
+@pytest.mark.parametrize("fault", ["screw.1.slotless", "bit.smooth"])
+def test_no_thread_takes_a_screw_on_which_the_bit_slips(fault: str) -> None:
+    """The bench's own bit rubs, so that the screw turns over the hole."""
+    bench = ThreadBench(faults=(Fault(name=fault),))
+    bench.drive_until(lambda: bench.thread.screw is not None, speed=SPEED, press=6.0, seconds=2.0)
+    assert (bench.thread.screw, bench.driver.torque() < 0.05) == (None, True)
 
 
 @pytest.mark.slow

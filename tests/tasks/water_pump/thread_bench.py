@@ -4,10 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import acos, cos, degrees, pi, sin, tan
 
+import msgspec
 import mujoco
 
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.watchdog import Watchdog
+from handeye.faults import Fault
 from handeye.pose import Pose, pose
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Thread, Threads
@@ -105,8 +107,10 @@ def scene(offset: float, tilt: float) -> str:
 class ThreadBench:
     """The bench as it runs."""
 
-    def __init__(self, *, offset: float = 0.0, tilt: float = 0.0) -> None:
-        world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6)
+    def __init__(self, *, offset: float = 0.0, tilt: float = 0.0, faults: tuple[Fault, ...] = ()) -> None:
+        drawn = PumpWorld.nominal().drawn
+        broken = msgspec.structs.replace(drawn.spec, faults=faults)
+        world = replace(PumpWorld.nominal(), thread_phase=(1.0,) * 6, drawn=replace(drawn, spec=broken))
         self.model = mujoco.MjModel.from_xml_string(scene(offset, tilt))
         self.data = mujoco.MjData(self.model)
         self.driver = SimulatedScrewdriver(
