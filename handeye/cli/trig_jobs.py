@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teach, machine and blocks are.")]
 Out = Annotated[
     Path | None,
-    Parameter(help="Folder for the result (result.json), the program, and pictures of the blocks."),
+    Parameter(help="Folder for the result (result.json), the program, and a report (report.html)."),
 ]
 Overwrite = Annotated[bool, Parameter(help="Replace the result in the folder of --out.")]
 CODES: Final = {"right": 0, "stopped": 1, "silent": 3}

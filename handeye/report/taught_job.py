@@ -7,7 +7,7 @@ from handeye.errors import InvalidInput
 from handeye.judge.finding import Findings, all_right
 from handeye.record import Record
 from handeye.report.result import Check
-from handeye.tasks.benches import JobName, TaughtJob
+from handeye.tasks.benches import JobName, Lying, TaughtJob
 from handeye.trig.cursor_commands import told_run
 from handeye.trig.desk import Desk
 from handeye.trig.reports import Way
@@ -17,6 +17,8 @@ ALL: Final = 1_000_000_000
 """Steps: more than are ever remembered."""
 Outcome = Literal["right", "stopped", "silent", "halted"]
 """All as it should be; the program or the arm stopped before; done, and the referee disagrees; somebody's key."""
+
+When = Literal["taught", "run", "undone"]
 
 
 class JobReport(Record, frozen=True, kw_only=True):
@@ -35,6 +37,11 @@ class JobReport(Record, frozen=True, kw_only=True):
     """Of the referee, when the program had ended."""
     checks_back: Mapping[str, Check] = {}
     """When it was undone."""
+    goals: tuple[tuple[float, float], ...] = ()
+    """Where the referee wants blocks laid by the program, mm, in the order in which they are taken."""
+    lying: Mapping[When, tuple[Lying, ...]] = {}
+    """How the blocks truly lay, in that order: when the job had been taught, when the program had come as far as it
+    came, and when it was undone as far as that went."""
     told: tuple[str, ...] = ()
     """How both ways have ended, in words."""
     arm_s: float = 0.0
@@ -74,13 +81,15 @@ def carry_out(
         return JobReport(
             job=name, seed=seed, blocks=blocks, interrupted_after=after, outcome=outcome, forward=forward, back=back,
             checks=_checks(placed), checks_back=_checks(apart), told=tuple(told), arm_s=round(job.now, 6),
+            goals=job.goals, lying=lying,
         )  # fmt: skip
 
+    lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying()}
     placed: Findings = {}
     apart: Findings = {}
     try:
         ran = session.runner.run() if after is None else _first_steps(job, after)
-        forward = tell(ran)
+        forward, lying["run"] = tell(ran), job.lying()
         if ran.end == "halted":
             return end("halted", forward)
         if ran.end == "none":
@@ -89,7 +98,7 @@ def carry_out(
         if wanted is None:
             return end("right" if all_right(placed) else "silent", forward)
         ran = session.runner.back(ALL)
-        back = tell(ran, back=True)
+        back, lying["undone"] = tell(ran, back=True), job.lying()
     except InvalidInput as error:  # by the arm: it cannot go where a step wants it
         told.append(str(error))
         return end("stopped")

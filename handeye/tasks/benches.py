@@ -3,6 +3,8 @@
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
 
+from handeye.record import Record
+
 if TYPE_CHECKING:
     from handeye.judge.finding import Findings
     from handeye.trig.session import Session
@@ -21,6 +23,16 @@ def open_bench(name: Literal["purbrick"]) -> "tuple[Teachable, Tabletop]":
     return {"purbrick": purbrick}[name]()
 
 
+class Lying(Record, frozen=True, kw_only=True):
+    """How a block truly lies, by its middle over the platter."""
+
+    name: str
+    at: tuple[float, float, float]
+    """mm"""
+    turned: float
+    """deg about the vertical."""
+
+
 class TaughtJob(ABC):
     """A program of TRIG that is taught in a drawn world, carried out, and judged by a referee."""
 
@@ -35,6 +47,15 @@ class TaughtJob(ABC):
     @abstractmethod
     def now(self) -> float:
         """s of the arm's clock."""
+
+    @abstractmethod
+    def lying(self) -> tuple[Lying, ...]:
+        """How the blocks lie now, in the order in which they are taken, for a report."""
+
+    @property
+    @abstractmethod
+    def goals(self) -> tuple[tuple[float, float], ...]:
+        """Where the referee wants blocks laid by the program, mm, in the order in which they are taken."""
 
     @abstractmethod
     def findings(self) -> "Findings":

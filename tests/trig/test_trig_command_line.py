@@ -11,7 +11,7 @@ import handeye.trials.pallet
 from handeye.cli.panic_button import PanicButton
 from handeye.judge.finding import Findings, at_most
 from handeye.tasks import benches
-from handeye.tasks.benches import TaughtJob
+from handeye.tasks.benches import Lying, TaughtJob
 from handeye.trials.pallet import broken_off_after
 from handeye.trig.no_arm import NoArm
 from handeye.trig.obstacles import Resisted
@@ -102,6 +102,11 @@ class ImaginedJob(TaughtJob):
         self.session.desk = script = Script(self._text.splitlines())
         type_script(self.session, script, "imagined")
 
+    goals = ((100.0, 50.0),)
+
+    def lying(self) -> tuple[Lying, ...]:
+        return (Lying(name="block_1", at=(100.0 + self.placed, 50.0, 6.0), turned=0.5),)
+
     def findings(self) -> Findings:
         return {"placed": at_most(self.placed, 2.0, "mm", "block from its place")}
 
@@ -129,6 +134,7 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command, imagined: type[I
     )
     assert json.loads(Path("job/result.json").read_bytes()) == told
     assert command("trig", "show", "job/program.trig.json")[0] == 0
+    assert "Palletise: right" in Path("job/report.html").read_text(encoding="utf-8")
     assert command("trig", "palletise", "--out", "job")[0] == 2  # it is not overwritten by chance
     assert command("trig", "palletise", "--out", "job", "--overwrite")[0] == 0
 
@@ -138,7 +144,11 @@ def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
     command: Command, imagined: type[ImaginedJob], placed: float, back: float
 ) -> None:
     imagined.placed, imagined.back = placed, back
-    code, out, _ = command("trig", "palletise", "--blocks", "1")
+    code, out, _ = command("trig", "palletise", "--blocks", "1", "--out", "job")
+    page = Path("job/report.html").read_text(encoding="utf-8")
+    assert "Palletise: done, and the referee disagrees" in page
+    assert page.count("✗") == 1
+    assert f"placed: at most {placed:.2f} mm off; the limit is 2 mm" in page
     assert (code, out.splitlines()[-1]) == (3, "Done, and the referee disagrees.")
     assert out.count("WRONG") == 1
     code, out, _ = command("trials", "pallet", "--n", "2", "--blocks", "1", "--json")

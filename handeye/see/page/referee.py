@@ -1,6 +1,6 @@
 """What the referee measured, against its limits."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Final
 
 from handeye.markup import Markup
@@ -36,16 +36,21 @@ def _content(run: Recorded) -> Iterator[Markup]:
             "Measured on the finished work in the simulator’s truth, which the program never sees. A bar shows how "
             "much of its limit a value uses; counts have none."
         )
-        head = [
-            *heads("", "finding"),
-            *figure_heads("value", "limit"),
-            *heads("unit"),
-            *figure_heads("used"),
-            *heads(""),
-        ]
-        yield table(head, map(_row, run.result.referee.values()), label="findings")
+        yield findings_table(run.result.referee.values())
         for name, limit in (run.result.limits or {}).items():
             yield note(f"The limit of {name} was set to {limit:g} by whoever began the run.")
+
+
+def findings_table(checks: Iterable[Check]) -> Markup:
+    """A line for each finding, with a bar that shows how much of its limit a value uses."""
+    head = [
+        *heads("", "finding"),
+        *figure_heads("value", "limit"),
+        *heads("unit"),
+        *figure_heads("used"),
+        *heads(""),
+    ]
+    return table(head, map(_row, checks), label="findings")
 
 
 def _row(check: Check) -> list[Markup]:

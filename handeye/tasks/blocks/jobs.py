@@ -1,16 +1,18 @@
 """Both examples of the paper as jobs: typed line by line in a drawn world, carried out, and judged."""
 
+import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from handeye.judge.finding import Finding, Findings
-from handeye.pose import Array
+from handeye.pose import Array, Pose
 from handeye.resources import plans
 from handeye.source import read_source
-from handeye.tasks.benches import TaughtJob
+from handeye.tasks.benches import Lying, TaughtJob
 from handeye.tasks.blocks.bench import purbrick
 from handeye.tasks.blocks.machine import SPECS
 from handeye.tasks.blocks.referee import (
@@ -25,6 +27,7 @@ from handeye.trig.place import Place
 from handeye.trig.script import Script, type_script
 from handeye.trig.session import Session
 from handeye.trig.teachable import Halted
+from handeye.units import MILLIMETRE
 
 ROWS: Final = 3
 COLUMNS: Final = 5
@@ -62,6 +65,16 @@ class _Job(TaughtJob):
         data = self._table.bench.data
         return np.array([data.joint(spec.name).qpos[0] for spec in SPECS])
 
+    def lying(self) -> tuple[Lying, ...]:
+        return tuple(
+            Lying(name=name, at=_mm(X[:3, 3]), turned=round(math.degrees(math.atan2(X[1, 0], X[0, 0])), 3))
+            for name, X in self._taken()
+        )
+
+    def _taken(self) -> list[tuple[str, Pose]]:
+        """Names and poses of the blocks in the order in which they are taken."""
+        return list(self._table.poses.items())
+
     def _ends_at(self, name: str) -> Finding:
         return judge_hand(self._hand, np.array(self._taught(name)), "ends")
 
@@ -80,9 +93,11 @@ class PalletJob(_Job):
         laid = rf"* STACK {self._blocks} \1" if self._blocks else ""
         return _LAST_STACK.sub(laid, super()._text())
 
+    def _taken(self) -> list[tuple[str, Pose]]:
+        return super()._taken()[::-1]
+
     def findings(self) -> Findings:
-        places = self._grid[: self._blocks]
-        placed = judge_placed(self._before, self._table.poses, places)
+        placed = judge_placed(self._before, self._table.poses, self._places)
         return {**placed, "hand": self._ends_at("DONE")}
 
     def findings_back(self) -> Findings:
@@ -95,6 +110,14 @@ class PalletJob(_Job):
                 (pallet.data, pallet.init), [node.count for node in program.graph.nodes.values()]
             ),
         }
+
+    @property
+    def goals(self) -> tuple[tuple[float, float], ...]:
+        return tuple((x, y) for x, y, _ in map(_mm, self._places))
+
+    @property
+    def _places(self) -> list[Place]:
+        return self._grid[: self._blocks]
 
     @property
     def _grid(self) -> list[Place]:
@@ -122,3 +145,14 @@ class BucketJob(_Job):
 
     def findings_back(self) -> None:
         return None
+
+    @property
+    def goals(self) -> tuple[tuple[float, float], ...]:
+        a, b = _BUCKET, self._taught("BLOCK")
+        return (a[0] / MILLIMETRE, a[1] / MILLIMETRE), _mm(b)[:2]
+
+
+def _mm(at: Sequence[float] | Array) -> tuple[float, float, float]:
+    """The first three of a place's coordinates (m), in mm to a thousandth."""
+    x, y, z = (round(float(value) / MILLIMETRE, 3) for value in at[:3])
+    return x, y, z
