@@ -79,6 +79,9 @@ GROUPS: Final = {
         "Parting": "comparison.parting.Parting",
         "Place": "comparison.place.Place",
     },
+    "Programs that are taught": {
+        "handeye.TrigSession": "door.trig_session.TrigSession",
+    },
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",
         "handeye.vision.beams": "vision.beam.beams",

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from handeye.door.provided import demo, scripts
     from handeye.door.run import Run
     from handeye.door.state import State
+    from handeye.door.trig_session import TrigSession
     from handeye.door.worlds import World
     from handeye.errors import HandeyeError, InvalidInput
     from handeye.judge.finding import Finding, at_least, at_most
@@ -44,6 +45,7 @@ __all__ = [
     "State",
     "Task",
     "Trace",
+    "TrigSession",
     "World",
     "__version__",
     "assemble",
@@ -73,6 +75,7 @@ _HOMES = {
     "State": "handeye.door.state",
     "Task": "handeye.tasks.interface",
     "Trace": "handeye.trace.trace",
+    "TrigSession": "handeye.door.trig_session",
     "World": "handeye.door.worlds",
     "assemble": "handeye.door.begin",
     "at_least": "handeye.judge.finding",

@@ -4,11 +4,12 @@ from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
 
 from handeye.record import Record
+from handeye.trig.tabletop import Tabletop
 
 if TYPE_CHECKING:
+    from handeye.cell.photograph import Photograph
     from handeye.judge.finding import Findings
     from handeye.trig.session import Session
-    from handeye.trig.tabletop import Tabletop
     from handeye.trig.teachable import Halted, Teachable
 
 JobName = Literal["palletise", "bucket"]
@@ -16,7 +17,19 @@ MOST_BLOCKS = 20
 """Of the palletiser's stack: the arm reaches over no more."""
 
 
-def open_bench(name: Literal["purbrick"]) -> "tuple[Teachable, Tabletop]":
+class SeenTable(Tabletop):
+    """What lies before an arm, and can be looked at."""
+
+    @abstractmethod
+    def photograph(self, width: int, height: int) -> "Photograph":
+        """Arm and table as somebody sees them who stands before them; the program never does.
+
+        Raises:
+            InvalidInput: no OpenGL on this machine.
+        """
+
+
+def open_bench(name: Literal["purbrick"]) -> "tuple[Teachable, SeenTable]":
     """An arm for TRIG that is switched on, and what lies before it, in the world without errors."""
     from handeye.tasks.blocks.bench import purbrick  # with its physics: only where it is asked for
 

@@ -6,14 +6,17 @@ from typing import Final
 import mujoco
 
 from handeye.cell.bench import Bench
+from handeye.cell.photograph import Photograph, photograph
 from handeye.errors import InvalidInput
 from handeye.pose import Pose, pose
+from handeye.tasks.benches import SeenTable
 from handeye.tasks.blocks.machine import scene
 from handeye.tasks.blocks.world import ALIGNED, STACKED, TURNED, BlocksWorld
-from handeye.trig.tabletop import Tabletop
 
 HEIGHT: Final = 0.012
 """m, of a block; 30 mm along and across, of aluminium: 29 g."""
+VIEW: Final = "people"
+"""The camera of the scene through which it is looked at."""
 _GAP: Final = 2e-5
 """m between two blocks that are put on each other."""
 _COLOURS: Final = ((0.72, 0.73, 0.75, 1.0), (0.50, 0.56, 0.62, 1.0))
@@ -24,7 +27,7 @@ _WIDE: Final = 0.035
 """m: half the bucket's width, inside."""
 
 
-class BlockTable(Tabletop):
+class BlockTable(SeenTable):
     """A bench, and what lies on its platter."""
 
     def __init__(self, world: BlocksWorld) -> None:
@@ -79,6 +82,9 @@ class BlockTable(Tabletop):
                 self._spec.delete(wall)
         self._names = []
         self.bench.replace(self._spec)
+
+    def photograph(self, width: int, height: int) -> Photograph:
+        return photograph(self.bench.model, self.bench.data, camera=VIEW, width=width, height=height)
 
     @property
     def poses(self) -> dict[str, Pose]:

@@ -184,7 +184,7 @@ EXPECTED: Final[dict[str, Expected]] = {
         errors=(NOTHING_HELD,), calls=(_TOP_LOST, "THE TOP MEETS NOTHING: IT IS LOST"), stages=(_TOP,)
     ),
     "top.tilted": Expected(
-        errors=(NOTHING_HELD, WRONG_HEIGHT, SEARCH_EXHAUSTED),
+        errors=(NOTHING_HELD, SERVO_LAG, WRONG_HEIGHT, SEARCH_EXHAUSTED),
         calls=(
             "THE TOP DOES NOT LIE FLAT ON THE GASKET",
             *(f"PIN {pin} DOES NOT STAND: THE TOP HAS DRAWN IT OUT" for pin in (1, 2)),
