@@ -24,20 +24,20 @@ import matplotlib.pyplot as plt
 import handeye
 
 # %% [markdown]
-# ## Four pictures
+# ## Five pictures
 #
 # The camera is a television camera. Its pictures have 256 lines of 333 points and sixteen levels of grey, with noise;
-# no two are alike. A whole assembly takes four of them: the belt from afar, the base from near by, and the base in
-# its standard position without and with its gasket.
+# no two are alike. A whole assembly takes five of them: the belt from afar, the base from near by, the base in its
+# standard position without and with its gasket, and the pump that it has become.
 
 # %%
 trace = handeye.open(handeye.demo)
 pictures = {taken.name: taken.picture for taken in trace.pictures}
-figure, axes = plt.subplots(2, 2, figsize=(6.4, 5.2), dpi=70, layout="constrained")
+figure, axes = plt.subplots(2, 3, figsize=(8.4, 4.6), dpi=70, layout="constrained")
 shown = [
-    axis.imshow(picture, cmap="gray") for axis, picture in zip(axes.flat, pictures.values(), strict=True)
+    axis.imshow(picture, cmap="gray") for axis, picture in zip(axes.flat, pictures.values(), strict=False)
 ]
-named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat, pictures, strict=True)]
+named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat, pictures, strict=False)]
 hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]

@@ -162,7 +162,7 @@ def test_a_report_is_known_by_how_it_begins(command: Command, kept: Path) -> Non
     assert Path("page.html").read_bytes().startswith(REPORT.begins)
 
 
-def test_the_demo_is_a_page_of_eleven_stages_made_without_opengl(
+def test_the_demo_is_a_page_of_twelve_stages_made_without_opengl(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(WaterPump, "photographs", ("studio", "pump"))
@@ -171,8 +171,8 @@ def test_the_demo_is_a_page_of_eleven_stages_made_without_opengl(
     page = tree(Path("demo.html").read_text(encoding="utf-8"))
     assert page.all("h1")[0].text == "The pump is assembled."
     assert [image.attributes["alt"] for image in page.all("header")[0].all("img")] == ["The end of the run"]
-    assert len(page.one("stages").all("a")) == 11
-    assert len(page.one("seen").all("figure")) == 4
+    assert len(page.one("stages").all("a")) == 12
+    assert len(page.one("seen").all("figure")) == 5
     assert "This trace is thinned" in page.one("felt").text
     assert "No photograph: OpenGL does not work on this machine." in page.one("run").text
 

@@ -31,6 +31,8 @@ THINNED: Final = "thinned"
 """What that record also has where the file holds some of the servo periods of the run, not all."""
 PLAN: Final = "plan.json"
 """Name of the attachment with the plan."""
+PACKED_PLAN: Final = "plan.json.zst"
+"""Its name in a thinned trace, where it is packed: as it is, it would be a quarter of the file."""
 
 JOINTS: Final = "/joint_states"
 FRAMES: Final = "/tf"

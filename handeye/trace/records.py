@@ -16,9 +16,9 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Chunk, Message, Metadata
 from mcap.stream_reader import breakup_chunk
 from mcap.writer import MCAP0_MAGIC
-from zstandard import ZstdError, frame_content_size
+from zstandard import ZstdDecompressor, ZstdError, frame_content_size
 
-from handeye.trace.channels import METADATA, PLAN
+from handeye.trace.channels import METADATA, PACKED_PLAN, PLAN
 
 _HEAD: Final = struct.Struct("<BQ")
 """Before every record: what it is, and its length."""
@@ -28,7 +28,7 @@ _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, Mem
 """Errors that the MCAP library makes of records that are not as they should be."""
 
 LARGEST: Final = 1 << 26
-"""Bytes of a chunk, unpacked: fifty times what a trace's are."""
+"""Bytes of a chunk, or of a plan, unpacked: fifty times what a trace's are."""
 
 Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 
@@ -86,17 +86,33 @@ def check(data: bytes) -> None:
 
 
 def front(data: bytes) -> Front:
-    """The trace's own metadata, empty if it has none, and its plan."""
+    """The trace's own metadata, empty if it has none, and its plan.
+
+    Raises:
+        Unsound: the plan is packed, and is damaged.
+    """
     metadata: dict[str, str] = {}
     plan = None
     for opcode, body in _records(data):
         if opcode == Opcode.METADATA and (found := _parsed(Metadata, body)).name == METADATA:
             metadata = found.metadata
-        elif opcode == Opcode.ATTACHMENT and (attached := _parsed(Attachment, body)).name == PLAN:
-            plan = attached.data
+        elif opcode == Opcode.ATTACHMENT:
+            attached = _parsed(Attachment, body)
+            if attached.name in (PLAN, PACKED_PLAN):
+                plan = attached.data if attached.name == PLAN else _unpacked(attached.data)
         elif opcode == Opcode.CHUNK:
             break
     return Front(metadata, plan)
+
+
+def _unpacked(data: bytes) -> bytes:
+    """What was packed. Raises Unsound if it is damaged, or would fill the memory."""
+    try:
+        if not 0 <= frame_content_size(data) <= LARGEST:
+            raise Unsound("is damaged")
+        return ZstdDecompressor().decompress(data)
+    except ZstdError:
+        raise Unsound("is damaged") from None
 
 
 def read_messages(data: bytes, *, lenient: bool = False) -> Iterator[RawMessage]:

@@ -1,16 +1,30 @@
 """A thinned trace holds what it takes to show the run, and says that it is thinned."""
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.writer import Writer
 from recordings import in_format_2, record
+from zstandard import compress
 
 from handeye.errors import InvalidInput
 from handeye.runs.verify import difference
 from handeye.trace import thinning
-from handeye.trace.channels import FRAMES, HAND, JOINTS, SCENE
+from handeye.trace.channels import (
+    FORMAT,
+    FRAMES,
+    HAND,
+    JOINTS,
+    METADATA,
+    PACKED_PLAN,
+    SCENE,
+    THINNED,
+    VERSION,
+)
 from handeye.trace.reading import read_trace
+from handeye.trace.records import LARGEST
 from handeye.trace.thinned_file import STEP, write_thinned
 from handeye.trace.trace import Trace
 
@@ -115,3 +129,20 @@ def test_nothing_is_left_where_it_cannot_be_written(
     with pytest.raises(ZeroDivisionError):
         write_thinned(whole, tmp_path / "thin.mcap")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "packed", [b"", b"no zstd", compress(b" " * (LARGEST + 1))], ids=["none", "other", "bomb"]
+)
+def test_a_packed_plan_that_is_none_or_would_fill_the_memory_is_refused(
+    tmp_path: Path, packed: bytes
+) -> None:
+    out = BytesIO()
+    writer = Writer(out, enable_data_crcs=True)
+    writer.start()
+    writer.add_metadata(METADATA, {"format": FORMAT, "version": str(VERSION), THINNED: "yes"})
+    writer.add_attachment(0, 0, PACKED_PLAN, "application/zstd", packed)
+    writer.finish()
+    (tmp_path / "forged.mcap").write_bytes(out.getvalue())
+    with pytest.raises(InvalidInput, match=r"forged\.mcap is damaged$"):
+        read_trace(tmp_path / "forged.mcap")
