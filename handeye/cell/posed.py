@@ -43,6 +43,14 @@ def posed(scene: mujoco.MjModel, poses: Mapping[str, Sequence[float]], time: flo
     return model, data
 
 
+def standing(scene: mujoco.MjModel, qpos: Array) -> Posed:
+    """A scene with its joints where they were, `qpos` as the simulator has them."""
+    data = mujoco.MjData(scene)
+    data.qpos[:] = qpos
+    mujoco.mj_forward(scene, data)
+    return scene, data
+
+
 def as_it_stands(scene: mujoco.MjModel, truth: Truth) -> Posed:
     """A copy of a scene with its bodies where those of a cell are: for pictures of a cell that has less in it."""
     model, data = truth.model, truth.data

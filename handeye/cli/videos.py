@@ -79,7 +79,7 @@ def video(
         captions=captions,
     )  # fmt: skip
     place = output or (run / VIDEO if run.is_dir() else run.with_name(VIDEO))
-    with _progress() as told:
+    with drawing() as told:
         made = make_video(_trace(run), place, wanted, overwrite=overwrite, told=told)
     how = f"{made.frames} frames of {wanted.width} x {wanted.height}"
     say(f"{made.path}: {made.seconds:.1f} s, {how}, {made.bytes / 1e6:.2f} MB")
@@ -114,7 +114,7 @@ def _trace(run: Path) -> "Trace":
 
 
 @contextmanager
-def _progress() -> Iterator["Told"]:
+def drawing() -> Iterator["Told"]:
     """Tells how many frames are drawn: as a bar, or where there is no terminal, once in a while."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 

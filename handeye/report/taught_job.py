@@ -44,6 +44,8 @@ class JobReport(Record, frozen=True, kw_only=True):
     came, and when it was undone as far as that went."""
     told: tuple[str, ...] = ()
     """How both ways have ended, in words."""
+    ended_s: float | None = None
+    """When the program had come as far as it came, by the arm's clock."""
     arm_s: float = 0.0
     """Of the arm's clock, teaching included."""
 
@@ -80,16 +82,17 @@ def carry_out(
     def end(outcome: Outcome, forward: Way | None = None, back: Way | None = None) -> JobReport:
         return JobReport(
             job=name, seed=seed, blocks=blocks, interrupted_after=after, outcome=outcome, forward=forward, back=back,
-            checks=_checks(placed), checks_back=_checks(apart), told=tuple(told), arm_s=round(job.now, 6),
-            goals=job.goals, lying=lying,
+            checks=_checks(placed), checks_back=_checks(apart), told=tuple(told), arm_s=round(job.bench.now, 6),
+            ended_s=ended, goals=job.goals, lying=lying,
         )  # fmt: skip
 
     lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying()}
+    ended: float | None = None
     placed: Findings = {}
     apart: Findings = {}
     try:
         ran = session.runner.run() if after is None else _first_steps(job, after)
-        forward, lying["run"] = tell(ran), job.lying()
+        forward, lying["run"], ended = tell(ran), job.lying(), round(job.bench.now, 6)
         if ran.end == "halted":
             return end("halted", forward)
         if ran.end == "none":

@@ -7,6 +7,7 @@ from handeye.record import Record
 from handeye.trig.tabletop import Tabletop
 
 if TYPE_CHECKING:
+    from handeye.cell.bench import Bench
     from handeye.cell.photograph import Photograph
     from handeye.judge.finding import Findings
     from handeye.trig.session import Session
@@ -58,8 +59,8 @@ class TaughtJob(ABC):
 
     @property
     @abstractmethod
-    def now(self) -> float:
-        """s of the arm's clock."""
+    def bench(self) -> "Bench":
+        """What it is carried out on."""
 
     @abstractmethod
     def lying(self) -> tuple[Lying, ...]:

@@ -3,11 +3,15 @@
 import json
 from pathlib import Path
 
+import cv2
+import mujoco
+import numpy as np
 import pytest
 from conftest import Command
 from trig_sessions import PLANS
 
 import handeye.trials.pallet
+from handeye.cell.bench import Bench
 from handeye.cli.panic_button import PanicButton
 from handeye.judge.finding import Findings, at_most
 from handeye.tasks import benches
@@ -18,6 +22,7 @@ from handeye.trig.obstacles import Resisted
 from handeye.trig.script import Script, type_script
 from handeye.trig.session import Session
 from handeye.trig.teachable import Halted
+from handeye.video import job_video
 
 PALLETISE = str(PLANS / "palletise.trig")
 
@@ -82,11 +87,14 @@ def test_wrong_words_are_told(command: Command, words: tuple[str, ...]) -> None:
     assert (code, err.startswith("handeye: ")) == (2, True)
 
 
+EMPTY = Bench(mujoco.MjModel.from_xml_string("<mujoco/>"))
+
+
 class ImaginedJob(TaughtJob):
     """The palletiser on the imagined arm, with a referee whose mind is made up."""
 
-    placed = back = now = 0.0
-    """mm, mm and s"""
+    placed = back = 0.0
+    """mm"""
 
     def __init__(self, blocks: int) -> None:
         self._text = (
@@ -103,6 +111,7 @@ class ImaginedJob(TaughtJob):
         type_script(self.session, script, "imagined")
 
     goals = ((100.0, 50.0),)
+    bench = EMPTY
 
     def lying(self) -> tuple[Lying, ...]:
         return (Lying(name="block_1", at=(100.0 + self.placed, 50.0, 6.0), turned=0.5),)
@@ -200,6 +209,21 @@ def test_palletisers_are_tried_in_many_worlds_to_their_end_or_broken_off(
 def test_jobs_that_cannot_be_are_refused(command: Command, words: tuple[str, ...]) -> None:
     code, out, err = command(*words)
     assert (code, out, err.count("\n")) == (2, "", 1)
+
+
+@pytest.mark.slow
+@pytest.mark.render
+def test_a_job_leaves_a_video_and_replaces_none_by_chance(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(job_video, "WIDTH", 32)
+    monkeypatch.setattr(job_video, "HEIGHT", 24)
+    assert command("trig", "bucket", "--video", "job.webp")[0] == 0
+    animation = cv2.imdecodeanimation(np.fromfile("job.webp", np.uint8))[1]
+    assert len(animation.frames) > 20
+    assert np.ptp([frame.mean() for frame in animation.frames]) > 1  # something moves
+    assert command("trig", "bucket", "--video", "job.webp")[0] == 2
+    assert command("trig", "bucket", "--video", "job.gif")[0] == 2
 
 
 @pytest.mark.slow

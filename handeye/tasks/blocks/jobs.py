@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from handeye.cell.bench import Bench
 from handeye.judge.finding import Finding, Findings
 from handeye.pose import Array, Pose
 from handeye.resources import plans
@@ -47,8 +48,8 @@ class _Job(TaughtJob):
         self._before, self._began = self._table.poses, self._hand
 
     @property
-    def now(self) -> float:
-        return self._table.bench.now
+    def bench(self) -> Bench:
+        return self._table.bench
 
     def teach(self, halted: Halted) -> None:
         script = Script(self._text().splitlines(), halted=halted, slip=self._world.slip)
