@@ -1,0 +1,69 @@
+"""The table of trials in docs/figures.md is that of the files in docs/trials/, and these are what batches have left."""
+
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from handeye.trials.batch.folder import Head
+from handeye.trials.batch.row import Row
+from handeye.variation import Overrides, WorldSpec
+
+DOCS = Path(__file__).parents[2] / "docs"
+FILES = sorted((DOCS / "trials").glob("*.csv"))
+
+
+@pytest.fixture(scope="module")
+def maker() -> ModuleType:
+    """The program that writes the table."""
+    spec = importlib.util.spec_from_file_location("make_trials", DOCS / "make_trials.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_table_is_that_of_the_files(maker: ModuleType) -> None:
+    page = (DOCS / "figures.md").read_text(encoding="utf-8")
+    made = maker.page(page, maker.table([maker.read(file) for file in FILES]))
+    assert page == made, "run: python docs/make_trials.py"
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_no_seed_is_left_out_of_a_file_and_none_counts_twice(maker: ModuleType, file: Path) -> None:
+    seeds = [int(trial["seed"]) for trial in maker.read(file).trials]
+    assert seeds == [*range(seeds[0], seeds[0] + len(seeds))]
+
+
+def test_no_world_counts_twice_in_a_sum(maker: ModuleType) -> None:
+    batches = [maker.read(file) for file in FILES]
+    worlds = [(batch.kind, trial["seed"]) for batch in batches for trial in batch.trials]
+    assert len({*worlds}) == len(worlds)
+
+
+def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path: Path) -> None:
+    batches = []
+    for number, first in enumerate((7, 9)):
+        spec = WorldSpec(seed=first, level="high", overrides=Overrides(set={"arm.friction": 0.0}))
+        head = Head(
+            plan="ab" * 8, program="p", world=spec, camera="ray", without=("touch",), simulated_limit_s=1.0,
+            versions={"handeye": "1"}, code="c",
+        )  # fmt: skip
+        rows = [
+            Row(trial=k, seed=first + k, ended="raised", raised="Bad: luck", cpu_s=1800.0) for k in (0, 1)
+        ]
+        file = tmp_path / f"{number}.csv"
+        file.write_bytes(maker.file_of(head, rows, "c0ffee"))
+        batches.append(maker.read(file))
+    command = "handeye trials assembly --n 2 --seed 7 --level high --camera ray --without touch --set arm.friction=0.0"
+    assert batches[0].facts["command"] == command
+    told = maker.table(batches)
+    worlds = "high --without touch --set arm.friction=0.0"
+    assert (
+        f"| {worlds} | `abababab` | `{command}` | c0ffee | 0 of 2 | 0 | 0.0% to 65.8% | 0.0% |  | 1.0 |"
+        in told
+    )
+    assert f"| {worlds} | `abababab` | together |  | 0 of 4 | 0 | 0.0% to 49.0% | 0.0% |  | 2.0 |" in told
+    assert "- : failed, Bad: luck (2: 7, 8)" in told
