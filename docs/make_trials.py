@@ -69,6 +69,7 @@ def worlds(head: Head) -> str:
     """What the worlds of a batch have in common, and what the program does without."""
     changed = head.world.overrides
     parts = [head.world.level, *(f"--without {name}" for name in (*changed.without, *head.without))]
+    parts += [] if head.on_stop == "abort" else [f"--on-stop {head.on_stop}"]
     parts += [f"--set {name}={value}" for name, value in changed.set.items()]
     return " ".join((*parts, *(f"--fault {fault.name}" for fault in head.world.faults)))
 

@@ -16,6 +16,7 @@ from handeye.files import write_over
 from handeye.host_time import HostTimer
 from handeye.plain_text import counted
 from handeye.planfile.store import read_plan
+from handeye.runs.operator import parse_policy
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
@@ -59,6 +60,13 @@ def assembly_trials(
         Parameter(help="With --engine dask: address of a scheduler; by default, workers are begun here."),
     ] = None,
     camera: Camera = "auto",
+    on_stop: Annotated[
+        str,
+        Parameter(
+            help="How calls of the operator are answered: `abort`, `retry:N`, `unwind` or `unwind:STAGE`, as in "
+            "`assemble`."
+        ),
+    ] = "abort",
     simulated_limit: Annotated[
         float, Parameter(help="Seconds of the cell's clock after which a trial counts as failed.")
     ] = 3600.0,
@@ -103,8 +111,17 @@ def assembly_trials(
     errors.spec(chosen[-1])
     record = compiled(default_script()) if plan is None else read_plan(plan)
     world = broken(errors.spec(chosen[0]), fault, record.program)
+    if parse_policy(on_stop, record.program.stages) is None:
+        raise InvalidInput(
+            "nobody can be asked in a batch: --on-stop takes abort, retry:N, unwind or unwind:STAGE"
+        )
     trial = Trial(
-        plan=record, camera=camera, without=senses, simulated_limit_s=simulated_limit, wall_limit_s=wall_limit
+        plan=record,
+        camera=camera,
+        without=senses,
+        on_stop=on_stop,
+        simulated_limit_s=simulated_limit,
+        wall_limit_s=wall_limit,
     )
     fresh: list[Row] = []
     with kept_batch(out, trial, world) as folder:
@@ -112,7 +129,7 @@ def assembly_trials(
         rows = carry_out(
             trial, jobs_of(world, numbers), _engine(engine, workers, scheduler), folder=folder, told=tell
         )
-    again = command_of(world, plan, camera, senses)
+    again = command_of(world, plan, camera, senses, on_stop)
     found = figures(rows, lambda row: again(row.seed), fresh=fresh, wall_s=timer.wall_s)
     if out is not None:
         _leave(out, rows, found, tables, _title(trial, world))
@@ -150,7 +167,8 @@ def _leave(out: Path, rows: "Sequence[Row]", found: "Figures", tables: "Format |
 
 def _title(trial: "Trial", world: "WorldSpec") -> str:
     lacking = f", without {', '.join(trial.without)}" if trial.without else ""
-    return f"{trial.plan.program.name} in worlds from {world} on{lacking}"
+    answered = "" if trial.on_stop == "abort" else f", with {trial.on_stop} where the operator is called"
+    return f"{trial.plan.program.name} in worlds from {world} on{lacking}{answered}"
 
 
 def compare_trials(
@@ -262,7 +280,7 @@ def _left(seconds: float) -> str:
 
 
 def command_of(
-    world: "WorldSpec", plan: Path | None, camera: str, senses: "tuple[Sense, ...]"
+    world: "WorldSpec", plan: Path | None, camera: str, senses: "tuple[Sense, ...]", on_stop: str = "abort"
 ) -> Callable[[int], str]:
     """What tells the command that carries the trial of a seed out."""
     from msgspec.structs import replace
@@ -271,6 +289,7 @@ def command_of(
 
     words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     made = sense_words(senses) + ([] if camera == "auto" else ["--camera", camera])
+    made += [] if on_stop == "abort" else ["--on-stop", on_stop]
 
     def command(seed: int) -> str:
         return shlex.join(["handeye", *words, *world_words(replace(world, seed=seed)), *made])

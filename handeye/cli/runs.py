@@ -44,8 +44,8 @@ OnStop = Annotated[
     str | None,
     Parameter(
         help="What to do when the operator is called: `abort`, `retry:N` (each stage again, N times at most), "
-        "`unwind:STAGE` (the arm undoes what it did, to the beginning of that stage, once for each that fails) or "
-        "`ask`. By default asks on a terminal and aborts elsewhere."
+        "`unwind:STAGE` (the arm undoes what it did, to the beginning of that stage, once for each that fails; "
+        "`unwind`: of the one that fails) or `ask`. By default asks on a terminal and aborts elsewhere."
     ),
 ]
 

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Final, Literal, Protocol
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
@@ -62,6 +62,9 @@ class Abort:
         return "abort"
 
 
+NOBODY: Final = Abort()
+
+
 @dataclass(frozen=True, slots=True)
 class Retry:
     """Does each stage again at most so many times, then gives up.
@@ -89,12 +92,14 @@ class UnwindOnce:
     Like `Retry` it goes by what has happened in the run.
     """
 
-    stage: int
+    stage: int | None = None
+    """None: that which has failed."""
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """How to go on."""
+        back = runner.stage if self.stage is None else self.stage
         given_up = refused is not None or undoing(runner) or runner.stage in _unwound(runner)
-        return "abort" if given_up else Unwind(stage=self.stage)
+        return "abort" if given_up or back is None else Unwind(stage=back)
 
 
 def undoing(runner: Runner) -> bool:
@@ -115,7 +120,8 @@ def _unwound(runner: Runner) -> set[int]:
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
-    """The operator that `abort`, `retry:N` or `unwind:STAGE` stands for; None for `ask`, which takes somebody to ask.
+    """The operator that `abort`, `retry:N`, `unwind` or `unwind:STAGE` stands for; None for `ask`, which takes
+    somebody to ask.
 
     Args:
         stages: names of the stages there are.
@@ -127,13 +133,15 @@ def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
         return Abort()
     if text == "ask":
         return None
+    if text == "unwind":
+        return UnwindOnce()
     word, _, stage = text.partition(":")
     if word == "unwind" and stage:
         return UnwindOnce(stage_index(stage, stages))
     times = re.fullmatch(r"retry:([1-9][0-9]{0,5})", text)
     if times is None:
         raise InvalidInput(
-            f"--on-stop takes abort, ask, retry:N with N from 1 up, or unwind:STAGE, not {quoted(text)}"
+            f"--on-stop takes abort, ask, retry:N with N from 1 up, unwind or unwind:STAGE, not {quoted(text)}"
         )
     return Retry(int(times[1]))
 

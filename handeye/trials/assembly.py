@@ -8,9 +8,9 @@ from handeye.program.senses import Sense
 from handeye.report.finishing import finished
 from handeye.report.judging import Limits, Referee, check_limits
 from handeye.report.result import Result
-from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
+from handeye.runs.operator import NOBODY, Operator, attend
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
@@ -41,8 +41,9 @@ def run_plan(
     calibrate: bool = False,
     halt: Callable[[], bool] = lambda: False,
     without: tuple[Sense, ...] = (),
+    operator: Operator = NOBODY,
 ) -> Finished:
-    """Carry out a plan in a world, with no operator there, and have it judged.
+    """Carry out a plan in a world, and have it judged.
 
     Args:
         meter: measures what the run costs the host; by default from now on.
@@ -53,6 +54,7 @@ def run_plan(
         calibrate: the camera is calibrated anew, whatever is kept of an earlier run.
         halt: the panic button, asked at every servo period.
         without: senses that the program does without.
+        operator: answers the program's calls; by default nobody does.
 
     Raises:
         InvalidInput: the plan is for another arm, the referee has no finding of the name of a limit, or
@@ -77,5 +79,5 @@ def run_plan(
         calibrate=calibrate,
     )
     check_limits(runner)
-    result = finished(runner, advance(runner), metered, judged=referee, referee=umpire)
+    result = finished(runner, attend(runner, operator), metered, judged=referee, referee=umpire)
     return Finished(result=result, runner=runner)

@@ -73,13 +73,14 @@ def test_policies_are_written_in_a_word() -> None:
     assert (
         parse_policy("unwind:2", ("one", "two")) == parse_policy("unwind:tw", ("one", "two")) == UnwindOnce(1)
     )
+    assert parse_policy("unwind", ()) == UnwindOnce()
 
 
 @pytest.mark.parametrize("text", ["", "retry", "retry:0", "retry:-1", "retry:x", "Abort", "retry:1.5"])
 def test_another_policy_is_refused_in_a_sentence(text: str) -> None:
     with pytest.raises(
         InvalidInput,
-        match=r"^--on-stop takes abort, ask, retry:N with N from 1 up, or unwind:STAGE, not .*$",
+        match=r"^--on-stop takes abort, ask, retry:N with N from 1 up, unwind or unwind:STAGE, not .*$",
     ):
         parse_policy(text, ())
 
@@ -103,6 +104,13 @@ def test_unwinding_undoes_by_the_arm_what_was_done_since_a_stage_began_and_tries
     undone = [event.stage for event in runner.events if isinstance(event, StageUndone)]
     assert undone == [started[2], started[1]]
     assert started == [*started[:3], *started[1:3]]
+
+
+def test_without_a_name_the_stage_that_fails_is_undone(runner: Runner) -> None:
+    assert attend(runner, UnwindOnce()).kind == "operator"
+    started = [event.stage for event in runner.events if isinstance(event, StageStarted)]
+    assert [event.stage for event in runner.events if isinstance(event, StageUndone)] == [started[2]]
+    assert (started[2:], len(unwound(runner))) == ([started[2]] * 2, 1)
 
 
 def test_the_operator_can_have_the_arm_undo_a_stage(runner: Runner) -> None:

@@ -176,6 +176,16 @@ def test_a_kept_process_comes_to_the_same_as_a_new_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_calls_of_the_operator_are_answered_as_the_batch_says() -> None:
+    trial = Trial(plan=plan_of("CLOSE 2\n"), camera="ray", on_stop="retry:2")
+    found = trial(jobs_of(WORLD, range(1))[0])
+    assert found.verdict == "stopped"
+    assert found.result is not None
+    assert len(found.result.interventions) == 2
+    assert head_of(trial, WORLD).differs(head_of(TRIAL, WORLD)) == ["plan", "answers of the operator"]
+
+
+@pytest.mark.slow
 def test_an_exception_is_a_result() -> None:
     rows = carry_out(Trial(plan=plan_of(FEEL), camera="none"), jobs_of(WORLD, range(1)), processes(1))
     assert (rows[0].ended, rows[0].verdict) == ("raised", "failed")

@@ -34,6 +34,7 @@ def head_of(trial: Trial, world: WorldSpec) -> Head:
         world=world,
         camera=trial.camera,
         without=trial.without,
+        on_stop=trial.on_stop,
         simulated_limit_s=trial.simulated_limit_s,
         versions=versions(),
         code=code_digest(),

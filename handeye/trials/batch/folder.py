@@ -23,6 +23,7 @@ TRIALS: Final = "trials.jsonl"
 PLAN: Final = "plan.json"
 _NAMES: Final = {
     "work": "work", "plan": "plan", "world": "worlds", "camera": "camera", "without": "senses",
+    "on_stop": "answers of the operator",
     "simulated_limit_s": "limit of simulated time", "versions": "versions", "code": "program",
 }  # fmt: skip
 """What parts of a head are called."""
@@ -43,6 +44,8 @@ class Head(Record, frozen=True, kw_only=True):
     camera: str
     without: tuple[Sense, ...] = ()
     """Senses that the program does without."""
+    on_stop: str = "abort"
+    """How calls of the operator are answered."""
     simulated_limit_s: float
     versions: dict[str, str]
     code: str

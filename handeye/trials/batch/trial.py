@@ -14,6 +14,7 @@ from handeye.planfile.plan import Plan
 from handeye.program.senses import Sense
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
+from handeye.runs.operator import NOBODY, parse_policy
 from handeye.runs.runner import Runner
 from handeye.trials.assembly import Finished, run_plan
 from handeye.trials.batch.contacts import contacts, searches
@@ -45,6 +46,8 @@ class Trial:
     camera: str = "auto"
     without: tuple[Sense, ...] = ()
     """Senses that the program does without."""
+    on_stop: str = "abort"
+    """How calls of the operator are answered: a policy, as `parse_policy` knows it, that asks nobody."""
     simulated_limit_s: float = SIMULATED_LIMIT_S
     wall_limit_s: float = WALL_LIMIT_S
 
@@ -78,6 +81,7 @@ class Trial:
             observers=watch.looking_on,
             halt=watch.over,
             without=self.without,
+            operator=parse_policy(self.on_stop, self.plan.program.stages) or NOBODY,
         )
         program, where = self.plan.program, done.runner.task.contacts
         return facts(done, watch.ended) | {
