@@ -164,6 +164,29 @@ def test_runs_that_are_to_be_broken_off_are_in_the_chosen_world(
     assert tuple(seen) == ("assemble", *CHOSEN, "--out", str(tmp_path))
 
 
+def test_a_dismantling_that_is_to_be_broken_off_is_of_the_run_that_was_not(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    seen: list[str] = []
+
+    def handeye(*words: str) -> subprocess.CompletedProcess[str]:
+        seen.extend(words)
+        return subprocess.CompletedProcess(words, 1)
+
+    whole = breaking.UnbrokenRun(
+        folder=tmp_path / "pump", seed=3, world=CHOSEN, command=("assemble", *CHOSEN), events=(), stages=()
+    )
+    monkeypatch.setattr(breaking, "handeye", handeye)
+    with pytest.raises(breaking.TrialFailed, match="the pump of seed 3 is not taken apart even without"):
+        breaking.whole_undo(whole, tmp_path / "apart")
+    assert tuple(seen) == ("dismantle", str(tmp_path / "pump"), "--out", str(tmp_path / "apart"))
+
+
+def test_only_runs_are_interrupted_while_they_are_undone(command: Command) -> None:
+    said = "handeye: --dismantling goes with killed and interrupted, not with stepped\n"
+    assert command("trials", "breaking", "stepped", "--dismantling") == (2, "", said)
+
+
 # -- runs ---------------------------------------------------------------------------------------------
 
 SCRIPT = 'OPEN 2\nWHERE\nSTAGE "shut"\nOPEN 1\n'

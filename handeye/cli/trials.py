@@ -150,6 +150,13 @@ def breaking_trials(
     *,
     world: WorldOptions = ANY_WORLD,
     count: Annotated[WholeNumber, Parameter(help="How often to press Ctrl-C.")] = 20,
+    dismantling: Annotated[
+        bool,
+        Parameter(
+            negative="",
+            help="Interrupt the arm while it takes the pump apart: kill it ten times, or press Ctrl-C.",
+        ),
+    ] = False,
     jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
 ) -> int:
     """Interrupt runs, resume them, and check that the result is the same.
@@ -160,10 +167,14 @@ def breaking_trials(
 
     _some(jobs, "process")
     _some(count, "time")
+    if dismantling and kind not in ("killed", "interrupted"):
+        raise InvalidInput(f"--dismantling goes with killed and interrupted, not with {kind}")
     spec = world.spec
     with tempfile.TemporaryDirectory(prefix="handeye-") as name:
         folder = Path(name)
         whole = breaking.whole_run(folder / "whole", spec.seed, world.words())
+        if dismantling:
+            whole = breaking.whole_undo(whole, folder / "apart")
         ways = {
             "killed": lambda: breaking.killed(whole, folder, jobs),
             "interrupted": lambda: breaking.interrupted(whole, folder, count, jobs),

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Final
 
 import msgspec
+import numpy as np
 
 from handeye.errors import HandeyeError
 from handeye.events import AnyEvent, PanicStopped, StageFinished, StageStarted
@@ -49,8 +50,12 @@ class UnbrokenRun:
     seed: int
     world: tuple[str, ...]
     """The options of the command line that choose its world."""
+    command: tuple[str, ...]
+    """Words of the command that carries it out, but for its folder."""
     events: tuple[AnyEvent, ...]
     stages: tuple[str, ...]
+    first: int = 0
+    """How many of the events it began with: they happened in the run that it takes up."""
 
     @property
     def trace(self) -> bytes:
@@ -67,34 +72,66 @@ def whole_run(folder: Path, seed: int, world: Sequence[str]) -> UnbrokenRun:
     Raises:
         TrialFailed: the referee does not find the work done.
     """
-    done = handeye("assemble", *world, "--out", str(folder))
+    return _unbroken(folder, seed, world, ("assemble", *world), f"seed {seed} is not assembled")
+
+
+def whole_undo(whole: UnbrokenRun, folder: Path) -> UnbrokenRun:
+    """Have the arm undo all that it did in a run, without a break.
+
+    Raises:
+        TrialFailed: the referee does not find everything where it was.
+    """
+    words = ("dismantle", str(whole.folder))
+    what = f"the pump of seed {whole.seed} is not taken apart"
+    return _unbroken(folder, whole.seed, whole.world, words, what, first=len(whole.events))
+
+
+def _unbroken(
+    folder: Path, seed: int, world: Sequence[str], command: tuple[str, ...], failed: str, *, first: int = 0
+) -> UnbrokenRun:
+    """Carry out a command; `failed` says what it is not, if its exit code is not 0."""
+    done = handeye(*command, "--out", str(folder))
     if done.returncode != 0:
-        raise TrialFailed(
-            f"seed {seed} is not assembled even without an interruption (exit {done.returncode})"
-        )
+        raise TrialFailed(f"{failed} even without an interruption (exit {done.returncode})")
     events = tuple(effective(read_events(folder / EVENTS)))
     stages = tuple(event.stage for event in events if isinstance(event, StageStarted))
-    return UnbrokenRun(folder=folder, seed=seed, world=tuple(world), events=events, stages=stages)
+    return UnbrokenRun(
+        folder=folder,
+        seed=seed,
+        world=tuple(world),
+        command=command,
+        events=events,
+        stages=stages,
+        first=first,
+    )
 
 
 def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
-    """Kill a run in the middle of each stage, resume it, and compare the traces byte for byte."""
+    """Kill a run in the middle of each stage, resume it, and compare the traces byte for byte.
+
+    One that undoes another run is killed at ten moments instead, evenly spread over what it does.
+    """
+    moments = [(stage, _middle(whole, stage)) for stage in whole.stages]
+    if whole.first:
+        lines = np.linspace(whole.first + 1, len(whole.events) - 4, 12).round().astype(int)[1:-1].tolist()
+        moments = [(f"after event {line}", line) for line in lines]
 
     def one(number: int) -> Verdict:
-        stage, place = whole.stages[number], folder / f"killed-{number + 1}"
+        (name, line), place = moments[number], folder / f"killed-{number + 1}"
         process = _started(whole, place)
-        _wait_for(place / EVENTS, _middle(whole, stage), process)
+        _wait_for(place / EVENTS, line, process)
         process.kill()
         process.wait()
-        return Verdict(name=stage, faults=tuple(_resumed(whole, place)))
+        return Verdict(name=name, faults=tuple(_resumed(whole, place)))
 
-    yield from _each(one, range(len(whole.stages)), jobs)
+    yield from _each(one, range(len(moments)), jobs)
 
 
 def interrupted(whole: UnbrokenRun, folder: Path, count: int, jobs: int) -> Iterator[Verdict]:
-    """Press Ctrl-C at random moments of the working phase; compare exit code, brakes and the resumed run."""
+    """Press Ctrl-C at random moments of a run; compare exit code, brakes and the resumed run."""
     moments = random.Random(whole.seed)  # noqa: S311 - moments, not secrets
-    plans = [(n, moments.randrange(1, len(whole.events) - 4), moments.uniform(0, 0.1)) for n in range(count)]
+    lines = range(whole.first + 1, len(whole.events) - 4)
+    plans = [(n, moments.choice(lines), moments.uniform(0, 0.1)) for n in range(count)]
 
     def one(plan: tuple[int, int, float]) -> Verdict:
         number, line, later = plan
@@ -164,7 +201,7 @@ def handeye(*words: str, said: str = "") -> subprocess.CompletedProcess[str]:
 
 def _started(whole: UnbrokenRun, place: Path) -> "subprocess.Popen[bytes]":
     return subprocess.Popen(  # noqa: S603 - our own program
-        [sys.executable, "-m", "handeye", "assemble", *whole.world, "--out", str(place)],
+        [sys.executable, "-m", "handeye", *whole.command, "--out", str(place)],
         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
 
