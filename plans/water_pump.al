@@ -279,8 +279,9 @@ DEFINE NUDGE SPOT PUSH WAY
         ASSIGN  LOOKS 3
 WIDE:   LOOK    WIDE
         GENERAL BASE WIDE
-        SKIPE   30              ;not seen: another picture has other noise
+        SKIPE   30              ;not seen: the arm's shadow may lie on it
         JUMP    NEAR
+        MOVE    ASIDE
         SOJG    LOOKS WIDE
         WAIT    "NO BASE IS SEEN ON THE BELT"
 NEAR:   LENS    50
@@ -290,6 +291,7 @@ CLOSER: LOOK    CLOSE_UP
         SPECIFIC BASE CLOSE_UP
         SKIPE   31
         JUMP    SEEN
+        MOVE    ASIDE
         SOJG    LOOKS CLOSER
         WAIT    "THE HOLES OF THE BASE ARE NOT SEEN"
 SEEN:   LOAD    0               ;nothing is in the hand
