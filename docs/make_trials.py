@@ -6,11 +6,12 @@ python docs/make_trials.py NAME COMMIT DIR                  # the file of the ba
 DIR is what `handeye trials assembly --out DIR` has left; of a batch that was broken off, the trials before the first
 that is missing. A file has a line a trial, and above them the command, the
 commit, the versions, and the digest of the plan that was carried out. Batches of one plan and one kind of worlds are
-added up: other commits of handeye may lie between them, if the same seed gives the same events.
+added up. Other commits of handeye may lie between them; the digest of its code tells which do.
 """
 
 import csv
 import io
+import shlex
 import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,16 +24,19 @@ ROOT: Final = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 from handeye.files import Kind, write_over  # noqa: E402
+from handeye.see.facts.again import sense_words, world_words  # noqa: E402
 from handeye.trials.batch.folder import Head, read_batch  # noqa: E402
 from handeye.trials.batch.rates import rate  # noqa: E402
 from handeye.trials.batch.row import Row  # noqa: E402
+from handeye.trials.batch.trial import SIMULATED_LIMIT_S  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "figures.md"
 FOLDER: Final = ROOT / "docs" / "trials"
 BEGIN, END = "<!-- Below: docs/make_trials.py -->\n", "<!-- Above: docs/make_trials.py -->\n"
 COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events")
-FACTS: Final = ("command", "commit", "plan", "worlds", "versions")
+FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions")
 """What stands above the trials of a batch."""
+FIGURES: Final = Kind("page of figures", b"# Forces", ending=".md")
 TRIALS: Final = Kind("file of trials", b"# command: ", ending=".csv")
 
 
@@ -55,7 +59,9 @@ class Batch:
 
 def file_of(head: Head, rows: Sequence[Row], commit: str) -> bytes:
     """A batch as a file."""
-    facts = (_command(head, len(rows)), commit, head.plan, worlds(head), _versions(head.versions))
+    if head.work:
+        raise SystemExit(f"these are no trials of assembling, but of this: {head.work}")
+    facts = (_command(head, len(rows)), commit, head.code, head.plan, worlds(head), _versions(head.versions))
     out = io.StringIO()
     for name, value in zip(FACTS, facts, strict=True):
         out.write(f"# {name}: {value}\n")
@@ -66,19 +72,26 @@ def file_of(head: Head, rows: Sequence[Row], commit: str) -> bytes:
 
 
 def worlds(head: Head) -> str:
-    """What the worlds of a batch have in common, and what the program does without."""
-    changed = head.world.overrides
-    parts = [head.world.level, *(f"--without {name}" for name in (*changed.without, *head.without))]
-    parts += [] if head.on_stop == "abort" else [f"--on-stop {head.on_stop}"]
-    parts += [f"--set {name}={value}" for name, value in changed.set.items()]
-    return " ".join((*parts, *(f"--fault {fault.name}" for fault in head.world.faults)))
+    """The level of a batch's worlds, and all options besides: batches that are equal in them are added up."""
+    return shlex.join([head.world.level, *_options(head)])
+
+
+def _options(head: Head) -> list[str]:
+    """Words of the command that carries out a batch, but for seed, level and number."""
+    _, _, *words = world_words(head.world)
+    words = words if head.world.level == "nominal" else words[2:]
+    words += sense_words(head.without)
+    words += [] if head.camera == "auto" else ["--camera", head.camera]
+    words += [] if head.on_stop == "abort" else ["--on-stop", head.on_stop]
+    limit = head.simulated_limit_s
+    return words + ([] if limit == SIMULATED_LIMIT_S else ["--simulated-limit", f"{limit:g}"])
 
 
 def _command(head: Head, n: int) -> str:
-    level, *others = worlds(head).split(" ")
-    chosen = [] if level == "nominal" else ["--level", level]
-    chosen += [] if head.camera == "auto" else ["--camera", head.camera]
-    return " ".join(("handeye trials assembly", f"--n {n}", f"--seed {head.world.seed}", *chosen, *others))
+    """The command that carries out a batch, where the plan is that of the task's script."""
+    level = [] if head.world.level == "nominal" else ["--level", head.world.level]
+    words = ["--n", str(n), "--seed", str(head.world.seed), *level, *_options(head)]
+    return shlex.join(["handeye", "trials", "assembly", *words])
 
 
 def _versions(versions: Mapping[str, str]) -> str:
@@ -146,29 +159,39 @@ def _failures(batches: Sequence[Batch]) -> Iterator[str]:
         if not failed:
             continue
         yield f"Not assembled of `{batch.facts['command']}`:\n"
-        causes = Counter((trial["stage"], trial["verdict"], trial["cause"]) for trial in failed)
+        causes = Counter(map(_why, failed))
         for (stage, verdict, cause), count in causes.most_common():
-            seeds = [trial["seed"] for trial in failed if (trial["stage"], trial["cause"]) == (stage, cause)]
+            mine = (stage, verdict, cause)
+            seeds = [trial["seed"] for trial in failed if _why(trial) == mine]
             more = "" if count <= 3 else ", ..."
             yield f"- {stage}: {verdict}, {cause} ({count}: {', '.join(seeds[:3])}{more})"
         yield ""
 
 
+def _why(trial: Mapping[str, str]) -> tuple[str, str, str]:
+    """Where, how and why a trial failed."""
+    return trial["stage"], trial["verdict"], trial["cause"]
+
+
 def page(text: str, made: str) -> str:
     """The whole page with this table."""
+    if text.count(BEGIN) != 1 or text.count(END) != 1:
+        raise SystemExit(f"{PAGE} has no place for the table")
     above, _, rest = text.partition(BEGIN)
     return above + BEGIN + "\n" + made + "\n" + END + rest.partition(END)[2]
 
 
 def main(words: Sequence[str]) -> None:
     """Make a file, if one is asked for, and the table."""
+    if len(words) not in (0, 3):
+        raise SystemExit(__doc__)
     if words:
         name, commit, folder = words
         head, found = read_batch(Path(folder))
         rows = [row for number, row in enumerate(found) if row.trial == number]
         write_over(FOLDER / f"{name}.csv", file_of(head, rows, commit), TRIALS)
     batches = [read(file) for file in sorted(FOLDER.glob("*.csv"))]
-    PAGE.write_text(page(PAGE.read_text(encoding="utf-8"), table(batches)), encoding="utf-8")
+    write_over(PAGE, page(PAGE.read_text(encoding="utf-8"), table(batches)).encode(), FIGURES)
 
 
 if __name__ == "__main__":

@@ -35,9 +35,9 @@ trace = handeye.open(handeye.demo)
 pictures = {taken.name: taken.picture for taken in trace.pictures}
 figure, axes = plt.subplots(2, 3, figsize=(8.4, 4.6), dpi=70, layout="constrained")
 shown = [
-    axis.imshow(picture, cmap="gray") for axis, picture in zip(axes.flat, pictures.values(), strict=False)
+    axis.imshow(picture, cmap="gray") for axis, picture in zip(axes.flat[:5], pictures.values(), strict=True)
 ]
-named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat, pictures, strict=False)]
+named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat[:5], pictures, strict=True)]
 hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]

@@ -35,7 +35,8 @@ def failures(found: "Figures | DismantlingFigures") -> Iterator[str]:
 
 def verdict(found: "Figures") -> str:
     """How many trials were assembled, and how sure that is."""
-    return _counted(found, found.assembled, "assembled")
+    told = _counted(found, found.assembled, "assembled")
+    return f"{told}\nin {found.answered} the operator was called and answered" if found.answered else told
 
 
 def dismantling_page(found: "DismantlingFigures") -> RenderableType:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, WholeNumber, note, put_json, say
+from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.videos import drawing
 from handeye.errors import InvalidInput
@@ -85,6 +85,10 @@ def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, 
 
     if kept.out is not None:
         check_folder(kept.out, JOB_FOLDER, overwrite=kept.overwrite)
+        if kept.video is not None and kept.video.absolute().is_relative_to(kept.out.absolute()):
+            raise InvalidInput(
+                f"{kept.video} lies in the folder of --out, which is written as a whole; name another"
+            )
     video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
     with PanicButton() as panic:
         job = open_job(name, seed, blocks or 0)
@@ -96,16 +100,22 @@ def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, 
             done = carry_out(job, name, desk, seed=seed, blocks=blocks)
     if kept.out is not None:
         write_job(kept.out, done, job)
-    if video is not None:
-        with drawing() as told:
-            video.write(job, done.ended_s, told)
     if done.outcome == "halted":
         raise KeyboardInterrupt
     if json:
         put_json(done)
     else:
         _tell(done)
-    return CODES[done.outcome]
+    code = CODES[done.outcome]
+    if video is None:
+        return code
+    try:
+        with drawing() as told:
+            video.write(job, done.ended_s, told)
+    except InvalidInput as error:  # the verdict stands
+        complain(error)
+        return code or 2
+    return code
 
 
 def _tell(done: "JobReport") -> None:

@@ -3,22 +3,18 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Literal
 
 from rich.status import Status
 
 from handeye.cli.common import note, notes
 from handeye.plain_text import counted, printable
 from handeye.source import read_source
-from handeye.tasks.benches import open_bench
+from handeye.tasks.benches import ArmName, new_session
 from handeye.trig.desk import Desk
-from handeye.trig.no_arm import NoArm
 from handeye.trig.script import Script, type_script
 from handeye.trig.session import Session
 from handeye.trig.storage import ENDING, read_program
 from handeye.trig.teachable import Halted
-
-ArmName = Literal["none", "purbrick"]
 
 
 def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Session:
@@ -28,7 +24,7 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
         InvalidInput: the file cannot be used.
         KeyboardInterrupt: somebody wanted to stop while a script was typed.
     """
-    session = _new(arm)
+    session = new_session(arm)
     if file is not None and file.name.endswith(ENDING):
         session.program, session.file = read_program(file), file
     elif file is not None:
@@ -38,14 +34,6 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
             type_script(session, script, str(file))
     session.desk, session.over = Script((), note, halted), False
     return session
-
-
-def _new(name: ArmName) -> Session:
-    if name == "none":
-        imagined = NoArm()
-        return Session(arm=imagined, table=imagined, desk=Script(()))
-    arm, table = open_bench(name)
-    return Session(arm=arm, table=table, desk=Script(()))
 
 
 @contextmanager

@@ -128,7 +128,8 @@ def assemble(
     """Carry out a script to its end, and have the referee judge the result: what `handeye assemble` does.
 
     Args:
-        on_stop: what is done when the operator is called: `abort`, or `retry:N`: the stage again, N times at most.
+        on_stop: what is done when the operator is called: `abort`; `retry:N`: the stage again, N times at
+            most; or `unwind`: the arm undoes what it did in that stage, and the program begins it anew, once for each.
 
     The other arguments are those of `handeye.begin`.
 
@@ -168,7 +169,7 @@ def _rule(on_stop: object) -> Operator:
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
-        raise InvalidInput(f"on_stop is `abort`, or `retry:N` with N from 1 up; not {on_stop!r}")
+        raise InvalidInput(f"on_stop is `abort`, `retry:N` with N from 1 up, or `unwind`; not {on_stop!r}")
     return operator
 
 

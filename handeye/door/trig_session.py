@@ -1,20 +1,17 @@
 """A session of TRIG from Python: lines are typed, and both displays show what has come of them."""
 
-from typing import Final, Literal, get_args
+from typing import Final, get_args
 
 from handeye.cell.photograph import Photograph, check_size
 from handeye.diagnostics import quoted
 from handeye.door.html import frame, page
 from handeye.errors import InvalidInput
-from handeye.tasks.benches import SeenTable, open_bench
+from handeye.tasks.benches import ArmName, SeenTable, new_session
 from handeye.trig.full_display import full_display
-from handeye.trig.no_arm import NoArm
 from handeye.trig.partial_display import partial_display
 from handeye.trig.script import Script, type_script
-from handeye.trig.session import Session
 from handeye.trig.styled import plain
 
-Arm = Literal["none", "purbrick"]
 _WIDE: Final = 100
 """Characters of a line of the displays."""
 
@@ -35,7 +32,7 @@ class TrigSession:
     ('3 steps undone; there is nothing to undo before this',)
     """
 
-    def __init__(self, arm: Arm = "none") -> None:
+    def __init__(self, arm: ArmName = "none") -> None:
         """Sit down at an arm, to write a new program.
 
         Args:
@@ -44,14 +41,9 @@ class TrigSession:
         Raises:
             InvalidInput: there is no such arm.
         """
-        if arm not in get_args(Arm):
+        if arm not in get_args(ArmName):
             raise InvalidInput(f"there is no arm {quoted(str(arm))}; `none` and `purbrick` can be taught")
-        if arm == "none":
-            imagined = NoArm()
-            self._session = Session(arm=imagined, table=imagined, desk=Script(()))
-        else:
-            built, table = open_bench(arm)
-            self._session = Session(arm=built, table=table, desk=Script(()))
+        self._session = new_session(arm)
 
     def type(self, text: str) -> tuple[str, ...]:
         """Type lines, as a script has them: commands, the teach box, answers, and what somebody does with the table.

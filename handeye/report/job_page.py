@@ -104,11 +104,11 @@ def _placed(done: JobReport) -> list[Point]:
 
 def _drawn(done: JobReport) -> Markup:
     taught = done.lying.get("taught", ())
-    back = _off(done.lying.get("undone", ()), [lying.at[:2] for lying in taught])
+    back = _off(done.lying.get("undone", ()), [lying.at[:2] for lying in taught]) if done.checks_back else []
     return drawing(
         *_platter(done),
-        *_scatter("placed", _placed(done), _limit(done, "placed"), _PANELS[0]),
-        *_scatter("taken back", back, _limit(done, "blocks"), _PANELS[1]),
+        *_scatter("placed", _placed(done), _limit(done), _PANELS[0]),
+        *_scatter("taken back, seen from above", back, None, _PANELS[1]),
         wide=_WIDE,
         high=_HIGH,
         label="The blocks from above, and how far off they were placed and taken back",
@@ -120,9 +120,9 @@ def _off(lying: Sequence[Lying], wanted: Sequence[Point]) -> list[Point]:
     return [(one.at[0] - x, one.at[1] - y) for one, (x, y) in zip(lying, wanted, strict=False)]
 
 
-def _limit(done: JobReport, name: str) -> float | None:
-    check = {**done.checks, **done.checks_back}.get(name)
-    return None if check is None else check.limit
+def _limit(done: JobReport) -> float | None:
+    """How far off a block may be placed, mm."""
+    return done.checks["placed"].limit if "placed" in done.checks else None
 
 
 def _platter(done: JobReport) -> Iterator[Markup]:

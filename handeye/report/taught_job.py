@@ -88,6 +88,7 @@ def carry_out(
 
     lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying()}
     ended: float | None = None
+    forward: Way | None = None
     placed: Findings = {}
     apart: Findings = {}
     try:
@@ -104,7 +105,8 @@ def carry_out(
         back, lying["undone"] = tell(ran, back=True), job.lying()
     except InvalidInput as error:  # by the arm: it cannot go where a step wants it
         told.append(str(error))
-        return end("stopped")
+        lying["run" if forward is None else "undone"] = job.lying()
+        return end("stopped", forward)
     if ran.end != "beginning":
         return end("halted" if ran.end == "halted" else "stopped", forward, back)
     apart = job.findings_back() or {}

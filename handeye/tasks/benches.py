@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from handeye.trig.session import Session
     from handeye.trig.teachable import Halted, Teachable
 
+ArmName = Literal["none", "purbrick"]
 JobName = Literal["palletise", "bucket"]
 MOST_BLOCKS = 20
 """Of the palletiser's stack: the arm reaches over no more."""
@@ -45,6 +46,19 @@ class Lying(Record, frozen=True, kw_only=True):
     """mm"""
     turned: float
     """deg about the vertical."""
+
+
+def new_session(arm: ArmName) -> "Session":
+    """A session of TRIG in which nothing was done, at an arm that is imagined or at one with physics."""
+    from handeye.trig.no_arm import NoArm
+    from handeye.trig.script import Script
+    from handeye.trig.session import Session
+
+    if arm == "none":
+        imagined = NoArm()
+        return Session(arm=imagined, table=imagined, desk=Script(()))
+    built, table = open_bench(arm)
+    return Session(arm=built, table=table, desk=Script(()))
 
 
 class TaughtJob(ABC):

@@ -29,7 +29,7 @@ from handeye.versions import HANDEYE
 CHUNK: Final = 1 << 20
 """Bytes of messages after which a chunk is closed."""
 _HARDEST: Final = 19
-"""Level at which a plan is packed: an eighth of its size, in some tenths of a second."""
+"""Level at which a plan is packed: a tenth of its size, in some tenths of a second."""
 
 
 @dataclass(slots=True)

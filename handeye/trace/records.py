@@ -28,7 +28,7 @@ _TROUBLE: Final = (McapError, ZstdError, ValueError, KeyError, struct.error, Mem
 """Errors that the MCAP library makes of records that are not as they should be."""
 
 LARGEST: Final = 1 << 26
-"""Bytes of a chunk, or of a plan, unpacked: fifty times what a trace's are."""
+"""Bytes of a chunk, or of a plan, unpacked: fifty times what the largest chunk of a trace has."""
 
 Kind = TypeVar("Kind", Attachment, Chunk, Metadata)
 

@@ -111,8 +111,9 @@ def killed(whole: UnbrokenRun, folder: Path, jobs: int) -> Iterator[Verdict]:
 
     One that undoes another run is killed at ten moments instead, evenly spread over what it does.
     """
-    moments = [(stage, _middle(whole, stage)) for stage in whole.stages]
-    if whole.first:
+    if not whole.first:
+        moments = [(stage, _middle(whole, stage)) for stage in whole.stages]
+    else:
         lines = np.linspace(whole.first + 1, len(whole.events) - 4, 12).round().astype(int)[1:-1].tolist()
         moments = [(f"after event {line}", line) for line in lines]
 

@@ -9,11 +9,14 @@ import cv2
 import numpy as np
 
 from handeye.cell.bench import Bench
+from handeye.cell.opengl import context
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import standing
+from handeye.errors import InvalidInput
 from handeye.files import check_place, write_over
 from handeye.folders import Taken
 from handeye.pose import Array
+from handeye.see.page.figures import clock
 from handeye.tasks.benches import TaughtJob
 from handeye.video.captions import Caption, captioned
 from handeye.video.formats import format_of
@@ -51,12 +54,14 @@ class JobVideo:
 
         Raises:
             Taken: a video is there, and may not be replaced.
-            InvalidInput: it cannot be written there, or its name asks for no format that is written.
+            InvalidInput: it cannot be written there, its name asks for no format that is written, or there is no
+                OpenGL on this machine.
         """
         self._path, self._form = path, format_of(path)
         check_place(path, self._form.kind)
         if path.exists() and not overwrite:
             raise Taken(f"{path} is there already; --overwrite replaces it")
+        context()
         self._moments: list[_Moment] = []
 
     def watch(self, job: TaughtJob) -> None:
@@ -79,9 +84,11 @@ class JobVideo:
             told: told of each frame: its number, of how many.
 
         Raises:
-            InvalidInput: no OpenGL on this machine, or the file cannot be written.
+            InvalidInput: the arm has not moved, or the file cannot be written.
         """
-        most = int(LASTS * RATE)
+        if not self._moments:
+            raise InvalidInput(f"the arm has not moved: {self._path} was not made")
+        most = int(LASTS * RATE) - _HELD
         rows = np.unique(np.linspace(0, len(self._moments) - 1, most).round().astype(int))
         shown = [self._moments[row] for row in rows.tolist()]
         self._form.check(len(shown), WIDTH, HEIGHT)
@@ -103,9 +110,8 @@ def _drawn(
         fine = photographer.take(*standing(bench.model, moment.qpos), _VIEW)
         small = np.asarray(cv2.resize(fine, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA), dtype=np.uint8)
         back = ended is not None and moment.time > ended
-        seconds = moment.time - moments[0].time
         caption = Caption(
             words=f"{'backwards' if back else 'forwards'}: {moment.words}",
-            clock=f"{seconds // 60:.0f}:{seconds % 60:02.0f}", stages=2, begun=1 + back, stopped=False,
+            clock=clock(moment.time - moments[0].time), stages=2, begun=1 + back, stopped=False,
         )  # fmt: skip
         yield captioned(small, caption, None)

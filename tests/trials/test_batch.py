@@ -182,6 +182,7 @@ def test_calls_of_the_operator_are_answered_as_the_batch_says() -> None:
     assert found.verdict == "stopped"
     assert found.result is not None
     assert len(found.result.interventions) == 2
+    assert figures([found], lambda _: "").answered == 1
     assert head_of(trial, WORLD).differs(head_of(TRIAL, WORLD)) == ["plan", "answers of the operator"]
 
 

@@ -6,6 +6,7 @@ from types import ModuleType
 
 import pytest
 
+from handeye.faults import Fault
 from handeye.trials.batch.folder import Head
 from handeye.trials.batch.row import Row
 from handeye.variation import Overrides, WorldSpec
@@ -46,10 +47,13 @@ def test_no_world_counts_twice_in_a_sum(maker: ModuleType) -> None:
 def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path: Path) -> None:
     batches = []
     for number, first in enumerate((7, 9)):
-        spec = WorldSpec(seed=first, level="high", overrides=Overrides(set={"arm.friction": 0.0}))
+        thick = Fault(name="gasket.thick", value=0.003, stage=4)
+        spec = WorldSpec(
+            seed=first, level="high", faults=(thick,), overrides=Overrides(set={"camera.place.x": 0.00762})
+        )
         head = Head(
-            plan="ab" * 8, program="p", world=spec, camera="ray", without=("touch",), simulated_limit_s=1.0,
-            versions={"handeye": "1"}, code="c",
+            plan="ab" * 8, program="p", world=spec, camera="ray", without=("touch",),
+            on_stop="unwind:the pins", simulated_limit_s=3600.0, versions={"handeye": "1"}, code="c",
         )  # fmt: skip
         rows = [
             Row(trial=k, seed=first + k, ended="raised", raised="Bad: luck", cpu_s=1800.0) for k in (0, 1)
@@ -57,13 +61,28 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
         file = tmp_path / f"{number}.csv"
         file.write_bytes(maker.file_of(head, rows, "c0ffee"))
         batches.append(maker.read(file))
-    command = "handeye trials assembly --n 2 --seed 7 --level high --camera ray --without touch --set arm.friction=0.0"
+    options = "--set camera.place.x=0.00762m --fault gasket.thick=0.11811in@4 --without touch --camera ray"
+    options += " --on-stop 'unwind:the pins'"
+    command = f"handeye trials assembly --n 2 --seed 7 --level high {options}"
     assert batches[0].facts["command"] == command
     told = maker.table(batches)
-    worlds = "high --without touch --set arm.friction=0.0"
+    worlds = f"high {options}"
     assert (
         f"| {worlds} | `abababab` | `{command}` | c0ffee | 0 of 2 | 0 | 0.0% to 65.8% | 0.0% |  | 1.0 |"
         in told
     )
     assert f"| {worlds} | `abababab` | together |  | 0 of 4 | 0 | 0.0% to 49.0% | 0.0% |  | 2.0 |" in told
     assert "- : failed, Bad: luck (2: 7, 8)" in told
+
+
+def test_other_trials_and_other_pages_are_refused(maker: ModuleType) -> None:
+    head = Head(
+        work="dismantle", plan="p", program="p", world=WorldSpec(seed=1), camera="ray", simulated_limit_s=1.0,
+        versions={}, code="c",
+    )  # fmt: skip
+    with pytest.raises(SystemExit, match="no trials of assembling"):
+        maker.file_of(head, [], "c0ffee")
+    with pytest.raises(SystemExit, match="no place for the table"):
+        maker.page("a page", "a table")
+    with pytest.raises(SystemExit, match=r"python docs/make_trials\.py"):
+        maker.main(["one"])

@@ -185,7 +185,18 @@ def test_a_job_that_somebody_stops_is_interrupted(
     command: Command, imagined: type[ImaginedJob], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(PanicButton, "__call__", lambda _: True)
-    assert command("trig", "palletise", "--blocks", "1")[0] == 130
+    assert command("trig", "palletise", "--blocks", "1", "--video", "job.webp")[0] == 130
+
+
+@pytest.mark.render
+def test_a_job_whose_video_cannot_be_made_keeps_its_verdict(
+    command: Command, imagined: type[ImaginedJob]
+) -> None:
+    code, out, err = command("trig", "palletise", "--blocks", "1", "--video", "job.webp")
+    assert (code, out.splitlines()[-1]) == (2, "Right.")
+    assert err.endswith("handeye: the arm has not moved: job.webp was not made\n")
+    imagined.placed = 2.1
+    assert command("trig", "palletise", "--blocks", "1", "--video", "job.webp")[0] == 3
 
 
 def test_palletisers_are_tried_in_many_worlds_to_their_end_or_broken_off(
@@ -224,6 +235,8 @@ def test_a_job_leaves_a_video_and_replaces_none_by_chance(
     assert np.ptp([frame.mean() for frame in animation.frames]) > 1  # something moves
     assert command("trig", "bucket", "--video", "job.webp")[0] == 2
     assert command("trig", "bucket", "--video", "job.gif")[0] == 2
+    code, _, err = command("trig", "bucket", "--out", "job", "--video", "job/it.webp")
+    assert (code, "lies in the folder of --out" in err) == (2, True)
 
 
 @pytest.mark.slow

@@ -166,7 +166,8 @@ def _screws(count: int) -> Iterator[PartFault]:
             "mm on it enters no tapped hole.", _thick_point(screw), Size(unit="mm", usual=0.5, limits=(0.0, 0.8)),
         )  # fmt: skip
         yield _fault(
-            f"{_SCREW}.{number}.{_SLOTLESS}", f"The head of screw {number} has no slot: the bit slips on it.",
+            f"{_SCREW}.{number}.{_SLOTLESS}", f"The head of screw {number} has no slot: the bit slips on it, and no "
+            "thread takes it.",
             _slippery(f"screw_head{number - 1}"),
         )  # fmt: skip
 
@@ -201,7 +202,7 @@ def _holes(count: int) -> Iterator[PartFault]:
 
 def _screwdriver() -> Iterator[PartFault]:
     yield _fault("screwdriver.missing", "The screwdriver is not in its rack.", _missing("driver"))
-    yield _fault(_SMOOTH, "The bit does not rub on what it turns.", _slippery("bit"))
+    yield _fault(_SMOOTH, "The bit does not rub on what it turns, and no thread takes it.", _slippery("bit"))
 
 
 def _light() -> Iterator[PartFault]:

@@ -56,6 +56,8 @@ class Figures(Record, frozen=True, kw_only=True):
     """Trials that broke off: by an exception, at a limit, or because their process was killed twice."""
     killed: int
     """How often the process of a trial was killed."""
+    answered: int
+    """Trials in which calls of the operator were answered, however they ended: `--on-stop`."""
     wilson95: tuple[float, float] | None
     """Wilson's interval of the probability that a trial is assembled."""
     p_s: float | None
@@ -97,6 +99,7 @@ def figures(
         stopped=counts["stopped"],
         failed=counts["failed"],
         killed=sum(row.killed for row in rows),
+        answered=sum(row.result is not None and bool(row.result.interventions) for row in rows),
         wilson95=sure.wilson95,
         p_s=sure.p_s,
         failures=failures,
