@@ -4,9 +4,8 @@ python docs/make_trials.py                                  # the table anew
 python docs/make_trials.py NAME COMMIT DIR                  # the file of the batch in DIR, and the table anew
 
 DIR is what `handeye trials assembly --out DIR` has left; of a batch that was broken off, the trials before the first
-that is missing. A file has a line a trial, and above them the command, the
-commit, the versions, and the digest of the plan that was carried out. Batches of one plan and one kind of worlds are
-added up. Other commits of handeye may lie between them; the digest of its code tells which do.
+that is missing count. A file has a line a trial, and above them command, commit, digests of code and plan, worlds and
+versions. Batches of one plan and one kind of worlds are added up, also where their code differs.
 """
 
 import csv

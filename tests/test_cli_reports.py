@@ -13,9 +13,11 @@ from handeye import resources
 from handeye.cli import job
 from handeye.errors import InvalidInput
 from handeye.see import animation, photographs
+from handeye.see.facts.again import is_shipped
 from handeye.see.page.document import REPORT
 from handeye.tasks.water_pump.task import WaterPump
 from handeye.trace import channels, mcap_writer
+from handeye.trace.reading import read_trace
 
 pytestmark = pytest.mark.slow
 
@@ -175,6 +177,11 @@ def test_the_demo_is_a_page_of_twelve_stages_made_without_opengl(
     assert len(page.one("seen").all("figure")) == 5
     assert "This trace is thinned" in page.one("felt").text
     assert "No photograph: OpenGL does not work on this machine." in page.one("run").text
+
+
+def test_the_demo_is_of_the_plan_that_comes_with_handeye() -> None:
+    """Else its page would tell a command that cannot be carried out."""
+    assert is_shipped(read_trace(resources.demo() / "trace.mcap").head.plan), "run: python docs/make_demo.py"
 
 
 def test_the_demo_is_less_than_a_megabyte() -> None:

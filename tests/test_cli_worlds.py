@@ -149,34 +149,31 @@ def test_a_world_can_be_chosen_again_by_its_words() -> None:
     assert WorldOptions().words() == ["--seed", "0"]
 
 
-def test_runs_that_are_to_be_broken_off_are_in_the_chosen_world(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    seen: list[str] = []
+@pytest.fixture
+def seen(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Words of the commands that trials carry out, each of which fails."""
+    found: list[str] = []
 
     def handeye(*words: str) -> subprocess.CompletedProcess[str]:
-        seen.extend(words)
+        found.extend(words)
         return subprocess.CompletedProcess(words, 1)
 
     monkeypatch.setattr(breaking, "handeye", handeye)
+    return found
+
+
+def test_runs_that_are_to_be_broken_off_are_in_the_chosen_world(seen: list[str], tmp_path: Path) -> None:
     with pytest.raises(breaking.TrialFailed):
         breaking.whole_run(tmp_path, 3, CHOSEN)
     assert tuple(seen) == ("assemble", *CHOSEN, "--out", str(tmp_path))
 
 
 def test_a_dismantling_that_is_to_be_broken_off_is_of_the_run_that_was_not(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    seen: list[str], tmp_path: Path
 ) -> None:
-    seen: list[str] = []
-
-    def handeye(*words: str) -> subprocess.CompletedProcess[str]:
-        seen.extend(words)
-        return subprocess.CompletedProcess(words, 1)
-
     whole = breaking.UnbrokenRun(
         folder=tmp_path / "pump", seed=3, world=CHOSEN, command=("assemble", *CHOSEN), events=(), stages=()
     )
-    monkeypatch.setattr(breaking, "handeye", handeye)
     with pytest.raises(breaking.TrialFailed, match="the pump of seed 3 is not taken apart even without"):
         breaking.whole_undo(whole, tmp_path / "apart")
     assert tuple(seen) == ("dismantle", str(tmp_path / "pump"), "--out", str(tmp_path / "apart"))
