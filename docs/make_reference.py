@@ -166,7 +166,7 @@ def members(name: str, named: griffe.Class) -> Iterator[str]:
     """What a class has: attributes as a list, those that are asked for last, then methods."""
     own = {
         each: member
-        for each, member in named.members.items()
+        for each, member in (abstract(named) | named.members).items()
         if not (each.startswith("_") or member.is_alias)
     }
     attributes = {each: member for each, member in own.items() if member.is_attribute}
@@ -180,6 +180,13 @@ def members(name: str, named: griffe.Class) -> Iterator[str]:
     for each, member in own.items():
         if member.is_function and each not in HIDDEN:
             yield from (*signature(f"{name}.{each}", member), *told(member))
+
+
+def abstract(named: griffe.Class) -> dict[str, griffe.Object]:
+    """What a class has of an abstract base beside it."""
+    beside = (named.parent.members.get(str(base)) for base in named.bases)
+    bases = (base for base in beside if base is not None and not base.is_alias)
+    return {k: v for base in bases if "ABC" in map(str, base.bases) for k, v in base.members.items()}
 
 
 def signature(name: str, function: griffe.Function) -> Iterator[str]:

@@ -30,7 +30,7 @@ EXAMPLES |= {
     "result.json",
     "plan.json",
 }
-EXAMPLES |= {"pallet.trig.json", ".trig.json", "FILE.toml", "languages.toml", "scene.xml"}
+EXAMPLES |= {"pallet.trig.json", "job.json", ".trig.json", "FILE.toml", "languages.toml", "scene.xml"}
 """Files that an example, a user or a run makes."""
 ELSEWHERE = (".venv/", "stanford/", "base/")
 """What the first start makes; names in the scene, which look like paths."""

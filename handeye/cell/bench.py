@@ -6,23 +6,37 @@ from typing import Final
 import mujoco
 import numpy as np
 
+from handeye.cell.mechanism import Mechanism
 from handeye.errors import InvalidInput
 from handeye.ports.axes import Axes, AxesReading, AxisSpec
 from handeye.ports.clock import Clock, whole_steps
 from handeye.pose import Array
+from handeye.record import Record
 
 MICROSECONDS: Final = 1_000_000
+_LATEST: Final = 10**15
 FASTEST: Final = 1000.0
 """m/s and rad/s: nothing on a bench gets near it, unless the solver of its contacts has failed."""
 
 
-class Bench(Clock):
+class BenchTime(Record, frozen=True, kw_only=True):
+    """What the clock of a bench shows."""
+
+    microseconds: int
+
+
+class Bench(Clock, Mechanism[BenchTime]):
     """A scene, and its time in whole microseconds: steps of the physics add up to it without rounding."""
+
+    name = "clock"
+    kind = BenchTime
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model, self.data = model, mujoco.MjData(model)
         self.before_step: list[Callable[[], None]] = []
         """What the machines do before every step of the physics."""
+        self.passed: list[Callable[[], None]] = []
+        """Those who look on: called whenever time has passed."""
         self._step = round(model.opt.timestep * MICROSECONDS)
         self._now = 0
         mujoco.mj_forward(self.model, self.data)
@@ -49,10 +63,36 @@ class Bench(Clock):
             self._now += self._step
         if not np.abs(self.data.qvel).max(initial=0.0) < FASTEST:  # nor is what is not a number
             raise InvalidInput(f"the physics of the bench has failed at {self.now:.3f} s")
+        for look in self.passed:
+            look()
+
+    def state(self) -> BenchTime:
+        return BenchTime(microseconds=self._now)
+
+    def check(self, state: BenchTime) -> None:
+        if not 0 <= state.microseconds < _LATEST:
+            raise InvalidInput("its clock shows what it cannot")
+
+    def restore(self, state: BenchTime) -> None:
+        self._now = state.microseconds
 
 
-class BenchAxes(Axes):
+class AxesState(Record, frozen=True, kw_only=True):
+    """What the controller of a machine holds."""
+
+    goal: tuple[float, ...]
+    """Where its servos are to be at the end of the period, m and rad."""
+    way: tuple[float, ...]
+    """How far they go in a step of the physics."""
+    left: int
+    """Steps of the period that are left."""
+
+
+class BenchAxes(Axes, Mechanism[AxesState]):
     """One machine of a bench: joints with position servos, a hand, and what it senses."""
+
+    name = "axes"
+    kind = AxesState
 
     def __init__(
         self,
@@ -105,10 +145,27 @@ class BenchAxes(Axes):
         if not (np.isfinite(goal).all() and np.isfinite(hand)):
             raise InvalidInput("a goal of an axis is not a finite number")
         data, told = self._bench.data, self._put
-        self._servos = [data.actuator(spec.name).id for spec in self._specs]
+        self._servos = self._numbers()
         self._goal, self._left = goal + self._bent(goal), self._steps
         self._way = (self._goal - told) / self._steps
         data.actuator(self._hand).ctrl = hand
+
+    def state(self) -> AxesState:
+        return AxesState(goal=tuple(self._goal.tolist()), way=tuple(self._way.tolist()), left=self._left)
+
+    def check(self, state: AxesState) -> None:
+        if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
+            raise InvalidInput("its machine has other axes")
+        if not np.isfinite((*state.goal, *state.way)).all():
+            raise InvalidInput("a goal of its machine is not a finite number")
+
+    def restore(self, state: AxesState) -> None:
+        self._goal, self._way, self._left = np.array(state.goal), np.array(state.way), state.left
+        self._servos = self._numbers()
+
+    def _numbers(self) -> list[int]:
+        """The numbers of its servos, which change with the scene."""
+        return [self._bench.data.actuator(spec.name).id for spec in self._specs]
 
     def _interpolate(self) -> None:
         """Go on towards the goal, evenly for a period: goals that jump shake what lies on the axes.

@@ -15,7 +15,8 @@ from typing import Any, Final, Protocol
 import mujoco
 import numpy as np
 
-from handeye.cell.simulated import INTEGRATION, SimulatedCell
+from handeye.cell.kept import INTEGRATION
+from handeye.cell.simulated import SimulatedCell
 
 _CALLS: Final = ("mj_step", "mj_step1", "mj_step2", "mj_forward", "mj_resetData")
 """All by which a cell has its simulator work out anything that lasts."""

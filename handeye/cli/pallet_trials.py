@@ -7,6 +7,7 @@ from cyclopts import Parameter
 from handeye.cli.common import Json, WholeNumber, put_json, say
 from handeye.cli.tally import Tally
 from handeye.errors import InvalidInput
+from handeye.plain_text import counted as words
 from handeye.variation import checked_seed
 
 if TYPE_CHECKING:
@@ -59,7 +60,8 @@ def pallet_trials(
 
 def _tell(counted: "PalletFigures") -> None:
     low, high = counted.wilson95 or (0.0, 1.0)
-    say(f"{counted.n} trials with {counted.blocks} blocks: {counted.right} right ({low:.1%} to {high:.1%})")
+    trials, blocks = words(counted.n, "trial"), words(counted.blocks, "block")
+    say(f"{trials} with {blocks}: {counted.right} right ({low:.1%} to {high:.1%})")
     say(
         f"{counted.stopped} stopped, {counted.silent_failures} silent; {counted.arm_s:.0f} s of the arm's clock"
     )

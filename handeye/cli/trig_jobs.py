@@ -1,19 +1,27 @@
 """Commands that carry out the paper's two examples in drawn worlds: taught, run, judged, and taken back."""
 
+import shlex
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
+from rich.status import Status
 
-from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say
+from handeye.cli.common import Json, WholeNumber, complain, note, notes, put_json, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.videos import drawing
 from handeye.errors import InvalidInput
+from handeye.events import AnyEvent, StepStarted, UndoStarted
+from handeye.host_time import HostTimer
+from handeye.plain_text import counted
+from handeye.runs.observer import Observer
 from handeye.variation import checked_seed
 
 if TYPE_CHECKING:
     from handeye.report.taught_job import JobReport
+    from handeye.runs.runner import Runner
     from handeye.tasks.benches import JobName
 
 Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teach, machine and blocks are.")]
@@ -26,19 +34,35 @@ class KeptOptions:
 
     out: Annotated[
         Path | None,
-        Parameter(help="Folder for the result (result.json), the program, and a report (report.html)."),
+        Parameter(
+            help="Folder for the run: trace, checkpoints, result, what came of the job (job.json), its program, and a "
+            "report (report.html). `handeye resume` and `handeye dismantle` go on from there."
+        ),
     ] = None
     video: Annotated[
         Path | None,
         Parameter(help="Video of the job, .webp or .webm, 20 s long at most."),
     ] = None
     overwrite: Annotated[
-        bool, Parameter(help="Replace the result in the folder of --out, and the video that is there.")
+        bool, Parameter(help="Replace the run in the folder of --out, and the video that is there.")
     ] = False
 
 
 NOTHING: Final = KeptOptions()
 CODES: Final = {"right": 0, "stopped": 1, "silent": 3}
+
+
+class _Told(Observer):
+    """Tells at a terminal how far a job is."""
+
+    def __init__(self, runner: "Runner", status: Status) -> None:
+        self._runner, self._status = runner, status
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, StepStarted):
+            steps = counted(len(self._runner.system.executed), "step")
+            way = "undoing" if isinstance(event, UndoStarted) else "running"
+            self._status.update(f"{way}: {steps} done and not undone, at {event.text}")
 
 
 def palletise(
@@ -76,32 +100,50 @@ def bucket(*, seed: Seed = 0, json: Json = False, kept: KeptOptions = NOTHING) -
 
 
 def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, json: bool) -> int:
-    from handeye.cli.trig_sessions import interrupting, watched_desk
-    from handeye.folders import check_folder
-    from handeye.report.job_folder import JOB_FOLDER, write_job
-    from handeye.report.taught_job import carry_out
-    from handeye.tasks.benches import open_job
+    from handeye.execution.servo import Halted
+    from handeye.report.finishing import finished
+    from handeye.report.job_folder import write_job
+    from handeye.report.taught_job import carry_out, job_of, setup_of_job
+    from handeye.runs.folder import open_new
+    from handeye.runs.host_seconds import Meter
+    from handeye.runs.runner import Runner
     from handeye.video.job_video import JobVideo
 
-    if kept.out is not None:
-        check_folder(kept.out, JOB_FOLDER, overwrite=kept.overwrite)
-        if kept.video is not None and kept.video.absolute().is_relative_to(kept.out.absolute()):
-            raise InvalidInput(
-                f"{kept.video} lies in the folder of --out, which is written as a whole; name another"
-            )
+    start = setup_of_job(name, seed, blocks)
+    _check_apart(kept)
     video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
-    with PanicButton() as panic:
-        job = open_job(name, seed, blocks or 0)
+    folder = None if kept.out is None else open_new(kept.out, start, overwrite=kept.overwrite)
+    meter = Meter(timer=HostTimer.of_process())
+    with PanicButton() as panic, notes.status(f"teaching {name}") as status:
+
+        def observers(runner: "Runner") -> "Sequence[Observer]":
+            looking: list[Observer] = [_Told(runner, status)]
+            if folder is not None:
+                looking.append(folder.watch(runner, start, again=False, meter=meter))
+            return looking
+
         note(f"teaching {name} in the world of seed {seed}")
-        job.teach(interrupting(panic))
+        try:
+            runner = Runner(start, halt=panic, observers=observers)
+        except BaseException as error:
+            if folder is not None:
+                folder.discard()
+            if isinstance(error, Halted):
+                raise KeyboardInterrupt from None
+            raise
+        job = job_of(runner)
         if video is not None:
             video.watch(job)
-        with watched_desk(job.session, panic) as desk:
-            done = carry_out(job, name, desk, seed=seed, blocks=blocks)
-    if kept.out is not None:
-        write_job(kept.out, done, job)
+        carried = carry_out(runner, blocks=blocks, tell=note)
+    done = carried.report
     if done.outcome == "halted":
+        if folder is not None:
+            folder.close()
+            say(f"resume with: handeye resume {shlex.quote(str(folder.path))}", notes, whole=True)
         raise KeyboardInterrupt
+    if folder is not None:
+        finished(runner, carried.pause, meter, judged=True, folder=folder)
+        write_job(folder.path, done, job.session.program)
     if json:
         put_json(done)
     else:
@@ -116,6 +158,14 @@ def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, 
         complain(error)
         return code or 2
     return code
+
+
+def _check_apart(kept: KeptOptions) -> None:
+    """Raises InvalidInput if the video is to lie in the folder of the run, which holds nothing else."""
+    if kept.out is None or kept.video is None:
+        return
+    if kept.video.absolute().is_relative_to(kept.out.absolute()):
+        raise InvalidInput(f"{kept.video} lies in the folder of --out, which is that of a run; name another")
 
 
 def _tell(done: "JobReport") -> None:

@@ -5,7 +5,6 @@ from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any, Final
 
-import msgspec
 import numpy as np
 
 from handeye.debugger.breakpoints import meant
@@ -200,7 +199,7 @@ def _named(table: dict[str, Array]) -> dict[str, Vector3]:
 
 PLAIN: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "time": ("time_s", lambda runner: runner.elapsed),
-    "state": ("state", lambda runner: msgspec.to_builtins(runner.system.state, enc_hook=np.ndarray.tolist)),
+    "state": ("state", lambda runner: runner.system.shown),
 }
 """Topics of any system."""
 TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {

@@ -69,7 +69,7 @@ def _times(result: Result) -> Markup:
     """What passed on the cell's clock, the same each time; beside what did in its day, if somebody timed it."""
     then = period(result)
     years = () if then is None else (str(then.year),)
-    rows = cell_times(result.timing, {} if then is None else then.times)
+    rows = cell_times(result, {} if then is None else then.times)
     cells = ((_indented(name), *map(_clock, seconds[: 1 + len(years)])) for name, *seconds in rows)
     return table(("on the cell's clock", "this run", *years), cells)
 

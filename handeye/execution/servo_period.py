@@ -14,9 +14,10 @@ class ServoPeriod:
     sensed: Sensed
     """Readings of all devices at its end."""
     effort: Array
-    """Torques put out in it, shape (n,), N m and (prismatic joints) N; zero under the brakes."""
+    """Torques put out in it, shape (n,), N m and (prismatic joints) N; zero under the brakes, and where servos are
+    closed outside the computer."""
     wrench: Array | None = None
     """Force (N) of the hand on the world, and moment (N m) about its tool centre point, world axes, shape (6,), as
-    the program estimates them; None: it does not, or only for the tare."""
+    the program estimates them; None: it does not, or only for the tare. Shape (3,): the force alone, by a sensor."""
     guards: tuple[ActiveGuard, ...] = ()
     """Guards that watch at its end."""

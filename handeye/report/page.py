@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from handeye.diagnostics import visible
-from handeye.report.result import Check, Result, Timing
+from handeye.report.result import Check, Result
 from handeye.tasks import known
 from handeye.tasks.interface import Period, Words
 
@@ -88,7 +88,7 @@ def timing(result: Result) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("", "here", "" if then is None else str(then.year)):
         table.add_column(name, justify="left" if not name else "right")
-    for name, seconds, at_that_time in _rows(t, {} if then is None else then.times):
+    for name, seconds, at_that_time in _rows(result, {} if then is None else then.times):
         table.add_row(name, clock(seconds), "" if at_that_time is None else clock(at_that_time))
     if t.real_time_factor >= 0.05:
         since = f" from step {t.host_from_step} on" if t.host_from_step else ""
@@ -97,24 +97,28 @@ def timing(result: Result) -> Table:
     return table
 
 
-def _rows(t: Timing, then: Mapping[str, float]) -> Iterator[TimingRow]:
+def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
     """What the computer takes, and around it what passes on the cell's clock."""
+    t = result.timing
     if t.planning_cpu_s:  # the plan may have been there already
         yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
-    yield from cell_times(t, then)
-    yield "vision (processor)", t.vision_cpu_s, then.get("vision")
+    yield from cell_times(result, then)
+    if result.camera.used:
+        yield "vision (processor)", t.vision_cpu_s, then.get("vision")
 
 
-def cell_times(t: Timing, then: Mapping[str, float]) -> Iterator[TimingRow]:
+def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
     """Name, seconds on the cell's clock, and those of its day, if there are any; the one sum is of both parts."""
+    t, sees = result.timing, result.camera.used
     if t.friction_s:
         yield "friction of the joints", t.friction_s, None
     if t.calibration_s:
-        yield "camera calibration", t.calibration_s, None
+        yield "camera calibration" if sees else "before the working phase", t.calibration_s, None
     worked = then["manipulation"] + then["lens"] if then else None
     yield "working phase, without vision", t.working_s, worked
     yield "  manipulation", t.manipulation_s, then.get("manipulation")
-    yield "  lens change, aim and focus", t.lens_s, then.get("lens")
+    if sees:
+        yield "  lens change, aim and focus", t.lens_s, then.get("lens")
     if t.overlapped_s:
         yield "    and while the arm moved", t.overlapped_s, None
 

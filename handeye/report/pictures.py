@@ -13,8 +13,9 @@ from handeye.errors import InvalidInput
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Found
 from handeye.files import write_whole
-from handeye.runs.programs import context_of
+from handeye.runs.programs import ProgramSystem, context_of
 from handeye.runs.runner import Runner
+from handeye.runs.systems import written
 from handeye.vision.drawing import annotate
 
 _WIDE: Final = 480
@@ -65,9 +66,11 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
         raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
-    for name in context_of(runner.system).state.shots:
+    for name in runner.system.state.shots if isinstance(runner.system, ProgramSystem) else ():
         write_whole(folder / f"{name.lower()}.png", annotated_png(context_of(runner.system), name))
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:
-        posed = as_it_stands(runner.task.scene(runner.setup.world), runner.cell.truth)
+        posed = as_it_stands(
+            runner.task.recorded_scene(runner.setup.world, written(runner.setup)), runner.cell.truth
+        )
         for camera in runner.task.photographs:
             write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))

@@ -110,6 +110,11 @@ class CameraReport(Record, frozen=True, kw_only=True):
     residual_in: float | None
     """On the table, inches; None where the program takes no picture and nobody calibrated."""
 
+    @property
+    def used(self) -> bool:
+        """Somebody has calibrated it."""
+        return self.residual_in is not None
+
 
 class Result(Record, frozen=True, kw_only=True):
     """Result of a run.

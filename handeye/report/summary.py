@@ -27,7 +27,7 @@ from handeye.report.pauses import pause_sentence
 from handeye.report.result import CameraReport, Check, Result, Stage, Status, Timing
 from handeye.runs.advance import Pause
 from handeye.runs.host_seconds import HostSeconds
-from handeye.runs.programs import context_of
+from handeye.runs.programs import ProgramSystem
 from handeye.runs.runner import Runner
 from handeye.trace.sentences import renderer_name, sentence
 from handeye.units import INCH
@@ -150,9 +150,9 @@ def overlapped(events: Iterable[AnyEvent], clock: float) -> float:
 
 
 def _camera(runner: Runner) -> CameraReport:
-    if runner.system.cell is None:
+    if not isinstance(runner.system, ProgramSystem):
         return camera_report(Renderer(method="none"), None)
-    return camera_report(runner.cell.renderer, context_of(runner.system).state.calibration)
+    return camera_report(runner.cell.renderer, runner.system.state.calibration)
 
 
 def camera_report(renderer: Renderer, calibration: Calibration | None) -> CameraReport:

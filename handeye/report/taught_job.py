@@ -1,20 +1,24 @@
-"""A job that was taught: carried out, undone, and judged after both."""
+"""A job that is taught: carried out, undone, and judged after both."""
 
-from collections.abc import Mapping
-from typing import Final, Literal
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
 
-from handeye.errors import InvalidInput
 from handeye.judge.finding import Findings, all_right
 from handeye.record import Record
+from handeye.report.judging import findings
 from handeye.report.result import Check
-from handeye.tasks.benches import JobName, Lying, TaughtJob
+from handeye.runs.advance import Pause, advance
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.taught.system import TAUGHT, TaughtSystem
+from handeye.tasks.benches import JobName, Lying, TaughtJob, TaughtPlan, job_script
 from handeye.trig.cursor_commands import told_run
-from handeye.trig.desk import Desk
 from handeye.trig.reports import Way
 from handeye.trig.running import Ran
+from handeye.variation import WorldSpec
 
-ALL: Final = 1_000_000_000
-"""Steps: more than are ever remembered."""
 Outcome = Literal["right", "stopped", "silent", "halted"]
 """All as it should be; the program or the arm stopped before; done, and the referee disagrees; somebody's key."""
 
@@ -25,8 +29,8 @@ class JobReport(Record, frozen=True, kw_only=True):
     """What came of a job."""
 
     job: JobName
-    seed: int | None
-    """Of its world; None: the one without errors."""
+    seed: int
+    """Of its world."""
     blocks: int | None = None
     interrupted_after: int | None = None
     """Steps after which it was to be undone."""
@@ -55,69 +59,103 @@ class JobReport(Record, frozen=True, kw_only=True):
         return tuple(check for check in (*self.checks.values(), *self.checks_back.values()) if check.refuses)
 
 
+def setup_of_job(name: JobName, seed: int, blocks: int | None) -> Checkpoint:
+    """A run of a job that has not begun; `blocks` are those of the palletiser's stack."""
+    plan = TaughtPlan(job=name, script=job_script(name, blocks or 0))
+    setup = Setup(
+        system=TAUGHT.name, plan=plan, world=WorldSpec(seed=seed), camera="auto", task=name, judged=True
+    )
+    return Checkpoint(setup=setup)
+
+
+def job_of(runner: Runner) -> TaughtJob:
+    """The job that a run carries out."""
+    assert isinstance(runner.system, TaughtSystem)
+    return runner.system.job
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Carried:
+    """A job that was carried out."""
+
+    report: JobReport
+    pause: Pause
+    """How its run stands."""
+
+
 def carry_out(
-    job: TaughtJob,
-    name: JobName,
-    desk: Desk,
+    runner: Runner,
     *,
-    seed: int | None,
     blocks: int | None,
     after: int | None = None,
-) -> JobReport:
+    tell: Callable[[str], None] = lambda _: None,
+) -> Carried:
     """Carry out a job that has been taught, undo it, and ask the referee after both.
 
     Args:
-        desk: whose key stops the arm, and who is told.
-        after: steps after which it is undone, as if somebody had struck a key; None: it comes to its end.
+        after: steps after which it is undone; None: it comes to its end.
+        tell: is told how either way has ended.
     """
-    session = job.session
-    session.desk = desk
+    assert isinstance(runner.system, TaughtSystem)
+    system, job = runner.system, runner.system.job
     told: list[str] = []
-
-    def tell(ran: Ran, *, back: bool = False) -> Way:
-        told.append(told_run(ran, back=back))
-        desk.tell(told[-1])
-        return Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
-
-    def end(outcome: Outcome, forward: Way | None = None, back: Way | None = None) -> JobReport:
-        return JobReport(
-            job=name, seed=seed, blocks=blocks, interrupted_after=after, outcome=outcome, forward=forward, back=back,
-            checks=_checks(placed), checks_back=_checks(apart), told=tuple(told), arm_s=round(job.bench.now, 6),
-            ended_s=ended, goals=job.goals, lying=lying,
-        )  # fmt: skip
-
     lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying()}
-    ended: float | None = None
-    forward: Way | None = None
+    forward = back = ended = None
     placed: Findings = {}
     apart: Findings = {}
-    try:
-        ran = session.runner.run() if after is None else _first_steps(job, after)
-        forward, lying["run"], ended = tell(ran), job.lying(), round(job.bench.now, 6)
-        if ran.end == "halted":
-            return end("halted", forward)
-        if ran.end == "none":
-            placed = job.findings()
-        wanted = job.findings_back()
-        if wanted is None:
-            return end("right" if all_right(placed) else "silent", forward)
-        ran = session.runner.back(ALL)
-        back, lying["undone"] = tell(ran, back=True), job.lying()
-    except InvalidInput as error:  # by the arm: it cannot go where a step wants it
-        told.append(str(error))
-        lying["run" if forward is None else "undone"] = job.lying()
-        return end("stopped", forward)
-    if ran.end != "beginning":
-        return end("halted" if ran.end == "halted" else "stopped", forward, back)
-    apart = job.findings_back() or {}
+
+    def way(pause: Pause, steps: int, *, undoing: bool) -> Way | None:
+        """How one way has ended; None: the arm refused a step."""
+        obstacle = system.state.obstacle
+        if pause.kind in ("operator", "trouble") and obstacle is None:
+            told.append(pause.message)
+            return None
+        ran = Ran(steps=steps, end=_end(pause, undoing=undoing), obstacle=obstacle)
+        told.append(told_run(ran, back=undoing))
+        tell(told[-1])
+        return Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
+
+    def carried(outcome: Outcome, pause: Pause) -> Carried:
+        report = JobReport(
+            job=runner_job(runner), seed=runner.setup.world.seed, blocks=blocks, interrupted_after=after,
+            outcome=outcome, forward=forward, back=back, checks=_checks(placed), checks_back=_checks(apart),
+            told=tuple(told), arm_s=round(runner.time, 6), ended_s=ended, goals=job.goals, lying=lying,
+        )  # fmt: skip
+        return Carried(report=report, pause=pause)
+
+    pause = advance(runner, steps=after)
+    done = len(system.executed)
+    forward, lying["run"], ended = way(pause, done, undoing=False), job.lying(), round(runner.time, 6)
+    if pause.kind not in ("end", "break"):
+        return carried("halted" if pause.kind == "panic" else "stopped", pause)
+    placed = findings(runner, pause)
+    if not job.undoable:
+        return carried("right" if all_right(placed) else "silent", pause)
+    runner.have_undone(0, halts=True)
+    pause = advance(runner)
+    back, lying["undone"] = way(pause, done - len(system.executed), undoing=True), job.lying()
+    if pause.kind != "end":
+        return carried("halted" if pause.kind == "panic" else "stopped", pause)
+    apart = {**findings(runner, pause), **job.remembered()}
     right = all_right(apart) and (not placed or all_right(placed))
-    return end("right" if right else "silent", forward, back)
+    return carried("right" if right else "silent", pause)
 
 
-def _first_steps(job: TaughtJob, count: int) -> Ran:
-    program = job.session.program
-    program.put_cursor(program.first)
-    return job.session.runner.forward(count)
+def runner_job(runner: Runner) -> JobName:
+    """The name of the job that a run carries out."""
+    assert isinstance(runner.setup.plan, TaughtPlan)
+    return runner.setup.plan.job
+
+
+def _end(pause: Pause, *, undoing: bool) -> Literal["count", "none", "halted", "beginning", "stopped"]:
+    match pause.kind:
+        case "panic":
+            return "halted"
+        case "operator" | "trouble":
+            return "stopped"
+        case "end":
+            return "beginning" if undoing else "none"
+    return "count"
 
 
 def _checks(findings: Findings) -> dict[str, Check]:

@@ -40,6 +40,11 @@ PICTURES: Final = "pictures"
 HOST: Final = "host.json"
 REPORT: Final = "report.html"
 VIDEO: Final = "video.webp"
+JOB: Final = "job.json"
+TAUGHT: Final = "program.trig.json"
+"""Of a taught job: what came of it, and its program."""
+_OUTCOMES: Final = (RESULT, REPORT, VIDEO, JOB, TAUGHT)
+"""What tells of how a run has ended."""
 
 
 class HoldsRun(InvalidInput):
@@ -109,7 +114,7 @@ class RunFolder(Observer):
             InvalidInput: the folder cannot be written to.
         """
         self.kept.drop_after(-1)
-        left = [self.path / name for name in (TRACE, f"{TRACE}.part", RESULT, HOST, REPORT, VIDEO)]
+        left = [self.path / name for name in (TRACE, f"{TRACE}.part", HOST, *_OUTCOMES)]
         for file in (*left, *(self.path / PICTURES).glob("*.png")):
             file.unlink(missing_ok=True)
         write_whole(self.path / PLAN, written(start.setup))
@@ -120,7 +125,7 @@ class RunFolder(Observer):
         assert self._runner is not None
         setup, cell = self._runner.setup, self._runner.system.cell
         plan = written(setup)
-        frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.task.arm)
+        frames = NoFrames() if cell is None else Frames(cell.truth, self._runner.system.joints)
         looks = Looks(picture=self._picture, found=self._found)
         return Recorder.resumed(self.path / TRACE, frames, looks, plan, len(events), events)
 
@@ -159,7 +164,7 @@ class RunFolder(Observer):
 
     def _goes_on(self) -> None:
         """What the run came to before is no longer its result."""
-        for name in (RESULT, REPORT, VIDEO):
+        for name in _OUTCOMES:
             (self.path / name).unlink(missing_ok=True)
 
     def checkpoint(self, checkpoint: Checkpoint) -> None:
@@ -283,7 +288,7 @@ def _refuse_run(path: Path) -> None:
 
 def _refuse_others(path: Path) -> None:
     """Raises InvalidInput if a folder holds what no run has left."""
-    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", RESULT, CHECKPOINTS, PICTURES, HOST, REPORT, VIDEO}
+    ours = {PLAN, EVENTS, TRACE, f"{TRACE}.part", CHECKPOINTS, PICTURES, HOST, *_OUTCOMES}
     if not (path / PLAN).is_file() and any((path / PICTURES).glob("*")):
         ours.remove(PICTURES)
     others = (

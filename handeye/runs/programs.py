@@ -18,6 +18,7 @@ from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
 from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.undo.undoing import order
 from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode, plan_digest
@@ -73,6 +74,10 @@ class ProgramSystem(System):
     @property
     def cell(self) -> SimulatedCell:
         return self._cell
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(joint.name for joint in self.arm.joints)
 
     @property
     def time(self) -> float:
@@ -273,6 +278,17 @@ def context_of(system: System) -> ExecutionContext:
     return system.run
 
 
+def cell_of(system: System) -> SimulatedCell:
+    """The cell of the executor of programs, with its arm.
+
+    Raises:
+        InvalidInput: another system carries the run out.
+    """
+    if not isinstance(system, ProgramSystem):
+        raise InvalidInput("this is no run of a program: its cell has no arm to be driven")
+    return system.cell
+
+
 def check(setup: Setup) -> None:
     """See that a plan was made for the arm of its task, and that its world can be had.
 
@@ -302,5 +318,7 @@ PROGRAM: Final = SystemKind(
     machine=lambda plan: (plan.arm, plan.arm_digest),
     check=check,
     build=ProgramSystem,
+    executed=lambda plan, state: state.done,
+    order=lambda plan, state, undoing: order(state, undoing),
 )
 """Programs of the first waist, planned for an arm."""

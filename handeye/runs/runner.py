@@ -8,7 +8,8 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Final
 
-from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.cell.kept import KeptCell
+from handeye.cell.simulated import SimulationError
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
@@ -35,8 +36,8 @@ from handeye.runs.parts import OWN, Parts
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered
 from handeye.runs.system import StepFacts, Surroundings, System
 from handeye.runs.systems import kind_of, listing_of
-from handeye.tasks import task
-from handeye.tasks.interface import Task
+from handeye.tasks import any_task
+from handeye.tasks.interface import AnyTask
 
 RECENT: Final = 400
 """Steps whose states are kept in memory; of older ones those at the beginning of stages."""
@@ -136,12 +137,12 @@ class Runner:
         return self._broken or self.system.trouble
 
     @property
-    def task(self) -> Task:
+    def task(self) -> AnyTask:
         """Task that is done in its cell."""
-        return task(self.setup.task)
+        return any_task(self.setup.task)
 
     @property
-    def cell(self) -> SimulatedCell:
+    def cell(self) -> KeptCell:
         """The simulated cell.
 
         Raises:

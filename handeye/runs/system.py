@@ -7,12 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from handeye.cell.simulated import SimulatedCell
+import msgspec
+import numpy as np
+
+from handeye.cell.kept import KeptCell
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, Choice
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
-from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.undo.done import Undoing
 from handeye.program.operation import Device
 from handeye.record import Record
 from handeye.runs.parts import OWN, Parts
@@ -58,6 +61,18 @@ class StepFacts(Protocol):
     @property
     def place(self) -> str:
         """Its line, as people are told: `12`, or `pins.al:12`."""
+
+
+class ExecutedStep(Protocol):
+    """A step that was executed and that the arm has not undone."""
+
+    @property
+    def step(self) -> int:
+        """Its number."""
+
+    @property
+    def enters(self) -> bool:
+        """Its stage began with it."""
 
 
 class Listing(Protocol):
@@ -112,8 +127,13 @@ class System(Protocol):
         """All that it remembers: the record it lives in."""
 
     @property
-    def cell(self) -> SimulatedCell | None:
+    def cell(self) -> KeptCell | None:
         """The simulated cell it acts on, if there is one."""
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the arm's joints, in order; none of a system without one."""
+        return ()
 
     @property
     def time(self) -> float:
@@ -152,7 +172,7 @@ class System(Protocol):
         """Go on after the operator was called."""
 
     @property
-    def executed(self) -> Sequence[Done]:
+    def executed(self) -> Sequence[ExecutedStep]:
         """Steps that were executed and that the arm has not undone, in order; none of a system that cannot undo."""
         return ()
 
@@ -173,6 +193,12 @@ class System(Protocol):
         Raises:
             InvalidInput: it is not a state of what is carried out.
         """
+
+    @property
+    def shown(self) -> Mapping[str, Any]:
+        """Its state, for people who look at it."""
+        shown: dict[str, Any] = msgspec.to_builtins(self.state, enc_hook=np.ndarray.tolist)
+        return shown
 
     def settables(self) -> Mapping[str, Settable]:
         """Things that a person can set, by kind."""
@@ -222,3 +248,7 @@ class SystemKind:
     """Raises InvalidInput unless that machine is that of the task."""
     build: Callable[[Setup, Surroundings], System]
     """Raises InvalidInput if it cannot be built here."""
+    executed: Callable[[Any, Any], Sequence[ExecutedStep]] = lambda plan, state: ()
+    """Steps of a plan that were executed and not undone, by a state: what its `System.executed` would say."""
+    order: Callable[[Any, Any, Undoing], None] = lambda plan, state, undoing: None
+    """Let a state be one in which the arm undoes what it did; raises InvalidInput if there is nothing to undo."""

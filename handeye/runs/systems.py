@@ -10,8 +10,9 @@ from handeye.record import Record
 from handeye.runs.programs import PROGRAM
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, SystemKind
+from handeye.runs.taught.system import TAUGHT
 
-_KINDS: Final = {PROGRAM.name: PROGRAM}
+_KINDS: Final[dict[str, SystemKind]] = {PROGRAM.name: PROGRAM, TAUGHT.name: TAUGHT}
 
 
 def register(kind: SystemKind) -> None:

@@ -7,16 +7,14 @@ from msgspec.structs import replace
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import StepStarted, UndoEnded, UndoOrdered
-from handeye.execution.state import ExecutionState
-from handeye.execution.undo.done import Done, Undoing
-from handeye.execution.undo.undoing import order
+from handeye.execution.undo.done import Undoing
 from handeye.mutable_records import copied
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.system import Listing
-from handeye.runs.systems import listing_of
+from handeye.runs.system import ExecutedStep, Listing
+from handeye.runs.systems import kind_of, listing_of
 
 
-def stage_began(executed: Sequence[Done], listing: Listing, stage: int) -> int:
+def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) -> int:
     """Steps that were executed when a stage, given by its index, last began.
 
     Raises:
@@ -39,15 +37,16 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     Raises:
         InvalidInput: the run has left nothing to undo, or not all of it.
     """
-    snapshot = checkpoint.snapshot
-    if snapshot is None or not isinstance(snapshot.state, ExecutionState):
-        raise InvalidInput(f"{name} is no run of a program that has begun: there is nothing to undo")
+    snapshot, kind, plan = checkpoint.snapshot, kind_of(checkpoint.setup), checkpoint.setup.plan
+    if snapshot is None:
+        raise InvalidInput(f"the run in {name} has not begun: there is nothing to undo")
     state = copied(snapshot.state)
-    _check_whole(checkpoint, state.done, name)
+    executed = kind.executed(plan, state)
+    _check_whole(checkpoint, executed, name)
     undoing = Undoing(
-        left=0 if stage is None else stage_began(state.done, listing_of(checkpoint.setup), stage), halts=True
+        left=0 if stage is None else stage_began(executed, listing_of(checkpoint.setup), stage), halts=True
     )
-    order(state, undoing)
+    kind.order(plan, state, undoing)
     time = checkpoint.events[-1].time
     events = (*checkpoint.events, UndoOrdered(time=time, left=undoing.left, halts=True))
     setup = replace(checkpoint.setup, judged=True)
@@ -56,7 +55,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     )
 
 
-def _check_whole(checkpoint: Checkpoint, done: list[Done], name: str) -> None:
+def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str) -> None:
     """Raises InvalidInput unless a run has left a record of its first step, or is at its beginning."""
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from handeye.planfile.plan import Plan
-from handeye.planfile.store import decode
 from handeye.program.program import Program
 from handeye.report.result import Result
+from handeye.trace.planned import plan_of
 from handeye.trace.trace import Trace
 
 
@@ -27,7 +27,7 @@ class Recorded:
     @cached_property
     def plan(self) -> Plan:
         """Its plan."""
-        return decode(self.trace.plan, f"the plan in {self.trace.name}")
+        return plan_of(self.trace)
 
     @property
     def program(self) -> Program:

@@ -1,14 +1,14 @@
 """Tasks by name. Each is a folder with its scene, its errors, its referee and what else knows it."""
 
 from importlib import import_module
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from handeye.arm import robots
 from handeye.diagnostics import quoted, suggestion
 from handeye.errors import InvalidInput
-from handeye.tasks.interface import Task
+from handeye.tasks.interface import AnyTask, Task
 
 DEFAULT: Final = "water_pump"
 """The task that is meant where none is named."""
@@ -17,6 +17,11 @@ _BUILT_IN: Final = {
     "insertion": ("handeye.tasks.insertion.task", "INSERTION"),
 }
 """Where the tasks that come with handeye are found; they are imported when they are asked for."""
+_TAUGHT: Final = {
+    "palletise": ("handeye.tasks.blocks.task", "PALLET"),
+    "bucket": ("handeye.tasks.blocks.task", "BUCKET_TASK"),
+}
+"""Those that no planned program does, likewise."""
 _ELSEWHERE: Final = " (a task of your own is known to the Python program that calls `handeye.tasks.register`)"
 _REGISTERED: Final[dict[str, Task]] = {}
 
@@ -39,20 +44,31 @@ def register(task: Task) -> None:
             f"the task {quoted(name)} parks its arm at a position of shape {np.shape(task.park)}; "
             f"the {task.arm.name} arm has {joints} joints"
         )
-    if task.name in _BUILT_IN or _REGISTERED.get(task.name, task) is not task:
+    if task.name in {*_BUILT_IN, *_TAUGHT} or _REGISTERED.get(task.name, task) is not task:
         raise InvalidInput(f"there is a task called {quoted(task.name)} already")
     robots.register(task.arm)
     _REGISTERED[task.name] = task
 
 
+def any_task(name: str) -> AnyTask:
+    """The task of a name, whatever kind of system does it.
+
+    Raises:
+        InvalidInput: there is none such.
+    """
+    return _imported(_TAUGHT[name]) if name in _TAUGHT else task(name)
+
+
 def task(name: str = DEFAULT) -> Task:
-    """The task of a name.
+    """The task of a name that planned programs do.
 
     Raises:
         InvalidInput: there is none such.
     """
     if not isinstance(name, str):
         raise InvalidInput(f"a task is given by its name, not {name!r}")
+    if name in _TAUGHT:
+        raise InvalidInput(f"the task {quoted(name)} is done by a taught program, not by a planned one")
     found = known(name)
     if found is None:
         names = {*_BUILT_IN, *_REGISTERED}
@@ -65,6 +81,10 @@ def known(name: str) -> Task | None:
     """The task of a name; None: this process does not know it, as it may be another program's own."""
     if name not in _BUILT_IN:
         return _REGISTERED.get(name)
-    module, value = _BUILT_IN[name]
-    found: Task = getattr(import_module(module), value)
+    found: Task = _imported(_BUILT_IN[name])
     return found
+
+
+def _imported(place: tuple[str, str]) -> Any:
+    module, value = place
+    return getattr(import_module(module), value)

@@ -3,13 +3,20 @@
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Literal
 
+import msgspec
+
+from handeye.errors import InvalidInput
 from handeye.record import Record
 from handeye.trig.tabletop import Tabletop
 
 if TYPE_CHECKING:
     from handeye.cell.bench import Bench
+    from handeye.cell.kept import KeptCell
     from handeye.cell.photograph import Photograph
     from handeye.judge.finding import Findings
+    from handeye.ports.axes import Axes
+    from handeye.tasks.interface import AnyTask
+    from handeye.trig.axes_arm import AxesArm
     from handeye.trig.session import Session
     from handeye.trig.teachable import Halted, Teachable
 
@@ -17,6 +24,8 @@ ArmName = Literal["none", "purbrick"]
 JobName = Literal["palletise", "bucket"]
 MOST_BLOCKS = 20
 """Of the palletiser's stack: the arm reaches over no more."""
+_LONGEST = 100_000
+"""Characters of a script: those of the paper have a thousand."""
 
 
 class SeenTable(Tabletop):
@@ -61,20 +70,58 @@ def new_session(arm: ArmName) -> "Session":
     return Session(arm=built, table=table, desk=Script(()))
 
 
+class TaughtPlan(Record, frozen=True, kw_only=True):
+    """A job, and what is typed for it: each world teaches it a little otherwise."""
+
+    job: JobName
+    script: str
+
+
+def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
+    """The plan in some bytes; its script has not been typed.
+
+    Raises:
+        InvalidInput: there is none.
+    """
+    try:
+        plan = msgspec.json.decode(data, type=TaughtPlan)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InvalidInput(f"{name} is not sound: {error}") from None
+    if len(plan.script) > _LONGEST:
+        raise InvalidInput(f"{name} is not sound: its script has more than {_LONGEST} characters")
+    return plan
+
+
 class TaughtJob(ABC):
     """A program of TRIG that is taught in a drawn world, carried out, and judged by a referee."""
 
+    task: "AnyTask"
     session: "Session"
     """A new one; the desk is whoever's carries it out."""
+    arm: "AxesArm"
+    """That of the session."""
+    axes: "Axes"
+    """Its port."""
+    undoable: bool
+    """What it does can be undone."""
 
     @abstractmethod
     def teach(self, halted: "Halted") -> None:
         """Type the program, as the paper has it, with a teach box that is a little off, and lay the table for a run."""
 
+    @abstractmethod
+    def lay(self) -> None:
+        """Lay the table as it is when the program has been taught, for a state that is put back."""
+
     @property
     @abstractmethod
     def bench(self) -> "Bench":
         """What it is carried out on."""
+
+    @property
+    @abstractmethod
+    def cell(self) -> "KeptCell":
+        """The same with the table laid for a run, to be kept, put back and judged."""
 
     @abstractmethod
     def lying(self) -> tuple[Lying, ...]:
@@ -85,19 +132,21 @@ class TaughtJob(ABC):
     def goals(self) -> tuple[tuple[float, float], ...]:
         """Where the referee wants blocks laid by the program, mm, in the order in which they are taken."""
 
-    @abstractmethod
-    def findings(self) -> "Findings":
-        """Ask the referee about a program that has ended."""
-
-    @abstractmethod
-    def findings_back(self) -> "Findings | None":
-        """Ask the referee about one that was undone; None: it cannot be, by what it does."""
+    def remembered(self) -> "Findings":
+        """Whether the program is as it was taught, when it has been undone; by default nobody asks."""
+        return {}
 
 
-def open_job(name: JobName, seed: int | None, blocks: int = MOST_BLOCKS) -> TaughtJob:
-    """A job in the world of a seed, or in the one without errors; `blocks` are those of the palletiser's stack."""
+def job_script(name: JobName, blocks: int = MOST_BLOCKS) -> str:
+    """What is typed for a job; `blocks` are those of the palletiser's stack."""
+    from handeye.tasks.blocks.jobs import script_of
+
+    return script_of(name, blocks)
+
+
+def open_job(name: JobName, seed: int | None, script: str) -> TaughtJob:
+    """A job in the world of a seed, or in the one without errors, in which nothing has been typed yet."""
     from handeye.tasks.blocks.jobs import BucketJob, PalletJob
     from handeye.tasks.blocks.world import BlocksWorld
 
-    world = BlocksWorld(seed)
-    return PalletJob(world, blocks) if name == "palletise" else BucketJob(world)
+    return {"palletise": PalletJob, "bucket": BucketJob}[name](script, BlocksWorld(seed))

@@ -111,19 +111,48 @@ class Words:
     """A sentence: the arm has undone all it did."""
 
 
-class Task(ABC):
-    """One kind of work: its cell, its worlds, and the referee of what it makes."""
+class AnyTask(ABC):
+    """What every task has, whatever kind of system does it: worlds, and a referee."""
 
     name: str
+    words: Words
+    photographs: tuple[str, ...] = ()
+    """Cameras of the scene whose view of the end is kept for people."""
+
+    @abstractmethod
+    def variation(self, seed: int) -> Variation:
+        """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
+
+    @abstractmethod
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        """The scene of a world as people are shown it, before anything has happened in it: it is never simulated.
+
+        Raises:
+            InvalidInput: there is no such world.
+        """
+
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        """The same of a run with a plan, which may say what lies there; arguments and errors are those of `scene`."""
+        return self.scene(spec)
+
+    @abstractmethod
+    def judge(self, truth: Truth) -> Findings:
+        """Findings of the referee on the finished work. The cell is not touched."""
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        """Findings of the referee where the arm has undone all it did; none by default. The cell is not touched."""
+        return {}
+
+
+class Task(AnyTask):
+    """One kind of work for an arm that a planned program drives: its cell, its worlds, and its referee."""
+
     arm: ArmModel
     park: Array
     """Where the arm stands when the cell is switched on, shape (n,)."""
-    words: Words
     script: str | None = None
     """The program that is taken where none is named, a file among the plans."""
     eye: Eye | None = None
-    photographs: tuple[str, ...] = ()
-    """Cameras of the scene whose view of the end is kept for people."""
     period: Period | None = None
     contacts: Mapping[str, tuple[str, ...]] = MappingProxyType({})
     """Positions at which the hand, or what it holds, meets something, by the name of the operation."""
@@ -134,21 +163,9 @@ class Task(ABC):
         """What the planner keeps motions clear of where the program has not been taught otherwise."""
         return {}
 
-    @abstractmethod
-    def variation(self, seed: int) -> Variation:
-        """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
-
     def faults(self, seed: int) -> Catalogue:
         """What can be broken in the world of a seed; by default nothing."""
         return Catalogue()
-
-    @abstractmethod
-    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
-        """The scene of a world as people are shown it, before anything has happened in it: it is never simulated.
-
-        Raises:
-            InvalidInput: there is no such world.
-        """
 
     @abstractmethod
     def cell(self, spec: WorldSpec, camera: str | RendererMaker) -> SimulatedCell:
@@ -157,14 +174,6 @@ class Task(ABC):
         Raises:
             InvalidInput: there is no such world, or pictures cannot be made so here.
         """
-
-    @abstractmethod
-    def judge(self, truth: Truth) -> Findings:
-        """Findings of the referee on the finished work. The cell is not touched."""
-
-    def judge_apart(self, truth: Truth) -> Findings:
-        """Findings of the referee where the arm has undone all it did; none by default. The cell is not touched."""
-        return {}
 
     def sights(self, number: int, camera: str) -> Iterator[Sight]:
         """So many sights of the part that the eye is to find, always the same; pictures by `auto`, `gl` or `ray`.

@@ -26,6 +26,7 @@ from handeye.program.program import Position
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position
 from handeye.record import Vector3
+from handeye.runs.programs import cell_of
 from handeye.source import Source, read_source
 from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED
@@ -128,7 +129,7 @@ class Teacher:
         self._let(lambda: self._pushed(force, seconds))
 
     def _pushed(self, force: Vector3, seconds: float) -> None:
-        with pushed(self.workplace.runner.cell, force):
+        with pushed(cell_of(self.workplace.runner.system), force):
             self._float(seconds)
         self._float(REST)
 

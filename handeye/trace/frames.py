@@ -4,7 +4,6 @@ import numpy as np
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from numpy.typing import NDArray
 
-from handeye.arm.model import ArmModel
 from handeye.cell.looks import LATENT
 from handeye.cell.truth import Truth
 from handeye.trace.messages import Poses
@@ -16,12 +15,12 @@ Mask = NDArray[np.bool_]
 class Frames:
     """The frames of a cell's bodies. They are those the simulator last computed, a physics step before the tick."""
 
-    def __init__(self, truth: Truth, arm: ArmModel) -> None:
+    def __init__(self, truth: Truth, joints: tuple[str, ...]) -> None:
+        """Look at a cell; `joints` are the names of its arm's joints, in order."""
         self._truth = truth
         bodies = range(1, truth.model.nbody)  # body 0 is the world
         self.names = tuple(str(truth.model.body(number).name) for number in bodies)
-        self.joints = tuple(joint.name for joint in arm.joints)
-        """Names of the arm's joints, in order."""
+        self.joints = joints
         self._looks = np.array([next(iter(looks(truth, number)), 0) for number in bodies])
 
     def poses(self) -> Poses:

@@ -69,7 +69,7 @@ def hand_message(period: ServoPeriod) -> bytes:
     message = HandMessage(
         estimated=felt is not None,
         force=UNSET if felt is None else _axes(felt[:3]),
-        moment=UNSET if felt is None else _axes(felt[3:]),
+        moment=UNSET if felt is None or not felt[3:].size else _axes(felt[3:]),
         gap=_rounded(sensed.gap),
         finger_1=sensed.touch[0],
         finger_2=sensed.touch[1],

@@ -77,7 +77,7 @@ def _draw_marks(axis: Any, plot: Plot) -> None:
     for row, mark in enumerate(plot.marks):
         axis.plot(mark.times, [row] * len(mark.times), "|", markersize=7)
     axis.set_yticks(range(len(plot.marks)), [mark.name for mark in plot.marks])
-    axis.set_ylim(len(plot.marks) - 0.5, -0.5)
+    axis.set_ylim(max(len(plot.marks), 1) - 0.5, -0.5)
     axis.set_xlabel("s since the run began")
     axis.set_xlim(plot.begin, plot.end)
 

@@ -76,7 +76,8 @@ def sentence(event: Event) -> str:
     """Tell what happened, without the time."""
     match event:
         case happened.RunStarted():
-            world = f"the world of {event.world}, pictures by {renderer_name(event.camera)}"
+            pictures = "" if event.camera.method == "none" else f", pictures by {renderer_name(event.camera)}"
+            world = f"the world of {event.world}{pictures}"
             world += "".join(
                 f", {part} by {name}" for part, name in event.own_parts.items() if part != "camera"
             )

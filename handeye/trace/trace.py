@@ -257,10 +257,10 @@ class Trace:
         Raises:
             InvalidInput: an older handeye recorded the run, or what it was drawn by is not known here.
         """
-        from handeye.tasks import task
+        from handeye.tasks import any_task
 
         self.check_repeatable()
-        return task(self.head.task).scene(self.head.world)
+        return any_task(self.head.task).recorded_scene(self.head.world, self.plan)
 
     @cached_property
     def _replay(self) -> Replay:

@@ -12,6 +12,7 @@ from handeye.faults import Catalogue, Expected, Fault, FaultKind
 from handeye.planfile.plan import Plan
 from handeye.record import Record
 from handeye.report.result import Result
+from handeye.runs.programs import cell_of
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
 from handeye.trials.brakes import brakes_hold
@@ -107,7 +108,7 @@ def _tried(plan: Plan, camera: str, world: WorldSpec) -> FaultTrial:
         done = run_plan(plan, world=sound, camera=camera, halt=button.down, observers=button.watching)
     else:
         done = run_plan(plan, world=world, camera=camera)
-    braked = brakes_hold(done.runner.cell)
+    braked = brakes_hold(cell_of(done.runner.system))
     return trial_of(fault, catalogue, done.result, done.runner.events, braked=braked)
 
 

@@ -24,6 +24,7 @@ from handeye.record import Record
 from handeye.resources import plans
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
+from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.scripts import taught_beside
 from handeye.runs.setup import Setup
@@ -187,7 +188,7 @@ def tried(
 
 def _seen(trial: InsertionTrial, runner: Runner) -> InsertionTrial:
     """What the witness says of a run that has ended, beside what the program says."""
-    seen, done = bench().witnessed(runner.cell), runner.call is None and runner.trouble is None
+    seen, done = bench().witnessed(cell_of(runner.system)), runner.call is None and runner.trouble is None
     return replace(
         trial,
         outcome=("seated" if seen.right else "silent") if done else "told",

@@ -7,11 +7,10 @@ from typing import Final
 from handeye.errors import InvalidInput
 from handeye.random_streams import random_numbers
 from handeye.record import Record
-from handeye.report.taught_job import JobReport, carry_out
-from handeye.tasks.benches import open_job
+from handeye.report.taught_job import JobReport, carry_out, setup_of_job
+from handeye.runs.runner import Runner
 from handeye.trials.batch.rates import rate
 from handeye.trials.seeds import in_processes
-from handeye.trig.script import Script
 
 STEPS: Final = 14
 """That a block takes, at least, without those of the loops' ends."""
@@ -56,13 +55,12 @@ def trials(n: int, *, seed: int, blocks: int, interrupt: bool, workers: int) -> 
 
 def tried(blocks: int, interrupt: bool, seed: int) -> JobReport:
     """One trial."""
-    job = open_job("palletise", seed, blocks)
     try:
-        job.teach(lambda: False)
+        runner = Runner(setup_of_job("palletise", seed, blocks))
     except InvalidInput as error:  # by the arm: it cannot go where it is driven
         return JobReport(job="palletise", seed=seed, blocks=blocks, outcome="stopped", told=(str(error),))
     after = broken_off_after(seed, blocks) if interrupt else None
-    return carry_out(job, "palletise", Script(()), seed=seed, blocks=blocks, after=after)
+    return carry_out(runner, blocks=blocks, after=after).report
 
 
 def broken_off_after(seed: int, blocks: int) -> int:
@@ -75,7 +73,7 @@ def figures(found: Sequence[JobReport], blocks: int, *, interrupt: bool) -> Pall
     """Count trials."""
     outcomes = [each.outcome for each in found]
     right = outcomes.count("right")
-    failures = (each for each in sorted(found, key=lambda each: each.seed or 0) if each.outcome != "right")
+    failures = (each for each in sorted(found, key=lambda each: each.seed) if each.outcome != "right")
     return PalletFigures(
         n=len(found),
         blocks=blocks,
@@ -104,4 +102,4 @@ def _failure(found: JobReport) -> Failure:
     options = f"--n 1 --seed {found.seed} --blocks {found.blocks}"
     broken = " --interrupt" if found.interrupted_after is not None else ""
     command = f"handeye trials pallet {options}{broken}"
-    return Failure(seed=found.seed or 0, outcome=found.outcome, told=told, command=command)
+    return Failure(seed=found.seed, outcome=found.outcome, told=told, command=command)

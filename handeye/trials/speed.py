@@ -20,6 +20,7 @@ from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
+from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -92,7 +93,7 @@ def carry_out(
 def bare(begun: Checkpoint, watching: Watching = NOBODY) -> Bare:
     """Do the work of a run again from where it began, and then its physics alone."""
     runner = Runner(begun, observers=lambda _: watching.observers)
-    tape = Tape(runner.cell)
+    tape = Tape(cell_of(runner.system))
     with tape.recording():
         advance(runner)
     return play(tape, time.process_time)

@@ -9,7 +9,7 @@ from handeye.arm.profiles import quintic, slow_line
 from handeye.ports.axes import Axes
 from handeye.ports.clock import Clock
 from handeye.pose import Array
-from handeye.record import Vector3
+from handeye.record import Record, Vector3
 from handeye.trig.obstacles import RESISTANCE, LeftBehind, Obstacle, Resisted, Unsupported
 from handeye.trig.place import Place
 from handeye.trig.teachable import Arrival, Halted, Teachable
@@ -43,6 +43,16 @@ _TARE: Final = 10
 """Readings of the force that are averaged before a guarded move."""
 
 
+class ArmMemory(Record, frozen=True, kw_only=True):
+    """What such an arm remembers between two steps of a program."""
+
+    told: Place
+    """Where its axes were told to be."""
+    opening: float
+    """What its hand was told, m."""
+    closed: bool
+
+
 class AxesArm(Teachable):
     """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, behind the port of an axes machine."""
 
@@ -58,6 +68,15 @@ class AxesArm(Teachable):
     @property
     def closed(self) -> bool:
         return self._closed
+
+    @property
+    def memory(self) -> ArmMemory:
+        """What it remembers."""
+        return ArmMemory(told=self.here(), opening=self._opening, closed=self._closed)
+
+    def remember(self, memory: ArmMemory) -> None:
+        """Go on with what was remembered once."""
+        self._goal, self._opening, self._closed = np.array(memory.told), memory.opening, memory.closed
 
     @property
     def travel(self) -> tuple[tuple[float, float], ...]:

@@ -70,21 +70,30 @@ class Runner:
     def _go_on(self, id: int, came: int, wanted: int | None) -> Ran:
         steps, graph = 0, self.program.graph
         while id != NONE and steps != wanted:
-            node = graph[id]
-            if came in node.fathers:
-                node.last_father = came
-            if node.shown and not self._begin(id):
-                self.program.paused = id
-                return Ran(steps=steps, end="halted")
-            self.program.paused = NONE
-            next = self.execute(node, came)
+            next = self.carry_out(id, came)
             if next is None:
                 return Ran(steps=steps, end="halted")
-            if node.shown:
-                steps += 1
-                self.refresh()
+            steps += graph[id].shown
             came, id = id, next
         return Ran(steps=steps, end="none" if id == NONE else "count")
+
+    def carry_out(self, id: int, came: int) -> int | None:
+        """Carry out one node, a step with the cursor on it; arguments and result are those of `execute`.
+
+        Raises:
+            InvalidInput: the arm cannot do it; nothing is changed.
+        """
+        node = self.program.graph[id]
+        if came in node.fathers:
+            node.last_father = came
+        if node.shown and not self._begin(id):
+            self.program.paused = id
+            return None
+        self.program.paused = NONE
+        next = self.execute(node, came)
+        if next is not None and node.shown:
+            self.refresh()
+        return next
 
     def _begin(self, id: int) -> bool:
         """Put the cursor on a step that is to be carried out; False: somebody wants to halt."""

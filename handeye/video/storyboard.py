@@ -8,11 +8,11 @@ import numpy as np
 
 from handeye.diagnostics import quoted, visible
 from handeye.errors import InvalidInput
-from handeye.planfile.store import decode
 from handeye.pose import Array
 from handeye.program.stage_names import stage_index
 from handeye.see.facts.seen import SeenPicture
 from handeye.see.page.figures import clock
+from handeye.trace.planned import plan_of
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace
 from handeye.video.captions import Caption
@@ -119,7 +119,7 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
 
 def _stages(trace: Trace) -> tuple[str, ...]:
     """The stages of the program."""
-    return decode(trace.plan, f"the plan in {trace.name}").program.stages
+    return plan_of(trace).program.stages
 
 
 def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:

@@ -52,7 +52,7 @@ class Newest(Observer):
     def follow(self, runner: Runner) -> None:
         """Look on at a runner from now on; one that goes on in the cell of another goes on with its time, too."""
         cell = runner.system.cell
-        self.frames = NoFrames() if cell is None else Frames(cell.truth, runner.task.arm)
+        self.frames = NoFrames() if cell is None else Frames(cell.truth, runner.system.joints)
         self._runner = runner
         self._joints: Array = np.full(len(self.frames.joints), np.nan)
         self._gap = np.nan

@@ -9,6 +9,7 @@ import numpy as np
 
 from handeye.markup import Markup
 from handeye.runs.runner import Runner
+from handeye.runs.systems import written
 from handeye.see import player
 from handeye.see.page.document import head, packed, resource
 from handeye.see.page.elements import element
@@ -43,7 +44,7 @@ def live_page(runner: Runner, newest: Newest, face: Face) -> bytes:
     Raises:
         InvalidInput: the task shows no scene.
     """
-    model = runner.task.scene(runner.setup.world)
+    model = runner.task.recorded_scene(runner.setup.world, written(runner.setup))
     names = newest.frames.names
     facts = {
         "bodies": names,

@@ -17,6 +17,7 @@ from handeye.report.page import clock, page, referee, timing, verdict
 from handeye.report.result import CameraReport, Check, Result, to_json
 from handeye.variation import WorldSpec
 
+CALIBRATED = CameraReport(renderer="ray casting", sightings_rms_px={"25 mm": 0.4}, residual_in=0.02)
 GAP = Check(
     ok=False, subject="gap under a head", value=5.0, relation="at most", limit=0.2, unit="mm",
     sentence="gap under a head (at most 0.2 mm)",
@@ -62,8 +63,14 @@ def test_the_measurement_of_friction_has_a_row_of_its_own(friction: float, told:
 
 @pytest.mark.parametrize(("calibration", "told"), [(0.0, False), (215.0, True)])
 def test_calibration_of_the_camera_has_a_row_of_its_own(calibration: float, told: bool) -> None:
-    shown = table(result(completed=True, assembled=None, calibration=calibration))
+    done = result(completed=True, assembled=None, calibration=calibration)
+    shown = table(msgspec.structs.replace(done, camera=CALIBRATED))
     assert ("camera calibration" in shown, "3:35 min" in shown) == (told, told)
+
+
+def test_of_a_run_without_a_camera_nothing_is_told_of_lenses() -> None:
+    shown = table(result(completed=True, assembled=None, calibration=215.0))
+    assert ("before the working phase" in shown, "lens" in shown, "vision (" in shown) == (True, False, False)
 
 
 @pytest.mark.parametrize(("step", "told"), [(0, "simulated in"), (7, "simulated from step 7 on in")])

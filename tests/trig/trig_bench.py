@@ -2,12 +2,15 @@
 
 from collections.abc import Callable
 
+import msgspec
 from trig_sessions import PALLETISE, typed
 
 from handeye.ports.clock import Clock
+from handeye.report.taught_job import setup_of_job
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.tasks.benches import TaughtPlan
 from handeye.tasks.blocks.bench import purbrick
-from handeye.tasks.blocks.jobs import PalletJob
-from handeye.tasks.blocks.world import BlocksWorld
 from handeye.trig.hearing import hear
 from handeye.trig.script import Script
 from handeye.trig.session import Session
@@ -64,16 +67,19 @@ def low_palletiser(blocks: int) -> str:
     return low.replace("STACK 20", f"STACK {blocks}")
 
 
-class LowPalletJob(PalletJob):
-    """The job of the palletiser for few blocks, with the arm no higher than it takes them."""
-
-    def _text(self) -> str:
-        text = low_palletiser(self._blocks)
-        return text if self._blocks else text.replace("* STACK 0 X 150 Y 0", "")
+def low_job(blocks: int, seed: int) -> Runner:
+    """The palletiser with the arm no higher than it takes few blocks, taught in the world of a seed."""
+    return Runner(low_setup(blocks, seed))
 
 
-def low_job(blocks: int, seed: int) -> LowPalletJob:
-    """That job, taught in the world of a seed."""
-    job = LowPalletJob(BlocksWorld(seed), blocks)
-    job.teach(lambda: False)
-    return job
+def low_setup(blocks: int, seed: int) -> Checkpoint:
+    """A run of it that has not begun."""
+    start = setup_of_job("palletise", seed, blocks)
+    plan = TaughtPlan(job="palletise", script=low_script(blocks))
+    return msgspec.structs.replace(start, setup=msgspec.structs.replace(start.setup, plan=plan))
+
+
+def low_script(blocks: int) -> str:
+    """What is typed for it."""
+    text = low_palletiser(blocks)
+    return text if blocks else text.replace("* STACK 0 X 150 Y 0", "")

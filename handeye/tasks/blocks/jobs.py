@@ -3,68 +3,71 @@
 import math
 import re
 from collections.abc import Sequence
-from pathlib import Path
+from functools import cached_property
 from typing import Final
 
 import numpy as np
 
-from handeye.cell.bench import Bench
-from handeye.judge.finding import Finding, Findings
+from handeye.cell.bench import Bench, BenchAxes
+from handeye.cell.kept import KeptCell
+from handeye.judge.finding import Findings
 from handeye.pose import Array, Pose
 from handeye.resources import plans
 from handeye.source import read_source
-from handeye.tasks.benches import Lying, TaughtJob
-from handeye.tasks.blocks.bench import purbrick
-from handeye.tasks.blocks.machine import SPECS
-from handeye.tasks.blocks.referee import (
-    judge_back,
-    judge_dropped,
-    judge_hand,
-    judge_placed,
-    judge_program,
-)
+from handeye.tasks.benches import JobName, Lying, TaughtJob
+from handeye.tasks.blocks.machine import machine
+from handeye.tasks.blocks.referee import judge_program
+from handeye.tasks.blocks.table import BlockTable
+from handeye.tasks.blocks.task import BUCKET, BUCKET_TASK, PALLET, lay
+from handeye.tasks.blocks.witness import Witness, block_poses
 from handeye.tasks.blocks.world import BlocksWorld
-from handeye.trig.place import Place
+from handeye.trig.axes_arm import AxesArm
 from handeye.trig.script import Script, type_script
 from handeye.trig.session import Session
 from handeye.trig.teachable import Halted
 from handeye.units import MILLIMETRE
 
-ROWS: Final = 3
-COLUMNS: Final = 5
 _LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")
 """What is laid for a run; the stack before it is for teaching."""
-_BUCKET: Final = (0.140, 0.0)
-"""m: where the script puts it."""
+
+
+def script_of(name: JobName, blocks: int) -> str:
+    """What is typed for a job; `blocks` are those of the palletiser's stack."""
+    text = read_source(plans() / f"{name}.trig").text
+    if name == "bucket":
+        return text
+    return _LAST_STACK.sub(rf"* STACK {blocks} \1" if blocks else "", text)
 
 
 class _Job(TaughtJob):
     """A script, and the bench on which it is typed."""
 
-    def __init__(self, world: BlocksWorld, file: Path) -> None:
-        self._world, self._file = world, file
-        arm, self._table = purbrick(world)
-        self.session = Session(arm=arm, table=self._table, desk=Script(()))
-        self._before, self._began = self._table.poses, self._hand
+    axes: BenchAxes
+
+    def __init__(self, script: str, world: BlocksWorld) -> None:
+        self._script, self._world = script, world
+        self._table, self._witness = BlockTable(world), Witness()
+        self.axes = machine(self._table.bench, world.bending)
+        self.arm = AxesArm(self.axes, self._table.bench)
+        self.session = Session(arm=self.arm, table=self._table, desk=Script(()))
 
     @property
     def bench(self) -> Bench:
         return self._table.bench
 
+    @cached_property
+    def cell(self) -> KeptCell:
+        bench, nothing = self._table.bench, np.random.Generator(np.random.PCG64(0))
+        return KeptCell(bench.model, bench.data, (bench, self.axes, self._witness), nothing)
+
     def teach(self, halted: Halted) -> None:
-        script = Script(self._text().splitlines(), halted=halted, slip=self._world.slip)
+        script = Script(self._script.splitlines(), halted=halted, slip=self._world.slip)
         self.session.desk = script
-        type_script(self.session, script, self._file.name)
-        self._before, self._began = self._table.poses, self._hand
+        type_script(self.session, script, f"{self.task.name}.trig")
+        self._witness.look(self.bench.data, self._table.poses, self.session.program)
 
-    def _text(self) -> str:
-        return read_source(self._file).text
-
-    @property
-    def _hand(self) -> Array:
-        """Where the hand truly is over the platter, shape (6,)."""
-        data = self._table.bench.data
-        return np.array([data.joint(spec.name).qpos[0] for spec in SPECS])
+    def lay(self) -> None:
+        lay(self._table, self._script)
 
     def lying(self) -> tuple[Lying, ...]:
         return tuple(
@@ -74,82 +77,37 @@ class _Job(TaughtJob):
 
     def _taken(self) -> list[tuple[str, Pose]]:
         """Names and poses of the blocks in the order in which they are taken."""
-        return list(self._table.poses.items())
-
-    def _ends_at(self, name: str) -> Finding:
-        return judge_hand(self._hand, np.array(self._taught(name)), "ends")
-
-    def _taught(self, name: str) -> Place:
-        return self.session.program.positions[name].init
+        return list(block_poses(self.bench.data, self._witness.began.blocks).items())
 
 
 class PalletJob(_Job):
     """The second example: a stack is put into a pallet of three rows and five columns."""
 
-    def __init__(self, world: BlocksWorld, blocks: int) -> None:
-        super().__init__(world, plans() / "palletise.trig")
-        self._blocks = blocks
-
-    def _text(self) -> str:
-        laid = rf"* STACK {self._blocks} \1" if self._blocks else ""
-        return _LAST_STACK.sub(laid, super()._text())
+    task, undoable = PALLET, True
 
     def _taken(self) -> list[tuple[str, Pose]]:
         return super()._taken()[::-1]
 
-    def findings(self) -> Findings:
-        placed = judge_placed(self._before, self._table.poses, self._places)
-        return {**placed, "hand": self._ends_at("DONE")}
-
-    def findings_back(self) -> Findings:
+    def remembered(self) -> Findings:
         program = self.session.program
         pallet = program.positions["PALLET"]
-        return {
-            **judge_back(self._before, self._table.poses),
-            "hand": judge_hand(self._hand, self._began, "began"),
-            **judge_program(
-                (pallet.data, pallet.init), [node.count for node in program.graph.nodes.values()]
-            ),
-        }
+        return judge_program(
+            (pallet.data, pallet.init), [node.count for node in program.graph.nodes.values()]
+        )
 
     @property
     def goals(self) -> tuple[tuple[float, float], ...]:
-        return tuple((x, y) for x, y, _ in map(_mm, self._places))
-
-    @property
-    def _places(self) -> list[Place]:
-        return self._grid[: self._blocks]
-
-    @property
-    def _grid(self) -> list[Place]:
-        """Where the hand lets go one block after another, as it was taught."""
-        above, places = self._taught("PALLET"), []
-        for _ in range(COLUMNS):
-            for _ in range(ROWS):
-                places.append(above.moved(self._taught("PLACE")))
-                above = above.moved(self._taught("NEXT-ROW"))
-            above = above.moved(self._taught("NEWROW"))
-        return places
+        return tuple((x, y) for x, y, _ in map(_mm, PALLET.places(self._witness.began)))
 
 
 class BucketJob(_Job):
     """The first example: a block is dropped into a bucket, and another one is put in its place."""
 
-    def __init__(self, world: BlocksWorld) -> None:
-        super().__init__(world, plans() / "bucket.trig")
-
-    def findings(self) -> Findings:
-        a, b = self._table.poses.values()
-        place = np.array(self._taught("BLOCK")[:2])
-        found = judge_dropped(a, _BUCKET, place, b)
-        return {**found, "hand": self._ends_at("CENTER")}
-
-    def findings_back(self) -> None:
-        return None
+    task, undoable = BUCKET_TASK, False
 
     @property
     def goals(self) -> tuple[tuple[float, float], ...]:
-        a, b = _BUCKET, self._taught("BLOCK")
+        a, b = BUCKET, self._witness.began.taught["BLOCK"]
         return (a[0] / MILLIMETRE, a[1] / MILLIMETRE), _mm(b)[:2]
 
 

@@ -8,9 +8,10 @@ import mujoco
 from handeye.cell.bench import Bench
 from handeye.cell.photograph import Photograph, photograph
 from handeye.errors import InvalidInput
-from handeye.pose import Pose, pose
+from handeye.pose import Pose
 from handeye.tasks.benches import SeenTable
 from handeye.tasks.blocks.machine import scene
+from handeye.tasks.blocks.witness import block_poses
 from handeye.tasks.blocks.world import ALIGNED, STACKED, TURNED, BlocksWorld
 
 HEIGHT: Final = 0.012
@@ -89,9 +90,4 @@ class BlockTable(SeenTable):
     @property
     def poses(self) -> dict[str, Pose]:
         """The truth, for a referee: poses of the blocks' middles over the platter, those below first."""
-        data = self.bench.data
-        platter = data.body("platter").xpos
-        return {
-            name: pose(data.body(name).xmat.reshape(3, 3), data.body(name).xpos - platter)
-            for name in self._names
-        }
+        return block_poses(self.bench.data, self._names)

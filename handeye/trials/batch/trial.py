@@ -16,6 +16,7 @@ from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import NOBODY, parse_policy
 from handeye.runs.runner import Runner
+from handeye.tasks import task
 from handeye.trials.assembly import Finished, run_plan
 from handeye.trials.batch.contacts import contacts, searches
 from handeye.trials.batch.row import Ended, Row
@@ -83,7 +84,7 @@ class Trial:
             without=self.without,
             operator=parse_policy(self.on_stop, self.plan.program.stages) or NOBODY,
         )
-        program, where = self.plan.program, done.runner.task.contacts
+        program, where = self.plan.program, task(done.runner.setup.task).contacts
         return facts(done, watch.ended) | {
             "contacts": tuple(contacts(program, done.runner.events, where, completed=done.result.completed)),
             "searches": tuple(searches(program, done.runner.events)),

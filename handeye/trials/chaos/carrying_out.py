@@ -18,6 +18,7 @@ from handeye.runs.folder import EVENTS, RESULT, open_again, open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Operator, OperatorChoice, attend
+from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import StopCondition
@@ -142,7 +143,7 @@ class Carrying:
     def _attended(self, runner: Runner, stops: Sequence[StopCondition]) -> Pause:
         # `attend` does a step before a stop counts; a run interrupted at its end has none left. Any stop will do
         pause = paused_before(runner, stops) or attend(runner, self._operator, stops)  # type: ignore[arg-type]
-        if pause.kind in ("operator", "panic", "trouble") and not brakes_hold(runner.cell):
+        if pause.kind in ("operator", "panic", "trouble") and not brakes_hold(cell_of(runner.system)):
             self._unbraked.append(f"{pause.kind} at {runner.elapsed:.2f} s")
         return pause
 

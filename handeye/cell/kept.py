@@ -1,0 +1,122 @@
+"""A cell whose state can be kept and put back: a MuJoCo model, and mechanisms with states of their own."""
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+import msgspec
+import mujoco
+import numpy as np
+
+from handeye.cell.mechanism import Mechanism
+from handeye.cell.state import CellState, check_noise, noise_state, set_noise
+from handeye.cell.truth import Drawn, Truth
+from handeye.errors import InvalidInput
+from handeye.ports.camera import Renderer
+
+INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+"""MuJoCo's integration state: enough to continue from a state."""
+
+
+class KeptCell:
+    """All that a run needs of a cell, whatever works in it: to keep it, to put it back, and to look at it."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        mechanisms: Sequence[Mechanism[Any]],
+        noise: np.random.Generator,
+    ) -> None:
+        """Take a scene that will not change any more.
+
+        Args:
+            mechanisms: whatever has a state of its own, in the order in which it acts.
+            noise: the generator that its sensors draw from.
+
+        Raises:
+            ValueError: two of them have one name, by which their states are found.
+        """
+        self._model, self._data, self._noise = model, data, noise
+        self._drawn = Drawn(groups=model.geom_group.copy(), colours=model.mat_rgba.copy())
+        self._mechanisms = tuple(mechanisms)
+        names = [part.name for part in self._mechanisms]
+        if len({*names}) < len(names):
+            raise ValueError(
+                f"devices and mechanisms of a cell have names of their own; these are {', '.join(names)}"
+            )
+        self._changes = sorted({field for part in self._mechanisms for field in part.changes})
+
+    @property
+    def truth(self) -> Truth:
+        """The truth; for the referee, the trace and tests only."""
+        return Truth(
+            model=self._model,
+            data=self._data,
+            drawn=self._drawn,
+            states={part.name: part.state() for part in self._mechanisms},
+            mechanisms=self._mechanisms,
+        )
+
+    @property
+    def renderer(self) -> Renderer:
+        """How its camera's pictures are made, if it has one."""
+        return Renderer(method="none")
+
+    def capture(self) -> CellState:
+        """All that the future of this cell depends on; `restore` puts it back, in this cell or its like."""
+        physics = np.empty(mujoco.mj_stateSize(self._model, INTEGRATION))
+        mujoco.mj_getState(self._model, self._data, physics, INTEGRATION)
+        return CellState(
+            physics=physics,
+            figures={name: np.array(getattr(self._model, name), dtype=float) for name in self._changes},
+            noise=noise_state(self._noise),
+            mechanisms={part.name: msgspec.to_builtins(part.state()) for part in self._mechanisms},
+        )
+
+    def restore(self, state: CellState) -> None:
+        """Put the cell into a state; what follows is the same, to the byte, whatever was before.
+
+        Sleep is not part of a state: everything wakes, and falls asleep again where it stands still. Therefore a run
+        is the same with and without a stop only if its cell is put into its own state wherever it might be stopped.
+
+        Raises:
+            InvalidInput: it is the state of another kind of cell, or no state at all.
+        """
+        try:
+            self._check(state)
+            states = [self._checked(part, state) for part in self._mechanisms]
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError, InvalidInput) as error:
+            raise InvalidInput(f"this is not a state of this work cell: {error}") from None
+        model, data = self._model, self._data
+        set_noise(self._noise, state.noise)
+        for name, values in state.figures.items():
+            getattr(model, name)[:] = values
+        for part, own in zip(self._mechanisms, states, strict=True):
+            part.restore(own)
+        mujoco.mj_resetData(model, data)
+        mujoco.mj_setState(model, data, state.physics, INTEGRATION)
+        mujoco.mj_forward(model, data)
+        mujoco.mj_setState(model, data, state.physics, INTEGRATION)  # what the solver starts from, too
+
+    def _check(self, state: CellState) -> None:
+        """Raises ValueError unless every figure of a state has its place in this cell."""
+        if state.physics.shape != (mujoco.mj_stateSize(self._model, INTEGRATION),):
+            raise ValueError("its physics belong to another scene")
+        if set(state.figures) != set(self._changes):
+            raise ValueError("it lacks figures that change in this scene")
+        for name, values in state.figures.items():
+            if values.shape != getattr(self._model, name).shape:
+                raise ValueError(f"{name} has another size here")
+        if not all(np.isfinite(values).all() for values in (state.physics, *state.figures.values())):
+            raise ValueError("some of its figures are not finite numbers")
+        if not 0 <= state.time < 1e9:
+            raise ValueError("its clock shows what it cannot")
+        if set(state.mechanisms) != {part.name for part in self._mechanisms}:
+            raise ValueError("it has other devices and mechanisms")
+        check_noise(state.noise)
+
+    def _checked(self, part: Mechanism[Any], state: CellState) -> msgspec.Struct:
+        """The state of one mechanism. Raises what `Mechanism.check` does."""
+        own: msgspec.Struct = msgspec.convert(state.mechanisms[part.name], part.kind)
+        part.check(own)
+        return own

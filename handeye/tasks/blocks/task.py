@@ -1,0 +1,114 @@
+"""Both examples of the paper as tasks: what the referee looks for when their programs have ended."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from handeye.judge.finding import Finding, Findings
+from handeye.pose import Array
+from handeye.tasks.benches import read_taught_plan
+from handeye.tasks.blocks.referee import judge_back, judge_dropped, judge_hand, judge_placed
+from handeye.tasks.blocks.table import BlockTable
+from handeye.tasks.blocks.witness import SEEN, Began, block_poses, hand
+from handeye.tasks.blocks.world import BlocksWorld
+from handeye.tasks.interface import AnyTask, Words
+from handeye.trig.hearing import stripped
+from handeye.trig.place import Place
+from handeye.trig.tabletop import MARK, arrange
+from handeye.variation import Variation, WorldSpec
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+
+ROWS: Final = 3
+COLUMNS: Final = 5
+BUCKET: Final = (0.140, 0.0)
+"""m: where the script puts it."""
+
+
+class _BlocksTask(AnyTask):
+    """Something that is done with blocks on the platter."""
+
+    def variation(self, seed: int) -> Variation:
+        """Nothing: worlds of these tasks are drawn from their numbers alone (`tasks/blocks/world.py`)."""
+        return Variation()
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return BlockTable(BlocksWorld(spec.seed)).bench.model
+
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        table = BlockTable(BlocksWorld(spec.seed))
+        lay(table, read_taught_plan(plan, "the plan of the run").script)
+        return table.bench.model
+
+    def _ends_at(self, truth: Truth, name: str) -> Finding:
+        return judge_hand(hand(truth.data), np.array(began(truth).taught[name]), "ends")
+
+
+class Pallet(_BlocksTask):
+    """A stack is put into a pallet of three rows and five columns."""
+
+    name = "palletise"
+    words = Words(
+        product="the pallet", done="The pallet is loaded.", apart="Every block is back in the stack."
+    )
+
+    def judge(self, truth: Truth) -> Findings:
+        before = began(truth).poses
+        placed = judge_placed(before, block_poses(truth.data, before), self.places(began(truth)))
+        return {**placed, "hand": self._ends_at(truth, "DONE")}
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        seen = began(truth)
+        return {
+            **judge_back(seen.poses, block_poses(truth.data, seen.blocks)),
+            "hand": judge_hand(hand(truth.data), np.array(seen.hand), "began"),
+        }
+
+    def places(self, seen: Began) -> list[Place]:
+        """Where the hand lets go one block after another, as it was taught."""
+        above, places = seen.taught["PALLET"], []
+        for _ in range(COLUMNS):
+            for _ in range(ROWS):
+                places.append(above.moved(seen.taught["PLACE"]))
+                above = above.moved(seen.taught["NEXT-ROW"])
+            above = above.moved(seen.taught["NEWROW"])
+        return places[: len(seen.blocks)]
+
+
+class Bucket(_BlocksTask):
+    """A block is dropped into a bucket, and another one is put in its place."""
+
+    name = "bucket"
+    words = Words(product="the bucket", done="The block is in the bucket, and another one in its place.")
+
+    def judge(self, truth: Truth) -> Findings:
+        a, b = block_poses(truth.data, began(truth).blocks).values()
+        place: Array = np.array(began(truth).taught["BLOCK"][:2])
+        return {**judge_dropped(a, BUCKET, place, b), "hand": self._ends_at(truth, "CENTER")}
+
+
+def lay(table: BlockTable, script: str) -> None:
+    """Lay a table as it is when a script has been typed.
+
+    Raises:
+        InvalidInput: a line of it says nothing that can be done with a table.
+    """
+    for line in map(stripped, script.splitlines()):
+        if line.startswith(MARK):
+            arrange(table, line)
+
+
+def began(truth: Truth) -> Began:
+    """How it stood before the program was run."""
+    seen = truth.states[SEEN]
+    assert isinstance(seen, Began)
+    return seen
+
+
+PALLET: Final = Pallet()
+BUCKET_TASK: Final = Bucket()

@@ -1,0 +1,78 @@
+"""Witness: how everything stood before a program was run, as long as its run goes on; for the referee alone."""
+
+from collections.abc import Iterable
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.mechanism import Mechanism
+from handeye.errors import InvalidInput
+from handeye.pose import Array, Pose, pose
+from handeye.record import Record
+from handeye.tasks.blocks.machine import SPECS
+from handeye.trig.place import Place
+from handeye.trig.program import TrigProgram
+
+SEEN: Final = "seen"
+"""Its name."""
+_ENTRIES: Final = 12
+"""Numbers of a pose: a rotation matrix by rows, and a place."""
+
+
+class Began(Record, frozen=True, kw_only=True):
+    """How it stood."""
+
+    blocks: dict[str, tuple[float, ...]]
+    """Poses over the platter by the names of the blocks, those below first: three rows of a rotation matrix, and m."""
+    hand: tuple[float, ...]
+    """Where the hand truly was, m and rad."""
+    taught: dict[str, Place]
+    """Positions as somebody has taught them."""
+
+    @property
+    def poses(self) -> dict[str, Pose]:
+        """Poses of the blocks over the platter."""
+        return {name: pose(np.array(row[:9]).reshape(3, 3), row[9:]) for name, row in self.blocks.items()}
+
+
+class Witness(Mechanism[Began]):
+    """Remembers how it stood."""
+
+    name = SEEN
+    kind = Began
+
+    def __init__(self) -> None:
+        self.began = Began(blocks={}, hand=(0.0,) * len(SPECS), taught={})
+
+    def look(self, data: mujoco.MjData, names: Iterable[str], program: TrigProgram) -> None:
+        """Remember how it stands now: blocks of these names, and the places of a program."""
+        poses = block_poses(data, names)
+        self.began = Began(
+            blocks={name: (*X[:3, :3].ravel().tolist(), *X[:3, 3].tolist()) for name, X in poses.items()},
+            hand=tuple(hand(data).tolist()),
+            taught={name: position.init for name, position in program.positions.items()},
+        )
+
+    def state(self) -> Began:
+        return self.began
+
+    def check(self, state: Began) -> None:
+        numbers = [state.hand, *state.blocks.values(), *state.taught.values()]
+        whole = len(state.hand) == len(SPECS) and all(len(row) == _ENTRIES for row in state.blocks.values())
+        if not whole or not all(np.isfinite(row).all() for row in numbers):
+            raise InvalidInput("what was seen before the program was run is no place")
+
+    def restore(self, state: Began) -> None:
+        self.began = state
+
+
+def block_poses(data: mujoco.MjData, names: Iterable[str]) -> dict[str, Pose]:
+    """The truth: poses of blocks' middles over the platter."""
+    platter = data.body("platter").xpos
+    return {name: pose(data.body(name).xmat.reshape(3, 3), data.body(name).xpos - platter) for name in names}
+
+
+def hand(data: mujoco.MjData) -> Array:
+    """The truth: where the hand is over the platter, shape (6,)."""
+    return np.array([data.joint(spec.name).qpos[0] for spec in SPECS])

@@ -1,0 +1,193 @@
+"""A taught program goes through what runs are: kept, put back, resumed, stepped back, undone by the arm, traced."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+import pytest
+from trig_bench import low_job, low_setup
+
+from handeye.debugger.stepper import Stepper
+from handeye.errors import InvalidInput
+from handeye.events import OperatorCalled, StepFinished
+from handeye.execution.servo import Halted
+from handeye.judge.finding import all_right
+from handeye.report.judging import findings
+from handeye.runs.advance import advance
+from handeye.runs.checkpoint_file import decode, encode
+from handeye.runs.folder import TRACE, RunFolder, open_again, open_new
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.systems import kind_of
+from handeye.runs.taught.plan import listing
+from handeye.runs.taught.state import TaughtState
+from handeye.runs.undo_orders import to_be_undone
+from handeye.runs.verify import difference
+from handeye.tasks.benches import TaughtPlan
+from handeye.trace.reading import read_trace
+from handeye.trig.axes_arm import AxesArm
+from handeye.trig.obstacles import Resisted
+from handeye.variation import WorldSpec
+
+pytestmark = pytest.mark.slow
+
+
+def driven(folder: RunFolder, start: Checkpoint, *, again: bool, steps: int | None = None) -> Runner:
+    """A run in a folder, carried out for so many steps, or to its end."""
+    runner = Runner(start, observers=lambda runner: [folder.watch(runner, start, again=again)])
+    advance(runner, steps=steps)
+    return runner
+
+
+def kept(folder: RunFolder, runner: Runner) -> None:
+    """The run is left as it is."""
+    folder.checkpoint(runner.checkpoint())
+    folder.close()
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run that was carried out and undone."""
+    path, start = tmp_path_factory.mktemp("whole") / "run", low_setup(1, seed=1)
+    folder = open_new(path, start)
+    runner = driven(folder, start, again=False)
+    runner.have_undone(0, halts=True)
+    advance(runner)
+    runner.finish()
+    folder.close()
+    return path
+
+
+@pytest.mark.parametrize("steps", [0, 4, 12])
+def test_a_run_that_is_taken_up_from_disk_leaves_the_same_bytes(
+    tmp_path: Path, whole: Path, steps: int
+) -> None:
+    folder, start = open_new(tmp_path / "run", low_setup(1, seed=1)), low_setup(1, seed=1)
+    kept(folder, driven(folder, start, again=False, steps=steps) if steps else _only_begun(folder, start))
+    folder, start, faults = open_again(tmp_path / "run")
+    assert not faults
+    runner = driven(folder, start, again=True)
+    runner.have_undone(0, halts=True)
+    advance(runner, steps=5)
+    kept(folder, runner)
+    folder, start, _ = open_again(tmp_path / "run")
+    runner = driven(folder, start, again=True)
+    runner.finish()
+    folder.close()
+    assert (tmp_path / "run" / TRACE).read_bytes() == (whole / TRACE).read_bytes()
+
+
+def _only_begun(folder: RunFolder, start: Checkpoint) -> Runner:
+    return Runner(start, observers=lambda runner: [folder.watch(runner, start, again=False)])
+
+
+def test_its_trace_is_verified_by_carrying_it_out_again(tmp_path: Path, whole: Path) -> None:
+    trace = read_trace(whole / TRACE)
+    assert difference(trace, tmp_path / "again") is None
+    assert trace.joints.shape[1] == 6
+    pressed = trace.forces(4).force[:, 2]  # BOTTOM, which feels for a block
+    assert pressed.max() - pressed.min() > 0.5
+
+
+def test_going_back_in_time_and_forward_again_is_the_same() -> None:
+    runner = low_job(1, seed=1)
+    advance(runner, steps=9)
+    events, state = [*runner.events], encode(runner.checkpoint())
+    runner.back_to(3)
+    advance(runner, steps=6)
+    assert (runner.events, encode(runner.checkpoint())) == (events, state)
+
+
+def test_the_arm_undoes_some_steps_and_the_program_goes_on_from_there() -> None:
+    runner = low_job(1, seed=1)
+    stepper = Stepper(runner)
+    stepper.do("step 12")
+    assert stepper.do("undo 4").error is None
+    assert runner.at == 9  # of the twelve steps none was FINISH, which is the fifth
+    pause = advance(runner)
+    assert (pause.kind, all_right(findings(runner, pause))) == ("end", True)
+
+
+def test_a_run_of_another_day_is_undone_from_its_checkpoint() -> None:
+    runner = low_job(1, seed=1)
+    advance(runner)
+    undone = Runner(to_be_undone(decode(encode(runner.checkpoint()), "it"), "it"))
+    pause = advance(undone)
+    assert (pause.kind, undone.undone, all_right(findings(undone, pause))) == ("end", True, True)
+
+
+def test_what_the_arm_meets_calls_the_operator_and_is_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    runner = low_job(0, seed=1)
+    advance(runner)
+    runner.have_undone(0, halts=True)
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    assert advance(runner).kind == "operator"
+    assert isinstance(runner.events[-1], OperatorCalled)
+    assert "the finger met 4.0 N" in runner.events[-1].message
+    monkeypatch.undo()
+    runner.answer("proceed")
+    assert (advance(runner).kind, runner.undone) == ("end", True)
+
+
+def test_a_step_that_somebody_halts_is_as_if_it_had_not_begun() -> None:
+    halt = [False]
+    runner = Runner(low_setup(0, seed=1), halt=lambda: halt[0])
+    advance(runner, steps=2)
+    before = encode(runner.checkpoint())
+    halt[0] = True
+    with pytest.raises(Halted):
+        runner.step()
+    runner.undo()
+    assert encode(runner.checkpoint()) == before
+    halt[0] = False
+    assert advance(runner).kind == "end"
+    assert len([event for event in runner.events if isinstance(event, StepFinished)]) == 5
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda state: msgspec.structs.replace(state, at=999),
+        lambda state: msgspec.structs.replace(state, cursor=999),
+        lambda state: msgspec.structs.replace(state, positions={}),
+        lambda state: msgspec.structs.replace(state, arm=None),
+    ],
+)
+def test_a_state_of_another_program_is_refused(spoil: Callable[[TaughtState], TaughtState]) -> None:
+    runner = low_job(0, seed=1)
+    checkpoint = runner.checkpoint()
+    assert checkpoint.snapshot is not None
+    state = checkpoint.snapshot.state
+    assert isinstance(state, TaughtState)
+    forged = msgspec.structs.replace(checkpoint.snapshot, state=spoil(state))
+    with pytest.raises(InvalidInput, match="does not fit this program"):
+        Runner(msgspec.structs.replace(checkpoint, snapshot=forged))
+
+
+def test_a_state_of_another_bench_is_refused() -> None:
+    one, other = low_job(0, seed=1), low_job(1, seed=1)
+    with pytest.raises(InvalidInput, match="not a state of this work cell"):
+        other.cell.restore(one.cell.capture())
+
+
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        ("NOISE", "there is no command `NOISE`"),
+        ("M A\nX 10 RECORD\nCN A\nLOOP A 900000000\nRUN", "does not end"),
+    ],
+)
+def test_a_plan_that_cannot_be_taught_is_refused(script: str, said: str) -> None:
+    with pytest.raises(InvalidInput, match=said):
+        listing(TaughtPlan(job="palletise", script=script))
+
+
+def test_worlds_that_are_drawn_otherwise_than_by_a_seed_are_refused() -> None:
+    setup: Setup = low_setup(0, seed=1).setup
+    for changed in (
+        msgspec.structs.replace(setup, world=WorldSpec(seed=1, level="high")),
+        msgspec.structs.replace(setup, task="bucket"),
+    ):
+        with pytest.raises(InvalidInput):
+            kind_of(setup).check(changed)
