@@ -170,7 +170,7 @@ R:      MOVE    P
 DEFINE LAY
         SEARCH  .05 ALONG 90
 LG:     SKIPN   6               ;all places tried
-        JUMP    WIDER
+        JUMP    LEFT
         MOVE    GON
         RESTORE X2
         STOP    [0 0 -24]
@@ -181,6 +181,30 @@ LG:     SKIPN   6               ;all places tried
         SKIPE   8
         JUMP    ON
         AOJ     LG
+LEFT:   SEARCH  .05 ALONG 90    ;base and hand may be turned against each other: a degree and a half to the left
+LL:     SKIPN   6
+        JUMP    RIGHT
+        MOVE    GON
+        RESTORE X2
+        TURN    GON 1.5
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.2 2.2
+        SKIPE   8
+        JUMP    ON
+        AOJ     LL
+RIGHT:  SEARCH  .05 ALONG 90    ;and to the right
+LR:     SKIPN   6
+        JUMP    WIDER
+        MOVE    GON
+        RESTORE X2
+        TURN    GON -1.5
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.2 2.2
+        SKIPE   8
+        JUMP    ON
+        AOJ     LR
 WIDER:  SEARCH  .05
 LF:     MOVE    GON
         RESTORE E2 LEVEL
