@@ -146,7 +146,7 @@ PUT:    MOVE    DUP
         CHANGE  [0 0 1] 2
 
 ; A pin back into its holder.
-DEFINE UNPIN Q P C
+DEFINE UNPIN Q P
         OPEN    .8
         MOVE    Q
         RESTORE Y1
@@ -157,7 +157,8 @@ DEFINE UNPIN Q P C
         CHANGE  [0 0 1] 2
         SEARCH  .05
 R:      MOVE    P
-        RESTORE C LEVEL
+        RESTORE C1 LEVEL        ;one pin has told where the holder is along y,
+        RESTORE C2 LEVEL        ;and the other along x
         STOP    [0 0 -30]
         FREE    [1 1 0]         ;let the hole guide the pin
         CHANGE  [0 0 -1] 1.2
@@ -559,8 +560,8 @@ TOPPED: OPEN    1.6             ;for the screwdriver
         RACK
 
         STAGE   "take out the aligning pins"
-        UNPIN   Q1 P1UP C1
-        UNPIN   Q2 P2UP C2
+        UNPIN   Q1 P1UP
+        UNPIN   Q2 P2UP
 
         STAGE   "drive the last four screws"
         DRIVER
