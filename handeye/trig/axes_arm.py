@@ -39,6 +39,9 @@ HAND_SPEED: Final = 0.2
 """m/s of the gap: told to go at once, fingers strike a block with .8 m/s."""
 GRASPING: Final = 0.2
 """s that the hand is given behind that."""
+AGAIN: Final = 1.5
+"""Times the force that a move met: so much may be met where it is undone, as on the way back of the pump. A hand that
+presses what it holds onto something feels that force vanish as it rises."""
 _TARE: Final = 10
 """Readings of the force that are averaged before a guarded move."""
 
@@ -59,6 +62,7 @@ class AxesArm(Teachable):
     def __init__(self, axes: Axes, clock: Clock) -> None:
         self._axes, self._clock = axes, clock
         self._goal, self._closed, self._opening = self._where(), False, OPEN
+        self._met_force = 0.0
         self._speed = np.array([spec.speed for spec in axes.specs])
         self._wait(GRASPING)
 
@@ -85,40 +89,48 @@ class AxesArm(Teachable):
     def go(self, goal: Place, halted: Halted) -> bool:
         self.check_travel(goal)
         way = quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period)
-        arrived = self._follow(way, halted)
+        before = self._force()
+        self._met_force = 0.0
+        arrived = self._follow(way, halted, before)
         self._wait(SETTLING)
+        self._notice(before)
         return arrived
+
+    @property
+    def met(self) -> float:
+        return self._met_force
 
     def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
         self.check_travel(goal)
         self._wait(SETTLING)
         tare = self._tared()
-        force = 0.0
+        force = self._met_force = 0.0
         for q in slow_line(self._goal, np.array(goal), np.array(GUARDED), self._axes.period):
             force = float(np.dot(vector, self._force() - tare))
+            self._notice(tare)
             if force > threshold or halted():
                 self._stand()
                 return Arrival(kind="tripped" if force > threshold else "halted", force=force)
             self._put(q)
         return Arrival(kind="reached", force=force)
 
-    def back(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+    def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
         self.check_travel(goal)
-        tare = self._tared()
+        tare, limit = self._tared(), max(RESISTANCE, AGAIN * met)
         for q in quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period):
             if halted():
                 self._wait(SETTLING)
                 return "halted"
             speed = (q - self._goal) / self._axes.period
             self._put(q)
-            obstacle = self._met(tare, speed)
+            obstacle = self._obstacle(tare, speed, limit)
             if obstacle is not None:
                 return obstacle
         self._wait(SETTLING)
-        return self._met(tare, np.zeros(len(self._goal)))
+        return self._obstacle(tare, np.zeros(len(self._goal)), limit)
 
-    def set_down(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
-        stop = self.back(self.within_travel(goal._replace(z=goal.z + APPROACH)), halted)
+    def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
+        stop = self.back(self.within_travel(goal._replace(z=goal.z + APPROACH)), halted, met)
         if stop is not None:
             return stop
         tare = self._tared()
@@ -132,7 +144,7 @@ class AxesArm(Teachable):
             if (self._force() - tare)[2] > CARRIED:
                 self._stand()
                 return None
-            obstacle = self._met(tare, speed)
+            obstacle = self._obstacle(tare, speed)
             if obstacle is not None:
                 return obstacle
         return Unsupported()
@@ -149,14 +161,15 @@ class AxesArm(Teachable):
             self._put(self._goal)
         self._wait(GRASPING)
 
-    def _met(self, tare: Array, speed: Array) -> Obstacle | None:
+    def _obstacle(self, tare: Array, speed: Array, limit: float = RESISTANCE) -> Obstacle | None:
         """What stops the arm, which then stands still: a force on the finger, or an axis that is left behind.
 
         Args:
             tare: the force that was felt before, N.
             speed: that the axes were told last, shape (n,).
+            limit: of that force, N.
         """
-        found = self._resistance(tare) or self._left_behind(speed)
+        found = self._resistance(tare, limit) or self._left_behind(speed)
         if found is not None:
             self._stand()
         return found
@@ -171,9 +184,9 @@ class AxesArm(Teachable):
         lower, upper = np.transpose(self.travel)
         return np.clip(self._axes.read().q, lower, upper)
 
-    def _resistance(self, tare: Array) -> Resisted | None:
+    def _resistance(self, tare: Array, limit: float) -> Resisted | None:
         force = float(np.linalg.norm(self._force() - tare))
-        return Resisted(force=round(force, 6), limit=RESISTANCE) if force > RESISTANCE else None
+        return Resisted(force=round(force, 6), limit=round(limit, 6)) if force > limit else None
 
     def _left_behind(self, speed: Array) -> LeftBehind | None:
         off = np.abs(self._goal - self._axes.read().q)
@@ -183,12 +196,17 @@ class AxesArm(Teachable):
             return None
         return LeftBehind(axis=axis, off=round(float(off[axis]), 6), limit=round(float(limits[axis]), 6))
 
-    def _follow(self, way: Iterable[Array], halted: Halted) -> bool:
+    def _follow(self, way: Iterable[Array], halted: Halted, before: Array) -> bool:
         for q in way:
             if halted():
                 return False
             self._put(q)
+            self._notice(before)
         return True
+
+    def _notice(self, before: Array) -> None:
+        """Notice the force on the finger, against what it was before."""
+        self._met_force = max(self._met_force, float(np.linalg.norm(self._force() - before)))
 
     def _put(self, q: Array) -> None:
         self._goal = q

@@ -66,6 +66,10 @@ class NoArm(Teachable, Tabletop):
     def travel(self) -> tuple[tuple[float, float], ...]:
         return TRAVEL
 
+    @property
+    def met(self) -> float:
+        return 0.0
+
     def go(self, goal: Place, halted: Halted) -> bool:
         self.check_travel(goal)
         if halted():
@@ -82,10 +86,10 @@ class NoArm(Teachable, Tabletop):
         force = 0.0 if top is None else max(_TOUCH * threshold, math.ulp(0.0))
         return Arrival(kind="reached" if top is None else "tripped", force=force)
 
-    def back(self, goal: Place, halted: Halted) -> Literal["halted"] | None:
+    def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | None:
         return None if self.go(goal, halted) else "halted"
 
-    def set_down(self, goal: Place, halted: Halted) -> Literal["halted"] | None:
+    def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | None:
         return self.back(goal, halted)
 
     @property

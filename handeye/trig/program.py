@@ -35,6 +35,8 @@ class Done(NamedTuple):
     """Between the fingers before and after a step of the hand, m."""
     touched: Place | None = None
     """Where the arm was when a guarded step had met something."""
+    met: float = 0.0
+    """The greatest force that the finger felt in a move, against its beginning, N."""
 
 
 class Cut(NamedTuple):

@@ -149,6 +149,7 @@ class Runner:
         branch = self._arrive(node, goal)
         if branch is None:
             return None
+        program.trail[-1] = program.trail[-1]._replace(met=self.arm.met)
         program.cut, program.ended_at = None, self.arm.here()
         program.taken = branch if node.type == "guarded" else None
         return node.sons[branch]

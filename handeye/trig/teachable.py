@@ -66,18 +66,26 @@ class Teachable(ABC):
             OutOfTravel: it cannot go there, and has not moved.
         """
 
+    @property
     @abstractmethod
-    def back(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+    def met(self) -> float:
+        """The greatest force that the finger felt in the last move, against its beginning, N."""
+
+    @abstractmethod
+    def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
         """Go back to a place where the arm was, under guards; None: it is there.
 
         Whatever has stopped it, it stands still where it is.
+
+        Args:
+            met: the force that the move met which is undone, N: half as much again is no obstacle on the way back.
 
         Raises:
             OutOfTravel: it cannot go there, and has not moved.
         """
 
     @abstractmethod
-    def set_down(self, goal: Place, halted: Halted) -> Literal["halted"] | Obstacle | None:
+    def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
         """Go back to a place from where the hand has taken up what it holds, and set it down there; as `back`."""
 
     @abstractmethod

@@ -37,7 +37,7 @@ def undo_last(program: TrigProgram, arm: Teachable, halted: Halted) -> Stop | No
     node = program.graph[done.node]
     match node.type:
         case "normal" | "guarded":
-            return _touch_again(node, done, arm, halted) or _way_back(program, done.place, arm, halted)
+            return _touch_again(node, done, arm, halted) or _way_back(program, done, arm, halted)
         case "grasp" | "ungrasp":
             return _hand_back(done, arm)
         case "savpos":
@@ -49,11 +49,11 @@ def undo_last(program: TrigProgram, arm: Teachable, halted: Halted) -> Stop | No
     return None
 
 
-def _way_back(program: TrigProgram, goal: Place, arm: Teachable, halted: Halted) -> Stop | None:
+def _way_back(program: TrigProgram, done: Done, arm: Teachable, halted: Halted) -> Stop | None:
     """Go back to where a move began; what was taken up there is set down there."""
     if _took_up(program) and at_least(arm.gap, least_gap(0.0)):
-        return arm.set_down(goal, halted)
-    return arm.back(goal, halted)
+        return arm.set_down(done.place, halted, done.met)
+    return arm.back(done.place, halted, done.met)
 
 
 def _took_up(program: TrigProgram) -> bool:

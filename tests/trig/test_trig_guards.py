@@ -83,6 +83,21 @@ def test_a_force_on_the_finger_stops_the_way_back_whatever_its_direction() -> No
     assert arm.back(Place(y=0.05), lambda: False) is None
 
 
+@pytest.mark.parametrize(("push", "limit"), [(3.6, None), (5.5, 5.4)])
+def test_half_as_much_again_as_a_move_met_is_no_obstacle_where_it_is_undone(
+    push: float, limit: float | None
+) -> None:
+    axes = Hindered(FakeClock(), *SPECS)
+    arm = AxesArm(axes, Ticking())
+    axes.push = 3.6
+    assert arm.go(Place(x=0.05), lambda: False)
+    assert arm.met == pytest.approx(3.6)
+    axes = Hindered(FakeClock(), *SPECS)
+    back, axes.push = AxesArm(axes, Ticking()), push
+    found = back.back(Place(x=0.05), lambda: False, arm.met)
+    assert found == (None if limit is None else Resisted(force=push, limit=limit))
+
+
 def test_an_axis_that_does_not_follow_stops_the_way_back() -> None:
     axes = Hindered(FakeClock(), *SPECS)
     arm = AxesArm(axes, Ticking())
