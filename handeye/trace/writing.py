@@ -103,9 +103,14 @@ class Writing:
     def frames(self, time: float, poses: Poses, there: Mask, *, anew: bool = False) -> None:
         """Write the frames that moved since they were last written, and those that appeared; `anew`: all there are.
 
-        What lies put away is written anew only: where it lies matters to nobody, but that it does.
+        What lies put away is written anew only: where it lies matters to nobody, but that it does. What is not there
+        any more, as a screw in its thread when it has been driven out, is put away in the trace.
         """
         sent = self._sent
+        gone = ~there & ~np.isnan(sent[:, 0])
+        if gone.any():
+            poses = poses.copy()
+            poses[gone, 2] = 2 * PUT_AWAY
         moved = (np.abs(poses - sent) > MOVED).any(axis=1)  # false for what was never written
         away = (poses[:, 2] < PUT_AWAY) & (sent[:, 2] < PUT_AWAY)
         which = np.flatnonzero((moved & ~away) | (there & (anew | np.isnan(sent[:, 0]))))
