@@ -39,7 +39,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     """
     snapshot, kind, plan = checkpoint.snapshot, kind_of(checkpoint.setup), checkpoint.setup.plan
     if snapshot is None:
-        raise InvalidInput(f"the run in {name} has not begun: there is nothing to undo")
+        raise InvalidInput(f"{name} is no run of a program that has begun: there is nothing to undo")
     state = copied(snapshot.state)
     executed = kind.executed(plan, state)
     _check_whole(checkpoint, executed, name)
