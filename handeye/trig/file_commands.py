@@ -11,6 +11,7 @@ from handeye.trig.storage import read_program, trig_file, write_program
 
 def write(session: Session, given: Given) -> None:
     """W: write the program to a file; by default to the last one."""
+    _check_files(session)
     file = session.file if given.file is None else trig_file(Path(given.file))
     if file is None:
         raise InvalidInput("no file has been read or written yet; W takes a name")
@@ -21,6 +22,7 @@ def write(session: Session, given: Given) -> None:
 
 def read(session: Session, given: Given) -> None:
     """R: read a program in the place of the present one."""
+    _check_files(session)
     file = trig_file(Path(given.file or ""))
     program = read_program(file)
     ask_if_unsaved(session, f"Read {file} in its place")
@@ -36,3 +38,9 @@ def leave_written(session: Session, given: Given) -> None:
 def leave(session: Session, given: Given) -> None:
     """Q: leave, and save nothing."""
     session.over = True
+
+
+def _check_files(session: Session) -> None:
+    """Raises InvalidInput if nothing that is typed may touch a file."""
+    if not session.files:
+        raise InvalidInput("the script of a job reads and writes no files")

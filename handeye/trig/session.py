@@ -37,6 +37,8 @@ class Session:
     file: Path | None = None
     """The file that was read or written last."""
     over: bool = False
+    files: bool = True
+    """Programs can be read from files and written to them, as whoever types likes; not by a script of somebody else."""
 
     @property
     def runner(self) -> Runner:

@@ -24,7 +24,7 @@ from handeye.runs.taught.plan import listing
 from handeye.runs.taught.state import TaughtState
 from handeye.runs.undo_orders import to_be_undone
 from handeye.runs.verify import difference
-from handeye.tasks.benches import TaughtPlan
+from handeye.tasks.benches import TaughtPlan, open_job
 from handeye.trace.reading import read_trace
 from handeye.trig.axes_arm import AxesArm
 from handeye.trig.obstacles import Resisted
@@ -176,11 +176,27 @@ def test_a_state_of_another_bench_is_refused() -> None:
     [
         ("NOISE", "there is no command `NOISE`"),
         ("M A\nX 10 RECORD\nCN A\nLOOP A 900000000\nRUN", "does not end"),
+        ("M A\nX 10 RECORD\nW stolen", "reads and writes no files"),
+        ("M A\nX 10 RECORD\nEX stolen", "reads and writes no files"),
+        ("R stolen", "reads and writes no files"),
     ],
 )
-def test_a_plan_that_cannot_be_taught_is_refused(script: str, said: str) -> None:
+def test_a_plan_that_cannot_be_taught_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str, said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(InvalidInput, match=said):
         listing(TaughtPlan(job="palletise", script=script))
+    assert not [*tmp_path.iterdir()]
+
+
+def test_the_script_of_a_job_touches_no_file_on_the_bench_either(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InvalidInput, match="reads and writes no files"):
+        open_job("bucket", 0, "W stolen").teach(lambda: False)
+    assert not [*tmp_path.iterdir()]
 
 
 def test_worlds_that_are_drawn_otherwise_than_by_a_seed_are_refused() -> None:

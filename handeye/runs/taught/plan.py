@@ -99,7 +99,7 @@ def imagined(plan: TaughtPlan) -> TrigProgram:
         return False
 
     script = Script(plan.script.splitlines(), halted=ask)
-    session.desk = script
+    session.desk, session.files = script, False  # a plan comes with checkpoints and traces, whoever made them
     type_script(session, script, f"{plan.job}.trig")
     return session.program
 

@@ -49,7 +49,7 @@ class _Job(TaughtJob):
         self._table, self._witness = BlockTable(world), Witness()
         self.axes = machine(self._table.bench, world.bending)
         self.arm = AxesArm(self.axes, self._table.bench)
-        self.session = Session(arm=self.arm, table=self._table, desk=Script(()))
+        self.session = Session(arm=self.arm, table=self._table, desk=Script(()), files=False)
 
     @property
     def bench(self) -> Bench:
