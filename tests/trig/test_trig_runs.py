@@ -11,6 +11,7 @@ from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StepFinished
 from handeye.execution.servo import Halted
+from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import all_right
 from handeye.report.judging import findings
 from handeye.runs.advance import advance
@@ -24,10 +25,11 @@ from handeye.runs.taught.plan import listing
 from handeye.runs.taught.state import TaughtState
 from handeye.runs.undo_orders import to_be_undone
 from handeye.runs.verify import difference
-from handeye.tasks.benches import TaughtPlan, open_job
+from handeye.tasks.benches import JobName, TaughtPlan, open_job
 from handeye.trace.reading import read_trace
-from handeye.trig.axes_arm import AxesArm
+from handeye.trig.axes_arm import ArmMemory, AxesArm
 from handeye.trig.obstacles import Resisted
+from handeye.trig.place import Place
 from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
@@ -145,6 +147,11 @@ def test_a_step_that_somebody_halts_is_as_if_it_had_not_begun() -> None:
     assert len([event for event in runner.events if isinstance(event, StepFinished)]) == 5
 
 
+def _far(arm: ArmMemory | None, **changed: object) -> ArmMemory:
+    assert arm is not None
+    return msgspec.structs.replace(arm, **changed)
+
+
 @pytest.mark.parametrize(
     "spoil",
     [
@@ -152,6 +159,10 @@ def test_a_step_that_somebody_halts_is_as_if_it_had_not_begun() -> None:
         lambda state: msgspec.structs.replace(state, cursor=999),
         lambda state: msgspec.structs.replace(state, positions={}),
         lambda state: msgspec.structs.replace(state, arm=None),
+        lambda state: msgspec.structs.replace(state, stage=1),
+        lambda state: msgspec.structs.replace(state, undoing=Undoing(left=0, halts=True)),
+        lambda state: msgspec.structs.replace(state, arm=_far(state.arm, told=Place(z=1e308))),
+        lambda state: msgspec.structs.replace(state, arm=_far(state.arm, opening=1e308)),
     ],
 )
 def test_a_state_of_another_program_is_refused(spoil: Callable[[TaughtState], TaughtState]) -> None:
@@ -207,3 +218,21 @@ def test_worlds_that_are_drawn_otherwise_than_by_a_seed_are_refused() -> None:
     ):
         with pytest.raises(InvalidInput):
             kind_of(setup).check(changed)
+
+
+@pytest.mark.parametrize(
+    ("job", "script", "said"),
+    [
+        ("palletise", "M DONE\nX 10 RECORD", "looks for the position PALLET, which"),
+        ("bucket", "M CENTER\nX 10 RECORD", "looks at 2 blocks, and the script has laid 0"),
+    ],
+)
+def test_what_the_script_lacks_of_what_the_referee_looks_for_is_told(
+    job: JobName, script: str, said: str
+) -> None:
+    setup = low_setup(0, seed=1).setup
+    plan = TaughtPlan(job=job, script=script)
+    runner = Runner(Checkpoint(setup=msgspec.structs.replace(setup, plan=plan, task=job)))
+    pause = advance(runner)
+    with pytest.raises(InvalidInput, match=said):
+        findings(runner, pause)

@@ -1,5 +1,7 @@
 """What a taught program remembers between two steps, as one record; its steps themselves stand in its plan."""
 
+from typing import Final
+
 import msgspec
 
 from handeye.errors import InvalidInput
@@ -13,6 +15,9 @@ from handeye.trig.node import NONE, TOP
 from handeye.trig.obstacles import Obstacle
 from handeye.trig.place import Place
 from handeye.trig.program import Done, TrigProgram
+
+_FARTHEST: Final = 1000.0
+"""m and rad: no arm is told to go there."""
 
 
 class Executed(Record, frozen=True, kw_only=True):
@@ -95,7 +100,10 @@ class TaughtState(SystemState, kw_only=True):
             or {*self.positions} != names
             or not wanted <= names
             or any(number >= steps for number in numbers)
+            or self.stage not in (None, 0)
+            or (self.undoing is not None and not any(program.graph[done.node].shown for done in self.trail))
             or self.arm is None
+            or not max(map(abs, (*self.arm.told, self.arm.opening))) < _FARTHEST
         ):
             raise InvalidInput("the state of the run does not fit this program")
 

@@ -107,7 +107,7 @@ class BucketJob(_Job):
 
     @property
     def goals(self) -> tuple[tuple[float, float], ...]:
-        a, b = BUCKET, self._witness.began.taught["BLOCK"]
+        a, b = BUCKET, self._witness.began.place("BLOCK")
         return (a[0] / MILLIMETRE, a[1] / MILLIMETRE), _mm(b)[:2]
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from handeye.errors import InvalidInput
 from handeye.judge.finding import Finding, Findings
 from handeye.pose import Array
 from handeye.tasks.benches import read_taught_plan
@@ -28,6 +29,8 @@ ROWS: Final = 3
 COLUMNS: Final = 5
 BUCKET: Final = (0.140, 0.0)
 """m: where the script puts it."""
+_DROPPED: Final = 2
+"""Blocks: the one that is dropped, and the one that takes its place."""
 
 
 class _BlocksTask(AnyTask):
@@ -46,7 +49,7 @@ class _BlocksTask(AnyTask):
         return table.bench.model
 
     def _ends_at(self, truth: Truth, name: str) -> Finding:
-        return judge_hand(hand(truth.data), np.array(began(truth).taught[name]), "ends")
+        return judge_hand(hand(truth.data), np.array(began(truth).place(name)), "ends")
 
 
 class Pallet(_BlocksTask):
@@ -71,12 +74,12 @@ class Pallet(_BlocksTask):
 
     def places(self, seen: Began) -> list[Place]:
         """Where the hand lets go one block after another, as it was taught."""
-        above, places = seen.taught["PALLET"], []
+        above, places = seen.place("PALLET"), []
         for _ in range(COLUMNS):
             for _ in range(ROWS):
-                places.append(above.moved(seen.taught["PLACE"]))
-                above = above.moved(seen.taught["NEXT-ROW"])
-            above = above.moved(seen.taught["NEWROW"])
+                places.append(above.moved(seen.place("PLACE")))
+                above = above.moved(seen.place("NEXT-ROW"))
+            above = above.moved(seen.place("NEWROW"))
         return places[: len(seen.blocks)]
 
 
@@ -87,9 +90,13 @@ class Bucket(_BlocksTask):
     words = Words(product="the bucket", done="The block is in the bucket, and another one in its place.")
 
     def judge(self, truth: Truth) -> Findings:
-        a, b = block_poses(truth.data, began(truth).blocks).values()
-        place: Array = np.array(began(truth).taught["BLOCK"][:2])
-        return {**judge_dropped(a, BUCKET, place, b), "hand": self._ends_at(truth, "CENTER")}
+        blocks = [*block_poses(truth.data, began(truth).blocks).values()]
+        if len(blocks) != _DROPPED:
+            raise InvalidInput(
+                f"the referee looks at {_DROPPED} blocks, and the script has laid {len(blocks)}"
+            )
+        place: Array = np.array(began(truth).place("BLOCK")[:2])
+        return {**judge_dropped(blocks[0], BUCKET, place, blocks[1]), "hand": self._ends_at(truth, "CENTER")}
 
 
 def lay(table: BlockTable, script: str) -> None:

@@ -35,6 +35,17 @@ class Began(Record, frozen=True, kw_only=True):
         """Poses of the blocks over the platter."""
         return {name: pose(np.array(row[:9]).reshape(3, 3), row[9:]) for name, row in self.blocks.items()}
 
+    def place(self, name: str) -> Place:
+        """A position as somebody has taught it.
+
+        Raises:
+            InvalidInput: nobody has.
+        """
+        found = self.taught.get(name)
+        if found is None:
+            raise InvalidInput(f"the referee looks for the position {name}, which the script does not teach")
+        return found
+
 
 class Witness(Mechanism[Began]):
     """Remembers how it stood."""
