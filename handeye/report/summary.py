@@ -105,9 +105,9 @@ def stage_times(names: tuple[str, ...], events: Iterable[AnyEvent]) -> tuple[Sta
         elif isinstance(event, CameraBusy):
             busy += event.seconds
         elif isinstance(event, StageFinished):
-            seconds[event.stage] += event.time - begun - busy
-            status[event.stage] = event.status
-            here = ""
+            if here == event.stage:  # else it was done before: the arm has been undoing it
+                seconds[here] += event.time - begun - busy
+            status[event.stage], here = event.status, ""
         elif isinstance(event, StageUndone):
             status[event.stage], here = "undone", ""
     if here:

@@ -27,6 +27,16 @@ def test_the_time_of_a_stage_leaves_out_the_camera() -> None:
     assert told == [("look", "done", 1.5), ("grasp", "under way", 0.25), ("lift", "not reached", 0.0)]
 
 
+def test_a_stage_that_is_stopped_while_it_is_undone_took_what_it_took_before() -> None:
+    events = [
+        StageStarted(time=1.0, stage="look"),
+        StageFinished(time=4.5, stage="look", status="done"),
+        StageFinished(time=9.0, stage="look", status="stopped"),
+    ]
+    (stage,) = stage_times(("look",), events)
+    assert (stage.status, stage.arm_s) == ("stopped", 3.5)
+
+
 def test_a_stage_whose_beginning_is_missing_has_ended_all_the_same() -> None:
     (stage,) = stage_times(("look",), [StageFinished(time=4.5, stage="look", status="done")])
     assert stage.status == "done"
