@@ -8,6 +8,7 @@ import msgspec
 
 from handeye import tasks
 from handeye.debugger.breakpoints import stage_number
+from handeye.diagnostics import quoted
 from handeye.door.arguments import given_file
 from handeye.door.plans import FileName, Planned, plan
 from handeye.door.worlds import World
@@ -156,6 +157,11 @@ def _again(given: FileName, wanted: Wanted) -> Start:
 
 
 def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
+    """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
+    if not isinstance(begun.plan, Plan):
+        raise InvalidInput(
+            f"{path} is of a run of the system {quoted(begun.system)}; from Python only runs of plans are taken up"
+        )
     if wanted.spec is not None and wanted.spec != begun.world:
         raise InvalidInput(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:

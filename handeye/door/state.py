@@ -83,7 +83,7 @@ def state_of(runner: Runner, stage: str | None, why: str) -> State:
     """The state of a run that pauses.
 
     Raises:
-        InvalidInput: its system moves no arm.
+        InvalidInput: another system than that of plans carries it out.
     """
     run, step = context_of(runner.system), runner.next
     drive = run.drive

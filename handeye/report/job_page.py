@@ -52,9 +52,9 @@ def job_page(done: JobReport, program: TrigProgram) -> bytes:
 
 
 def _facts(done: JobReport) -> str:
-    world = "the world without errors" if done.seed is None else f"the world of seed {done.seed}"
     blocks = "" if done.blocks is None else f", with {counted(done.blocks, 'block')}"
-    return f"TRIG, on the Purbrick arm in {world}{blocks}; {done.arm_s:,.0f} s of the arm’s clock, teaching included."
+    world = f"TRIG, on the Purbrick arm in the world of seed {done.seed}{blocks}"
+    return f"{world}; {done.arm_s:,.0f} s of the arm’s clock, teaching included."
 
 
 def _ends(done: JobReport) -> Iterator[Markup]:

@@ -274,7 +274,7 @@ def context_of(system: System) -> ExecutionContext:
         InvalidInput: another system carries the run out.
     """
     if not isinstance(system, ProgramSystem):
-        raise InvalidInput("this is no run of a program: its system moves no arm")
+        raise InvalidInput("this is no run of a plan of motions: another system carries it out")
     return system.run
 
 
@@ -285,7 +285,7 @@ def cell_of(system: System) -> SimulatedCell:
         InvalidInput: another system carries the run out.
     """
     if not isinstance(system, ProgramSystem):
-        raise InvalidInput("this is no run of a program: its cell has no arm to be driven")
+        raise InvalidInput("this is no run of a plan of motions: another system drives its cell")
     return system.cell
 
 

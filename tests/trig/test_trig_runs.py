@@ -7,6 +7,7 @@ import msgspec
 import pytest
 from trig_bench import low_job, low_setup
 
+import handeye
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StepFinished
@@ -21,6 +22,7 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import kind_of
+from handeye.runs.taught import plan as plans
 from handeye.runs.taught.plan import listing
 from handeye.runs.taught.state import TaughtState
 from handeye.runs.undo_orders import to_be_undone
@@ -236,3 +238,21 @@ def test_what_the_script_lacks_of_what_the_referee_looks_for_is_told(
     pause = advance(runner)
     with pytest.raises(InvalidInput, match=said):
         findings(runner, pause)
+
+
+def test_a_plan_on_disk_whose_script_is_wrong_is_refused_by_its_name() -> None:
+    plan = plans.encode(TaughtPlan(job="palletise", script="NOISE"))
+    with pytest.raises(
+        InvalidInput, match=r"^plan\.json is not sound: palletise\.trig, line 1: there is no command"
+    ):
+        plans.decode(plan, "plan.json")
+
+
+def test_python_takes_up_only_runs_of_plans(tmp_path: Path) -> None:
+    path = tmp_path / "run"
+    open_new(path, low_setup(0, seed=1)).close()
+    for out in (None, path):
+        with pytest.raises(
+            InvalidInput, match=r"system `trig`; from Python only runs of plans are taken up$"
+        ):
+            handeye.begin(path, out=out)

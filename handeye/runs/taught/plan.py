@@ -79,7 +79,10 @@ def decode(data: bytes, name: str) -> TaughtPlan:
         InvalidInput: there is none, or its script cannot be typed.
     """
     plan = read_taught_plan(data, name)
-    listing(plan)
+    try:
+        listing(plan)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name} is not sound: {error}") from None
     return plan
 
 
