@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from handeye.judge.finding import Findings, all_right
+from handeye.plain_text import counted
 from handeye.record import Record
 from handeye.report.judging import findings
 from handeye.report.result import Check
@@ -111,7 +112,7 @@ def carry_out(
             told.append(pause.message)
             return None
         ran = Ran(steps=steps, end=_end(pause, undoing=undoing), obstacle=obstacle)
-        told.append(told_run(ran, back=undoing))
+        told.append(_told(ran, undoing=undoing))
         tell(told[-1])
         return Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
 
@@ -156,6 +157,13 @@ def _end(pause: Pause, *, undoing: bool) -> Literal["count", "none", "halted", "
         case "end":
             return "beginning" if undoing else "none"
     return "count"
+
+
+def _told(ran: Ran, *, undoing: bool) -> str:
+    """How a way has ended; of one that was interrupted nobody can go on by a command of TRIG."""
+    if ran.end == "halted":
+        return f"{counted(ran.steps, 'step')} {'undone' if undoing else 'done'}; interrupted"
+    return told_run(ran, back=undoing)
 
 
 def _checks(findings: Findings) -> dict[str, Check]:
