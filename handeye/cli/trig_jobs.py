@@ -1,7 +1,7 @@
 """Commands that carry out the paper's two examples in drawn worlds: taught, run, judged, and taken back."""
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -21,8 +21,11 @@ from handeye.variation import checked_seed
 
 if TYPE_CHECKING:
     from handeye.report.taught_job import JobReport
+    from handeye.runs.folder import RunFolder
     from handeye.runs.runner import Runner
-    from handeye.tasks.benches import JobName
+    from handeye.runs.snapshot import Checkpoint
+    from handeye.tasks.benches import JobName, TaughtJob
+    from handeye.video.job_video import JobVideo
 
 Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teach, machine and blocks are.")]
 
@@ -100,64 +103,95 @@ def bucket(*, seed: Seed = 0, json: Json = False, kept: KeptOptions = NOTHING) -
 
 
 def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, json: bool) -> int:
-    from handeye.execution.servo import Halted
-    from handeye.report.finishing import finished
-    from handeye.report.job_folder import write_job
-    from handeye.report.taught_job import carry_out, job_of, setup_of_job
+    from handeye.report.taught_job import setup_of_job
     from handeye.runs.folder import open_new
-    from handeye.runs.host_seconds import Meter
-    from handeye.runs.runner import Runner
     from handeye.video.job_video import JobVideo
 
     start = setup_of_job(name, seed, blocks)
     _check_apart(kept)
     video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
     folder = None if kept.out is None else open_new(kept.out, start, overwrite=kept.overwrite)
-    meter = Meter(timer=HostTimer.of_process())
-    with PanicButton() as panic, notes.status(f"teaching {name}") as status:
-
-        def observers(runner: "Runner") -> "Sequence[Observer]":
-            looking: list[Observer] = [_Told(runner, status)]
-            if folder is not None:
-                looking.append(folder.watch(runner, start, again=False, meter=meter))
-            return looking
-
-        note(f"teaching {name} in the world of seed {seed}")
-        try:
-            runner = Runner(start, halt=panic, observers=observers)
-        except BaseException as error:
-            if folder is not None:
-                folder.discard()
-            if isinstance(error, Halted):
-                raise KeyboardInterrupt from None
-            raise
-        job = job_of(runner)
-        if video is not None:
-            video.watch(job)
-        carried = carry_out(runner, blocks=blocks, tell=note)
-    done = carried.report
+    with PanicButton() as panic:
+        done, job = _carried_out(start, blocks, panic, folder, video)
     if done.outcome == "halted":
         if folder is not None:
-            folder.close()
             say(f"resume with: handeye resume {shlex.quote(str(folder.path))}", notes, whole=True)
         raise KeyboardInterrupt
-    if folder is not None:
-        finished(runner, carried.pause, meter, judged=True, folder=folder)
-        write_job(folder.path, done, job.session.program)
     if json:
         put_json(done)
     else:
         _tell(done)
-    code = CODES[done.outcome]
-    if video is None:
-        return code
+    filmed = video is None or _filmed(video, job, done)
+    return CODES[done.outcome] or (0 if filmed else 2)
+
+
+def _carried_out(
+    start: "Checkpoint",
+    blocks: int | None,
+    panic: PanicButton,
+    folder: "RunFolder | None",
+    video: "JobVideo | None",
+) -> "tuple[JobReport, TaughtJob]":
+    """Teach a job and carry it out; what it comes to is in its folder before anybody can break it off."""
+    from handeye.report.finishing import finished
+    from handeye.report.job_folder import write_job
+    from handeye.report.taught_job import carry_out, job_of
+    from handeye.runs.host_seconds import Meter
+
+    meter = Meter(timer=HostTimer.of_process())
+    with notes.status("teaching") as status:
+
+        def observers(runner: "Runner") -> "Sequence[Observer]":
+            watching = [] if folder is None else [folder.watch(runner, start, again=False, meter=meter)]
+            return [_Told(runner, status), *watching]
+
+        runner = _taught(start, panic, folder, observers)
+        job = job_of(runner)
+        if video is not None:
+            video.watch(job)
+        carried = carry_out(runner, blocks=blocks, tell=note)
+        if folder is not None and carried.report.outcome == "halted":
+            folder.close()
+        elif folder is not None:
+            finished(runner, carried.pause, meter, judged=True, folder=folder)
+            write_job(folder.path, carried.report, job.session.program)
+    return carried.report, job
+
+
+def _taught(
+    start: "Checkpoint",
+    panic: PanicButton,
+    folder: "RunFolder | None",
+    observers: "Callable[[Runner], Sequence[Observer]]",
+) -> "Runner":
+    """The run, its job taught; where it cannot be, a new folder is as if nobody had asked for it.
+
+    Raises:
+        KeyboardInterrupt: somebody wanted it to stop.
+    """
+    from handeye.execution.servo import Halted
+    from handeye.runs.runner import Runner
+
+    note(f"teaching {start.setup.task} in the world of seed {start.setup.world.seed}")
+    try:
+        return Runner(start, halt=panic, observers=observers)
+    except BaseException as error:
+        if folder is not None:
+            folder.discard()
+        if isinstance(error, Halted):
+            raise KeyboardInterrupt from None
+        raise
+
+
+def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
+    """Write the video; False if it cannot be, which is told, and the verdict stands."""
     try:
         with drawing() as told:
             video.write(job, done.ended_s, told)
-    except InvalidInput as error:  # the verdict stands
+    except InvalidInput as error:
         complain(error)
-        return code or 2
-    return code
+        return False
+    return True
 
 
 def _check_apart(kept: KeptOptions) -> None:

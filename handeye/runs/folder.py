@@ -13,7 +13,7 @@ import msgspec
 
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
-from handeye.events import AnyEvent
+from handeye.events import AnyEvent, RunFinished
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.vision_actions import just_found
 from handeye.files import read_whole, write_whole
@@ -143,7 +143,8 @@ class RunFolder(Observer):
         assert self._journal is not None
         assert self._recorder is not None
         self.check_traced()
-        self._goes_on()
+        if not isinstance(event, RunFinished):  # which tells of nothing new where the run has not gone on
+            self._goes_on()
         self._journal.append(event)
         self._recorder.event(event)
 

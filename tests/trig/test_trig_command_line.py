@@ -1,8 +1,11 @@
 """`handeye trig`: programs run, shown and typed from the command line."""
 
 import json
+import os
+import signal
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -12,7 +15,7 @@ from trig_bench import low_script
 from trig_sessions import PLANS
 
 from handeye.cli.panic_button import PanicButton
-from handeye.report import taught_job
+from handeye.report import job_folder, taught_job
 from handeye.tasks.blocks import referee
 from handeye.trials.pallet import broken_off_after
 from handeye.trig.axes_arm import AxesArm
@@ -104,6 +107,9 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command) -> None:
     assert command("trig", "palletise", "--out", "job")[0] == 2  # it is not overwritten by chance
     assert command("trace", "verify", "job/trace.mcap")[0] == 0
     assert command("resume", "job")[0] == 0  # there is nothing left to do
+    command("resume", "job", "--step", typed="quit\n")
+    assert json.loads(Path("job/job.json").read_bytes()) == told  # nor has anything been done
+    assert "Palletise: right" in Path("job/report.html").read_text(encoding="utf-8")
     assert command("report", "job", "-o", "other.html")[0] == 2
 
 
@@ -163,6 +169,22 @@ def test_a_job_that_is_interrupted_on_its_way_is_resumed_and_dismantled(
     assert command("resume", "job")[0] == 0
     assert command("dismantle", "job", "--out", "back")[0] == 0
     assert json.loads(Path("back/result.json").read_bytes())["apart"] is True
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("low")
+def test_a_key_behind_the_last_step_loses_nothing_of_what_a_job_came_to(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write = job_folder.write_job
+
+    def struck(*words: Any) -> None:
+        os.kill(os.getpid(), signal.SIGINT)
+        write(*words)
+
+    monkeypatch.setattr(job_folder, "write_job", struck)
+    assert command("trig", "palletise", "--blocks", "0", "--out", "job")[0] == 0
+    assert json.loads(Path("job/job.json").read_bytes())["outcome"] == "right"
 
 
 @pytest.mark.slow
