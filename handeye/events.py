@@ -14,6 +14,8 @@ from handeye.record import Record
 from handeye.source import line_name
 from handeye.variation import WorldSpec
 
+AskedBy = Literal["person", "program", "job"]
+"""Who has the arm undo what it did; a job does so by itself where its program has ended."""
 Choice = Literal["proceed", "retry", "skip"]
 """Choices of an operator after a stop: proceed after it, retry the stage, or skip the rest of the stage."""
 
@@ -264,12 +266,12 @@ class WentBack(Event, frozen=True, kw_only=True):
 
 
 class UndoOrdered(Event, frozen=True, kw_only=True):
-    """Somebody, or the program, has the arm undo what it did, until so many executed steps are left."""
+    """Somebody, the program, or the job has the arm undo what it did, until so many executed steps are left."""
 
     left: int
     halts: bool
     """The run ends there; otherwise the program can go on."""
-    asked_by: Literal["person", "program"] = "person"
+    asked_by: AskedBy = "person"
 
 
 class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):

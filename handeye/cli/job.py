@@ -27,10 +27,12 @@ from handeye.host_time import HostTimer
 from handeye.judge.finding import all_right
 from handeye.report.cautions import cautions, losses
 from handeye.report.finishing import finished
+from handeye.report.job_folder import write_job
 from handeye.report.judging import findings
 from handeye.report.page import page
 from handeye.report.progress import Progress
 from handeye.report.result import Result, to_json
+from handeye.report.taught_job import account, carry_out, ends_job, system_of
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
 from handeye.runs.folder import PICTURES, REPORT, RunFolder, open_new
@@ -42,6 +44,7 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
+from handeye.runs.taught.system import TaughtSystem
 
 if TYPE_CHECKING:
     from handeye.view.moment import Newest
@@ -192,7 +195,12 @@ class _Work:
     # -- carrying out ---------------------------------------------------------------------------------
 
     def _parts(self, runner: Runner) -> Pause:
-        """Assemble, and then undo and assemble as often as is wanted, as long as the referee finds each right."""
+        """Assemble, and then undo and assemble as often as is wanted, as long as the referee finds each right.
+
+        A job that was taught knows by itself what comes after what.
+        """
+        if isinstance(runner.system, TaughtSystem):
+            return carry_out(runner, go=lambda _: self._attended(runner))
         pause = self._attended(runner)
         for part in self.job.then:
             if pause.kind != "end" or not all_right(findings(runner, pause)):
@@ -315,6 +323,7 @@ class _Work:
         if pause.kind == "break" and job.halfway and self.folder is None:
             self._keep(runner.checkpoint())
         result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
+        self._leave_job(runner, pause, result)
         self._print(result)
         self._report()
         if pause.kind in ("break", "operator"):
@@ -322,6 +331,13 @@ class _Work:
         elif self.folder is not None:
             note(f"saved in {self.folder.path}")
         return result.exit_code
+
+    def _leave_job(self, runner: Runner, pause: Pause, result: Result) -> None:
+        """Leave the account of a taught job in the folder of its run, if that is over."""
+        if self.folder is None or not ends_job(runner, result):
+            return
+        program = system_of(runner).job.session.program
+        write_job(self.folder.path, account(runner, pause, result), program)
 
     def _report(self) -> None:
         """Leave a page of the run in its folder, if that is wanted; the run is what it is, whatever comes of that."""

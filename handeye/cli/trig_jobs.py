@@ -112,7 +112,7 @@ def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, 
     video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
     folder = None if kept.out is None else open_new(kept.out, start, overwrite=kept.overwrite)
     with PanicButton() as panic:
-        done, job = _carried_out(start, blocks, panic, folder, video)
+        done, job = _carried_out(start, panic, folder, video)
     if done.outcome == "halted":
         if folder is not None:
             say(f"resume with: handeye resume {shlex.quote(str(folder.path))}", notes, whole=True)
@@ -127,15 +127,14 @@ def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, 
 
 def _carried_out(
     start: "Checkpoint",
-    blocks: int | None,
     panic: PanicButton,
     folder: "RunFolder | None",
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
     """Teach a job and carry it out; what it comes to is in its folder before anybody can break it off."""
-    from handeye.report.finishing import finished
+    from handeye.report.finishing import finished, outcome
     from handeye.report.job_folder import write_job
-    from handeye.report.taught_job import carry_out, job_of
+    from handeye.report.taught_job import account, carry_out, system_of
     from handeye.runs.host_seconds import Meter
 
     meter = Meter(timer=HostTimer.of_process())
@@ -146,16 +145,20 @@ def _carried_out(
             return [_Told(runner, status), *watching]
 
         runner = _taught(start, panic, folder, observers)
-        job = job_of(runner)
+        job = system_of(runner).job
         if video is not None:
             video.watch(job)
-        carried = carry_out(runner, blocks=blocks, tell=note)
-        if folder is not None and carried.report.outcome == "halted":
+        pause = carry_out(runner, tell=note)
+        if pause.kind == "panic":
+            result = outcome(runner, pause, meter, judged=True)
+        else:
+            result = finished(runner, pause, meter, judged=True, folder=folder)
+        done = account(runner, pause, result)
+        if folder is not None and pause.kind == "panic":
             folder.close()
         elif folder is not None:
-            finished(runner, carried.pause, meter, judged=True, folder=folder)
-            write_job(folder.path, carried.report, job.session.program)
-    return carried.report, job
+            write_job(folder.path, done, job.session.program)
+    return done, job
 
 
 def _taught(

@@ -4,7 +4,7 @@ import msgspec
 from msgspec import UNSET
 
 from handeye.files import write_whole
-from handeye.report.judging import Referee, findings
+from handeye.report.judging import Referee, findings, findings_built
 from handeye.report.pictures import keep_pictures
 from handeye.report.result import Result, to_json
 from handeye.report.summary import summary
@@ -48,8 +48,10 @@ def outcome(
     runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
 ) -> Result:
     """The result of a run as it pauses, which nothing is done to; arguments are those of `finished`."""
-    found = findings(runner, pause, referee) if judged and pause.kind != "break" else None
-    result = summary(runner, pause, findings=found, host=meter.seconds(runner))
+    asked = judged and pause.kind != "break"
+    found = findings(runner, pause, referee) if asked else None
+    built = findings_built(runner) if asked else {}
+    result = summary(runner, pause, findings=found, built=built, host=meter.seconds(runner))
     others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
     limits = runner.setup.limits if found is not None and referee is None else None
     return msgspec.structs.replace(

@@ -9,6 +9,7 @@ from handeye.errors import InvalidInput
 from handeye.judge.finding import Finding, Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
+from handeye.runs.taught.system import TaughtSystem
 
 Referee = Callable[[Truth], Findings]
 """Judges the truth of a cell; the cell is not touched."""
@@ -19,14 +20,30 @@ Limits = Mapping[str, float]
 def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
     """Ask a referee, by default that of the task, its limits those of the run; nothing of a program without an end.
 
-    Where the arm has undone all it did, it is asked whether everything lies where it was found.
+    Where the arm has undone all it did, it is asked whether everything lies where it was found, and is remembered as
+    it was taught.
     """
     if pause.kind != "end":
         return {}
     truth = runner.cell.truth
     if runner.undone:
-        return {} if runner.system.executed else runner.task.judge_apart(truth)
+        return {} if runner.system.executed else {**runner.task.judge_apart(truth), **_remembered(runner)}
     return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
+
+
+def _remembered(runner: Runner) -> Findings:
+    """Findings on what a taught program remembers where all it did is undone."""
+    system = runner.system
+    return system.job.remembered() if isinstance(system, TaughtSystem) else {}
+
+
+def findings_built(runner: Runner) -> Findings:
+    """Findings on what a job has built, whose program had come to its end before the arm undid it; else none."""
+    system = runner.system
+    if not isinstance(system, TaughtSystem) or not runner.undone:
+        return {}
+    turn = system.state.turn
+    return system.job.built() if turn is not None and turn.ended else {}
 
 
 def findings_so_far(runner: Runner) -> Findings:

@@ -35,7 +35,7 @@ def page(result: Result) -> RenderableType:
         parts += [Text(), timing(result), camera(result)]
     elif result.camera.residual_in is not None:
         parts += [Text(), camera(result)]
-    if result.referee:
+    if result.checks:
         parts += [Text(), referee(result)]
     parts += [Text(f"broken: {told}", "yellow") for told in told_faults(result)]
     limits = (result.limits or {}).items()
@@ -155,14 +155,14 @@ def clock(seconds: float) -> str:
 
 
 def referee(result: Result) -> Table:
-    """Tell what the referee measured on the finished work."""
+    """Tell what the referee measured on the finished work, and when it was undone."""
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("")
     table.add_column("referee")
     table.add_column("value", justify="right")
     table.add_column("limit", justify="right")
     table.add_column("unit")
-    for check in result.referee.values():
+    for check in result.checks:
         mark = _mark(check)
         sign = ">=" if check.relation == "at least" else "<="
         figures = f"{check.value:.3g}", f"{sign} {check.limit:.3g}"
@@ -205,12 +205,14 @@ def _apart(result: Result) -> Text:
         return Text("Undone as far as was asked for.", "bold")
     task = known(result.task)
     words = _NEUTRAL if task is None else task.words
-    if result.apart:
-        return Text(words.apart, "bold green")
     wrong = "; ".join(wrong_points(result))
-    return Text(f"The arm has undone what it did, but not everything is back: {wrong}", "bold red")
+    if not result.apart:
+        return Text(f"The arm has undone what it did, but not everything is back: {wrong}", "bold red")
+    if result.assembled is False:
+        return Text(f"{words.apart} Before that {words.product} was not right: {wrong}", "bold red")
+    return Text(words.apart, "bold green")
 
 
 def wrong_points(result: Result) -> list[str]:
     """What the referee found not to be as it should, a sentence each."""
-    return [check.sentence for check in result.referee.values() if check.refuses]
+    return [check.sentence for check in result.checks if check.refuses]

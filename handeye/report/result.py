@@ -154,16 +154,24 @@ class Result(Record, frozen=True, kw_only=True):
     apart: bool | UnsetType | None = UNSET
     """Of a run in which the arm has undone what it did, the referee's word whether everything lies where it was found;
     None: nobody was asked, or not all of it is undone."""
+    built: dict[str, Check] | UnsetType = UNSET
+    """Findings on what a job has built, as it was before it took that back: `referee` has those after."""
 
     @property
     def judged(self) -> bool | None:
-        """The referee's word on what was built, or on what was taken apart; None: nobody was asked."""
-        return self.apart if isinstance(self.apart, bool) else self.assembled
+        """The referee's word on what was built, on what was taken apart, or on both; None: nobody was asked."""
+        words = [word for word in (self.assembled, self.apart) if isinstance(word, bool)]
+        return all(words) if words else None
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """All findings of the referee, those on what was built first."""
+        return (*(self.built or {}).values(), *self.referee.values())
 
     @property
     def cautions(self) -> tuple[str, ...]:
         """What the referee found that is not as it should be and does not make the work wrong, a sentence each."""
-        return tuple(check.told for check in self.referee.values() if not check.ok and check.caution)
+        return tuple(check.told for check in self.checks if not check.ok and check.caution)
 
     @property
     def exit_code(self) -> int:

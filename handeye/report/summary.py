@@ -35,18 +35,20 @@ from handeye.versions import versions
 from handeye.vision.calibration import Calibration
 
 
-def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: HostSeconds) -> Result:
+def summary(
+    runner: Runner, pause: Pause, *, findings: Findings | None, built: Findings, host: HostSeconds
+) -> Result:
     """Summarize a run.
 
     Args:
         findings: the referee's; None if nobody was asked.
+        built: the referee's on what a job has built and taken back since; none: it has not.
         host: what the run has cost the host.
     """
     completed = pause.kind == "end"
     names = runner.stages
-    checks = {name: Check.of(finding) for name, finding in (findings or {}).items()}
     return Result(
-        assembled=None if findings is None or runner.undone else completed and all_right(findings),
+        assembled=_assembled(runner, findings, built, completed=completed),
         apart=(all_right(findings) if findings else None) if runner.undone else UNSET,
         completed=completed,
         paused=pause.kind == "break",
@@ -57,7 +59,8 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
         warnings=tuple(warnings(runner.events)),
         stages=stage_times(names, runner.events),
         timing=timing(runner.events, runner.time, host),
-        referee=checks,
+        referee=_checks(findings or {}),
+        built=_checks(built) if built else UNSET,
         task=runner.setup.task,
         program=runner.listing.name,
         seed=runner.setup.world.seed,
@@ -65,6 +68,17 @@ def summary(runner: Runner, pause: Pause, *, findings: Findings | None, host: Ho
         camera=_camera(runner),
         versions=versions(),
     )
+
+
+def _assembled(runner: Runner, findings: Findings | None, built: Findings, *, completed: bool) -> bool | None:
+    """The referee's word on what was built; None: nobody was asked, or it had been undone."""
+    if runner.undone:
+        return all_right(built) if built else None
+    return None if findings is None else completed and all_right(findings)
+
+
+def _checks(findings: Findings) -> dict[str, Check]:
+    return {name: Check.of(finding) for name, finding in findings.items()}
 
 
 def interventions(events: Sequence[AnyEvent]) -> Iterable[str]:

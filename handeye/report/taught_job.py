@@ -1,20 +1,19 @@
 """A job that is taught: carried out, undone, and judged after both."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Literal
+from typing import Final, Literal
 
-from handeye.judge.finding import Findings, all_right
 from handeye.plain_text import counted
 from handeye.record import Record
-from handeye.report.judging import findings
-from handeye.report.result import Check
+from handeye.report.finishing import outcome
+from handeye.report.result import Check, Result
 from handeye.runs.advance import Pause, advance
+from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.runs.taught.system import TAUGHT, TaughtSystem
-from handeye.tasks.benches import JobName, Lying, TaughtJob, TaughtPlan, job_script
+from handeye.runs.taught.system import TAUGHT, TaughtSystem, plan_of
+from handeye.tasks.benches import JobName, Lying, TaughtPlan, job_script
 from handeye.trig.cursor_commands import told_run
 from handeye.trig.reports import Way
 from handeye.trig.running import Ran
@@ -69,83 +68,113 @@ def setup_of_job(name: JobName, seed: int, blocks: int | None) -> Checkpoint:
     return Checkpoint(setup=setup)
 
 
-def job_of(runner: Runner) -> TaughtJob:
-    """The job that a run carries out."""
+def system_of(runner: Runner) -> TaughtSystem:
+    """The system that carries out a job."""
     assert isinstance(runner.system, TaughtSystem)
-    return runner.system.job
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Carried:
-    """A job that was carried out."""
-
-    report: JobReport
-    pause: Pause
-    """How its run stands."""
+    return runner.system
 
 
 def carry_out(
     runner: Runner,
     *,
-    blocks: int | None,
     after: int | None = None,
+    go: Callable[[int | None], Pause] | None = None,
     tell: Callable[[str], None] = lambda _: None,
-) -> Carried:
-    """Carry out a job that has been taught, undo it, and ask the referee after both.
+) -> Pause:
+    """Carry out a job from where it stands: to the end of its program, and back, if that can be.
 
     Args:
         after: steps after which it is undone; None: it comes to its end.
+        go: has the run do so many steps, or all that are left; by default nobody answers for the operator.
         tell: is told how either way has ended.
     """
-    assert isinstance(runner.system, TaughtSystem)
-    system, job = runner.system, runner.system.job
-    told: list[str] = []
-    lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying()}
-    forward = back = ended = None
-    placed: Findings = {}
-    apart: Findings = {}
-
-    def way(pause: Pause, steps: int, *, undoing: bool) -> Way | None:
-        """How one way has ended; None: the arm refused a step."""
-        obstacle = system.state.obstacle
-        if pause.kind in ("operator", "trouble") and obstacle is None:
-            told.append(pause.message)
-            return None
-        ran = Ran(steps=steps, end=_end(pause, undoing=undoing), obstacle=obstacle)
-        told.append(_told(ran, undoing=undoing))
-        tell(told[-1])
-        return Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
-
-    def carried(outcome: Outcome, pause: Pause) -> Carried:
-        report = JobReport(
-            job=runner_job(runner), seed=runner.setup.world.seed, blocks=blocks, interrupted_after=after,
-            outcome=outcome, forward=forward, back=back, checks=_checks(placed), checks_back=_checks(apart),
-            told=tuple(told), arm_s=round(runner.time, 6), ended_s=ended, goals=job.goals, lying=lying,
-        )  # fmt: skip
-        return Carried(report=report, pause=pause)
-
-    pause = advance(runner, steps=after)
-    done = len(system.executed)
-    forward, lying["run"], ended = way(pause, done, undoing=False), job.lying(), round(runner.time, 6)
-    if pause.kind not in ("end", "break"):
-        return carried("halted" if pause.kind == "panic" else "stopped", pause)
-    placed = findings(runner, pause)
-    if not job.undoable:
-        return carried("right" if all_right(placed) else "silent", pause)
-    runner.have_undone(0, halts=True)
-    pause = advance(runner)
-    back, lying["undone"] = way(pause, done - len(system.executed), undoing=True), job.lying()
-    if pause.kind != "end":
-        return carried("halted" if pause.kind == "panic" else "stopped", pause)
-    apart = {**findings(runner, pause), **job.remembered()}
-    right = all_right(apart) and (not placed or all_right(placed))
-    return carried("right" if right else "silent", pause)
+    go = go or (lambda steps: advance(runner, steps=steps))
+    if system_of(runner).state.turn is None:
+        pause = go(after)
+        tell(_way(runner, pause)[1])
+        if not _turns(runner, pause, after):
+            return pause
+        runner.have_undone(0, halts=True, asked_by="job")
+    pause = go(None)
+    tell(_way(runner, pause)[1])
+    return pause
 
 
-def runner_job(runner: Runner) -> JobName:
-    """The name of the job that a run carries out."""
-    assert isinstance(runner.setup.plan, TaughtPlan)
-    return runner.setup.plan.job
+def carried_out(runner: Runner, *, after: int | None = None) -> JobReport:
+    """What comes of a job that is carried out and leaves no folder; `after`: as for `carry_out`."""
+    pause = carry_out(runner, after=after)
+    return account(runner, pause, outcome(runner, pause, Meter(), judged=True), after=after)
+
+
+def _turns(runner: Runner, pause: Pause, after: int | None) -> bool:
+    """The run has come as far as it was to, and is undone from there."""
+    there = pause.kind == "end" or (after is not None and pause.kind == "break")
+    system = system_of(runner)
+    return there and system.job.undoable and not runner.undone and len(system.executed) > 0
+
+
+def ends_job(runner: Runner, result: Result) -> bool:
+    """A run is a job that is over and was judged; undone because somebody said so, it is none."""
+    system = runner.system
+    if not isinstance(system, TaughtSystem) or result.paused or (runner.undone and system.state.turn is None):
+        return False
+    return not result.completed or result.judged is not None
+
+
+def account(runner: Runner, pause: Pause, result: Result, *, after: int | None = None) -> JobReport:
+    """What came of a job that pauses and does not go on; the referee's word is that of its result.
+
+    Args:
+        after: steps after which it was to be undone.
+    """
+    system = system_of(runner)
+    job, plan, turn = system.job, plan_of(runner.setup), system.state.turn
+    way, told = _way(runner, pause)
+    lying: dict[When, tuple[Lying, ...]] = {"taught": job.lying("taught"), "run": job.lying("now")}
+    forward, back, built = way, None, result.referee
+    sentences: tuple[str, ...] = (told,)
+    if turn is not None:
+        ran = Ran(steps=turn.steps, end="none" if turn.ended else "count")
+        forward, back, sentences = _record(ran), way, (told_run(ran), told)
+        lying |= {"run": job.lying("turned"), "undone": job.lying("now")}
+        built = result.built or {}
+    return JobReport(
+        job=plan.job,
+        seed=runner.setup.world.seed,
+        blocks=job.stack,
+        interrupted_after=after,
+        outcome="halted" if pause.kind == "panic" else _OUTCOMES[result.exit_code],
+        forward=forward,
+        back=back,
+        checks=built,
+        checks_back={} if turn is None else result.referee,
+        goals=job.goals,
+        lying=lying,
+        told=sentences,
+        ended_s=round(runner.time if turn is None else turn.time, 6),
+        arm_s=round(runner.time, 6),
+    )
+
+
+_OUTCOMES: Final[Mapping[int, Outcome]] = {0: "right", 1: "stopped", 3: "silent"}
+"""By the exit codes of results."""
+
+
+def _way(runner: Runner, pause: Pause) -> tuple[Way | None, str]:
+    """How far the way has come that a run is on, and that in words; None: the arm refused a step."""
+    system, state = system_of(runner), system_of(runner).state
+    if pause.kind in ("operator", "trouble") and state.obstacle is None:
+        return None, pause.message
+    undoing, done = state.turn is not None, len(system.executed)
+    steps = done if state.turn is None else state.turn.steps - done
+    ran = Ran(steps=steps, end=_end(pause, undoing=undoing), obstacle=state.obstacle)
+    if ran.end == "halted":  # nobody goes on with it by a command of TRIG
+        return _record(ran), f"{counted(steps, 'step')} {'undone' if undoing else 'done'}; interrupted"
+    return _record(ran), told_run(ran, back=undoing)
+
+
+def _record(ran: Ran) -> Way:
+    return Way(steps=ran.steps, end=ran.end, obstacle=ran.obstacle)
 
 
 def _end(pause: Pause, *, undoing: bool) -> Literal["count", "none", "halted", "beginning", "stopped"]:
@@ -157,14 +186,3 @@ def _end(pause: Pause, *, undoing: bool) -> Literal["count", "none", "halted", "
         case "end":
             return "beginning" if undoing else "none"
     return "count"
-
-
-def _told(ran: Ran, *, undoing: bool) -> str:
-    """How a way has ended; of one that was interrupted nobody can go on by a command of TRIG."""
-    if ran.end == "halted":
-        return f"{counted(ran.steps, 'step')} {'undone' if undoing else 'done'}; interrupted"
-    return told_run(ran, back=undoing)
-
-
-def _checks(findings: Findings) -> dict[str, Check]:
-    return {name: Check.of(finding) for name, finding in findings.items()}

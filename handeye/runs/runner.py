@@ -13,6 +13,7 @@ from handeye.cell.simulated import SimulationError
 from handeye.errors import InvalidInput
 from handeye.events import (
     AnyEvent,
+    AskedBy,
     Choice,
     ExperimentMade,
     OperatorAnswered,
@@ -237,16 +238,17 @@ class Runner:
         self.system.answer(choice)
         self._settle()
 
-    def have_undone(self, left: int, *, halts: bool = False) -> None:
+    def have_undone(self, left: int, *, halts: bool = False, asked_by: AskedBy = "person") -> None:
         """From now on each step has the arm undo one that was executed, until so many are left.
 
         Args:
             halts: the run ends there; otherwise the program can go on.
+            asked_by: who wants it.
 
         Raises:
             InvalidInput: so much was not executed, or the system cannot undo anything.
         """
-        self.system.undo(Undoing(left=left, halts=halts))
+        self.system.undo(Undoing(left=left, halts=halts, asked_by=asked_by))
         self._settle()
 
     def finish(self) -> bool:
@@ -264,7 +266,7 @@ class Runner:
             if isinstance(then, OperatorAnswered) and (self.call is not None or self.undone):
                 self.answer(then.choice)
             elif isinstance(then, UndoOrdered):
-                self.have_undone(then.left, halts=then.halts)
+                self.have_undone(then.left, halts=then.halts, asked_by=then.asked_by)
             elif isinstance(then, ExperimentMade):
                 self.experiment(then.what, then.name, then.value)
             elif self.ended:

@@ -70,6 +70,10 @@ def new_session(arm: ArmName) -> "Session":
     return Session(arm=built, table=table, desk=Script(()))
 
 
+Moment = Literal["taught", "turned", "now"]
+"""A moment of a job: it had just been taught, or was about to be undone, or the present."""
+
+
 class TaughtPlan(Record, frozen=True, kw_only=True):
     """A job, and what is typed for it: each world teaches it a little otherwise."""
 
@@ -124,8 +128,21 @@ class TaughtJob(ABC):
         """The same with the table laid for a run, to be kept, put back and judged."""
 
     @abstractmethod
-    def lying(self) -> tuple[Lying, ...]:
-        """How the blocks lie now, in the order in which they are taken, for a report."""
+    def lying(self, when: "Moment") -> tuple[Lying, ...]:
+        """How the blocks lay at a moment, in the order in which they are taken, for a report."""
+
+    @abstractmethod
+    def turn(self) -> None:
+        """Remember how everything stands, for the referee: from here on it is undone."""
+
+    def built(self) -> "Findings":
+        """Findings of the referee on the work as it stood where it was about to be undone; none if nothing was."""
+        return {}
+
+    @property
+    def stack(self) -> int | None:
+        """Blocks of the stack that is laid for a run; None: there is none."""
+        return None
 
     @property
     @abstractmethod

@@ -55,6 +55,11 @@ _CHOICES: Final = {
 }
 
 
+_ASKING: Final[dict[happened.AskedBy, str]] = {
+    "person": "the arm is told to undo",
+    "program": "the program has the arm undo",
+    "job": "the job has the arm undo",
+}
 _PLACES: Final = ("saved", "position")
 """Kinds of experiments whose values are differences or places."""
 
@@ -144,8 +149,7 @@ def sentence(event: Event) -> str:
             return "panic button: drives off, brakes set"
         case happened.UndoOrdered():
             but = f", but for the first {counted(event.left, 'step')}" if event.left else ""
-            who = "the program has the arm undo" if event.asked_by == "program" else "the arm is told to undo"
-            return f"{who} what it did{but}"
+            return f"{_ASKING[event.asked_by]} what it did{but}"
         case happened.StageUndone():
             return f"stage “{event.stage}” undone"
         case happened.UndoEnded():

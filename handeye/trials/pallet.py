@@ -7,7 +7,7 @@ from typing import Final
 from handeye.errors import InvalidInput
 from handeye.random_streams import random_numbers
 from handeye.record import Record
-from handeye.report.taught_job import JobReport, carry_out, setup_of_job
+from handeye.report.taught_job import JobReport, carried_out, setup_of_job
 from handeye.runs.runner import Runner
 from handeye.trials.batch.rates import rate
 from handeye.trials.seeds import in_processes
@@ -60,7 +60,7 @@ def tried(blocks: int, interrupt: bool, seed: int) -> JobReport:
     except InvalidInput as error:  # by the arm: it cannot go where it is driven
         return JobReport(job="palletise", seed=seed, blocks=blocks, outcome="stopped", told=(str(error),))
     after = broken_off_after(seed, blocks) if interrupt else None
-    return carry_out(runner, blocks=blocks, after=after).report
+    return carried_out(runner, after=after)
 
 
 def broken_off_after(seed: int, blocks: int) -> int:

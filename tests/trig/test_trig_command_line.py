@@ -126,6 +126,9 @@ def test_a_job_that_is_done_and_wrong_has_an_exit_code_of_its_own(
     assert page.count("✗") == 1
     assert (code, out.splitlines()[-1]) == (3, "Done, and the referee disagrees.")
     assert out.count("WRONG") == 1
+    result = json.loads(Path("job/result.json").read_bytes())
+    assert (result["assembled"], result["apart"]) == (limit != "PLACED", limit != "BACK")
+    assert command("resume", "job")[0] == 3
     code, out, _ = command("trials", "pallet", "--n", "1", "--seed", "5", "--blocks", "1", "--json")
     told = json.loads(out)
     assert (code, told["silent_failures"]) == (3, 1)
@@ -162,13 +165,28 @@ def test_a_job_that_is_interrupted_on_its_way_is_resumed_and_dismantled(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked = count()
-    monkeypatch.setattr(PanicButton, "__call__", lambda _: next(asked) > 3500)
-    code, _, err = command("trig", "palletise", "--blocks", "1", "--out", "job")
-    assert (code, "resume with: handeye resume job" in err) == (130, True)
-    monkeypatch.setattr(PanicButton, "__call__", lambda _: False)
-    assert command("resume", "job")[0] == 0
-    assert command("dismantle", "job", "--out", "back")[0] == 0
-    assert json.loads(Path("back/result.json").read_bytes())["apart"] is True
+    monkeypatch.setattr(PanicButton, "__call__", lambda _: next(asked) < 0)
+    assert command("trig", "palletise", "--blocks", "1", "--out", "whole")[0] == 0
+    for folder, far in (("on", 3500), ("back", next(asked) - 500)):
+        again = count()
+        monkeypatch.setattr(PanicButton, "__call__", lambda _, again=again, far=far: next(again) > far)
+        code, _, err = command("trig", "palletise", "--blocks", "1", "--out", folder)
+        assert (code, f"resume with: handeye resume {folder}" in err) == (130, True)
+        monkeypatch.setattr(PanicButton, "__call__", lambda _: False)
+        assert command("dismantle", folder, "--out", f"{folder}_apart")[0] == 0
+        assert json.loads(Path(f"{folder}_apart/result.json").read_bytes())["apart"] is True
+        assert not Path(f"{folder}_apart/job.json").exists()
+        assert command("resume", folder)[0] == 0
+        for name in ("job.json", "program.trig.json", "report.html", "trace.mcap"):
+            assert Path(folder, name).read_bytes() == Path("whole", name).read_bytes()
+        assert _without_host_time(folder) == _without_host_time("whole")
+
+
+def _without_host_time(folder: str) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads(Path(folder, "result.json").read_bytes())
+    for name in ("run_cpu_s", "run_wall_s", "real_time_factor"):
+        del result["timing"][name]
+    return result
 
 
 @pytest.mark.slow

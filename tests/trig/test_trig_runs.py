@@ -15,7 +15,7 @@ from handeye.execution.servo import Halted
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import all_right
 from handeye.report.judging import findings
-from handeye.report.taught_job import carry_out
+from handeye.report.taught_job import carried_out
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.folder import TRACE, RunFolder, open_again, open_new
@@ -263,5 +263,5 @@ def test_a_job_that_is_interrupted_is_not_sent_to_commands_of_an_editor() -> Non
     began = [False]
     runner = Runner(low_setup(0, seed=1), halt=lambda: began[0])
     began[0] = True
-    report = carry_out(runner, blocks=0).report
+    report = carried_out(runner)
     assert (report.outcome, report.told) == ("halted", ("0 steps done; interrupted",))

@@ -1,9 +1,10 @@
 """Record of an executed step: what it takes to undo it by motion."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 import msgspec
 
+from handeye.events import AskedBy
 from handeye.program.guards import GuardKind
 from handeye.record import Record
 
@@ -45,7 +46,7 @@ class Undoing(Record, frozen=True, kw_only=True):
     """Executed steps that are to be left."""
     halts: bool = False
     """The run ends there; otherwise the program can go on."""
-    asked_by: Literal["person", "program"] = "person"
+    asked_by: AskedBy = "person"
     lets_go: Natural | None = None
     """The index of the step that took the screw on the bit: undone, it leaves it where it was."""
     held: float | None = None

@@ -28,6 +28,17 @@ class Executed(Record, frozen=True, kw_only=True):
     """The program began with it."""
 
 
+class Turn(Record, frozen=True, kw_only=True):
+    """Where a job had the arm turn back, to undo what it did."""
+
+    steps: int
+    """Executed by then."""
+    ended: bool
+    """The program had come to its end."""
+    time: float
+    """s, by the clock of the run."""
+
+
 class TaughtState(SystemState, kw_only=True):
     """Everything but the steps."""
 
@@ -35,6 +46,8 @@ class TaughtState(SystemState, kw_only=True):
     """The node that was carried out before the step to do next."""
     undoing: Undoing | None = None
     """The arm undoes what it did, so far."""
+    turn: Turn | None = None
+    """The job is on its way back, or back; None: it is not, or what is undone is undone for somebody else."""
     obstacle: Obstacle | None = None
     """What it has met there, and was stopped by."""
     rounds: dict[int, int] = msgspec.field(default_factory=dict)
@@ -63,7 +76,7 @@ class TaughtState(SystemState, kw_only=True):
         executed = self.executed(plan)
         if undoing.left >= len(executed):
             raise InvalidInput("there is nothing to undo")
-        self.undoing, self.stopped, self.onward, self.obstacle = undoing, None, None, None
+        self.undoing, self.stopped, self.onward, self.obstacle, self.turn = undoing, None, None, None, None
         self.at = executed[-1].step
 
     def executed(self, plan: TaughtPlan) -> list[Executed]:

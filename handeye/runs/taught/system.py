@@ -35,7 +35,7 @@ from handeye.record import Vector3
 from handeye.runs.setup import Setup
 from handeye.runs.system import Settable, Surroundings, System, SystemKind
 from handeye.runs.taught.plan import TaughtStep, decode, encode, imagined, listing
-from handeye.runs.taught.state import Executed, TaughtState
+from handeye.runs.taught.state import Executed, TaughtState, Turn
 from handeye.system_state import SystemState
 from handeye.tasks.benches import TaughtJob, TaughtPlan, open_job
 from handeye.trig.node import NONE, TOP
@@ -230,6 +230,8 @@ class TaughtSystem(System):
     def answer(self, choice: Choice) -> None:
         """Go on where the run stands: `retry` and `proceed` have the step done again, `skip` ends the program."""
         state = self._state
+        if state.undoing is None:
+            state.turn = None
         state.at = None if choice == "skip" else state.onward
         state.stopped, state.onward, state.obstacle = None, None, None
         self._around.emit(OperatorAnswered(time=self.time, choice=choice, step=state.at))
@@ -242,8 +244,15 @@ class TaughtSystem(System):
         return self._state.executed(self._plan)
 
     def undo(self, undoing: Undoing) -> None:
+        turn = Turn(steps=len(self.executed), ended=self._state.at is None, time=self.time)
         self._state.order(self._plan, undoing)
-        self._around.emit(UndoOrdered(time=self.time, left=undoing.left, halts=undoing.halts))
+        if undoing.asked_by == "job":
+            self._state.turn = turn
+            self.job.turn()
+        asked_by = undoing.asked_by
+        self._around.emit(
+            UndoOrdered(time=self.time, left=undoing.left, halts=undoing.halts, asked_by=asked_by)
+        )
 
     def finish(self) -> bool:
         state = self._state

@@ -74,7 +74,7 @@ def _ended(run: Recorded) -> Outcome:
     judged = None if run.result is None else run.result.judged
     if run.result is None or judged is None:
         return Outcome(kind="ended", time=run.ends)
-    checks = run.result.referee.values()
+    checks = run.result.checks
     return Outcome(
         kind="right" if judged else "wrong",
         time=run.ends,

@@ -14,12 +14,12 @@ from handeye.judge.finding import Findings
 from handeye.pose import Array, Pose
 from handeye.resources import plans
 from handeye.source import read_source
-from handeye.tasks.benches import JobName, Lying, TaughtJob
+from handeye.tasks.benches import JobName, Lying, Moment, TaughtJob
 from handeye.tasks.blocks.machine import machine
 from handeye.tasks.blocks.referee import judge_program
 from handeye.tasks.blocks.table import BlockTable
 from handeye.tasks.blocks.task import BUCKET, BUCKET_TASK, PALLET, lay
-from handeye.tasks.blocks.witness import Witness, block_poses
+from handeye.tasks.blocks.witness import Stood, Witness, stands
 from handeye.tasks.blocks.world import BlocksWorld
 from handeye.trig.axes_arm import AxesArm
 from handeye.trig.script import Script, type_script
@@ -69,15 +69,25 @@ class _Job(TaughtJob):
     def lay(self) -> None:
         lay(self._table, self._script)
 
-    def lying(self) -> tuple[Lying, ...]:
+    def lying(self, when: Moment) -> tuple[Lying, ...]:
         return tuple(
             Lying(name=name, at=_mm(X[:3, 3]), turned=round(math.degrees(math.atan2(X[1, 0], X[0, 0])), 3))
-            for name, X in self._taken()
+            for name, X in self._taken(self._stood(when).poses)
         )
 
-    def _taken(self) -> list[tuple[str, Pose]]:
+    def _stood(self, when: Moment) -> Stood:
+        began = self._witness.began
+        if when == "taught":
+            return began
+        turned = began.turned if when == "turned" else None
+        return turned or stands(self.bench.data, began.blocks)
+
+    def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
         """Names and poses of the blocks in the order in which they are taken."""
-        return list(block_poses(self.bench.data, self._witness.began.blocks).items())
+        return list(poses.items())
+
+    def turn(self) -> None:
+        self._witness.turn(self.bench.data)
 
 
 class PalletJob(_Job):
@@ -85,8 +95,15 @@ class PalletJob(_Job):
 
     task, undoable = PALLET, True
 
-    def _taken(self) -> list[tuple[str, Pose]]:
-        return super()._taken()[::-1]
+    def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
+        return super()._taken(poses)[::-1]
+
+    def built(self) -> Findings:
+        return PALLET.judge_built(self._witness.began, self._stood("turned"))
+
+    @property
+    def stack(self) -> int:
+        return len(self._witness.began.blocks)
 
     def remembered(self) -> Findings:
         program = self.session.program

@@ -12,7 +12,7 @@ from handeye.pose import Array
 from handeye.tasks.benches import read_taught_plan
 from handeye.tasks.blocks.referee import judge_back, judge_dropped, judge_hand, judge_placed
 from handeye.tasks.blocks.table import BlockTable
-from handeye.tasks.blocks.witness import SEEN, Began, block_poses, hand
+from handeye.tasks.blocks.witness import SEEN, Began, Stood, stands
 from handeye.tasks.blocks.world import BlocksWorld
 from handeye.tasks.interface import AnyTask, Words
 from handeye.trig.hearing import stripped
@@ -48,9 +48,6 @@ class _BlocksTask(AnyTask):
         lay(table, read_taught_plan(plan, "the plan of the run").script)
         return table.bench.model
 
-    def _ends_at(self, truth: Truth, name: str) -> Finding:
-        return judge_hand(hand(truth.data), np.array(began(truth).place(name)), "ends")
-
 
 class Pallet(_BlocksTask):
     """A stack is put into a pallet of three rows and five columns."""
@@ -61,16 +58,18 @@ class Pallet(_BlocksTask):
     )
 
     def judge(self, truth: Truth) -> Findings:
-        before = began(truth).poses
-        placed = judge_placed(before, block_poses(truth.data, before), self.places(began(truth)))
-        return {**placed, "hand": self._ends_at(truth, "DONE")}
+        return self.judge_built(began(truth), stands(truth.data, began(truth).blocks))
+
+    def judge_built(self, seen: Began, stood: Stood) -> Findings:
+        """Findings on the finished work, as it stood at a moment."""
+        placed = judge_placed(seen.poses, stood.poses, self.places(seen))
+        return {**placed, "hand": _ends_at(seen, stood, "DONE")}
 
     def judge_apart(self, truth: Truth) -> Findings:
         seen = began(truth)
-        return {
-            **judge_back(seen.poses, block_poses(truth.data, seen.blocks)),
-            "hand": judge_hand(hand(truth.data), np.array(seen.hand), "began"),
-        }
+        stood = stands(truth.data, seen.blocks)
+        back = judge_hand(np.array(stood.hand), np.array(seen.hand), "began")
+        return {**judge_back(seen.poses, stood.poses), "hand": back}
 
     def places(self, seen: Began) -> list[Place]:
         """Where the hand lets go one block after another, as it was taught."""
@@ -90,13 +89,20 @@ class Bucket(_BlocksTask):
     words = Words(product="the bucket", done="The block is in the bucket, and another one in its place.")
 
     def judge(self, truth: Truth) -> Findings:
-        blocks = [*block_poses(truth.data, began(truth).blocks).values()]
+        seen = began(truth)
+        stood = stands(truth.data, seen.blocks)
+        blocks = [*stood.poses.values()]
         if len(blocks) != _DROPPED:
             raise InvalidInput(
                 f"the referee looks at {_DROPPED} blocks, and the script has laid {len(blocks)}"
             )
-        place: Array = np.array(began(truth).place("BLOCK")[:2])
-        return {**judge_dropped(blocks[0], BUCKET, place, blocks[1]), "hand": self._ends_at(truth, "CENTER")}
+        place: Array = np.array(seen.place("BLOCK")[:2])
+        dropped = judge_dropped(blocks[0], BUCKET, place, blocks[1])
+        return {**dropped, "hand": _ends_at(seen, stood, "CENTER")}
+
+
+def _ends_at(seen: Began, stood: Stood, name: str) -> Finding:
+    return judge_hand(np.array(stood.hand), np.array(seen.place(name)), "ends")
 
 
 def lay(table: BlockTable, script: str) -> None:
