@@ -5,6 +5,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from msgspec import UNSET
 from trig_bench import low_job, low_setup
 
 import handeye
@@ -14,11 +15,13 @@ from handeye.events import OperatorCalled, StepFinished
 from handeye.execution.servo import Halted
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import all_right
+from handeye.report.finishing import outcome
 from handeye.report.judging import findings
-from handeye.report.taught_job import carried_out
+from handeye.report.taught_job import account, carried_out
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.folder import TRACE, RunFolder, open_again, open_new
+from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -265,3 +268,24 @@ def test_a_job_that_is_interrupted_is_not_sent_to_commands_of_an_editor() -> Non
     began[0] = True
     report = carried_out(runner)
     assert (report.outcome, report.told) == ("halted", ("0 steps done; interrupted",))
+
+
+def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch) -> None:
+    runner = low_job(0, seed=1)
+    advance(runner)
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    runner.have_undone(0, halts=True, asked_by="job")
+    stepper = Stepper(runner)
+    stepper.do("continue")
+    events = [*runner.events]
+    refused = stepper.do("skip")
+    assert refused.error is not None
+    assert refused.error.startswith("no step is skipped on the way back")
+    assert (runner.events, runner.call is not None) == (events, True)
+    result = outcome(runner, stepper.pause, Meter(), judged=True)
+    assert (result.completed, result.apart, result.exit_code) == (False, UNSET, 1)
+    assert account(runner, stepper.pause, result).outcome == "stopped"
+    monkeypatch.undo()
+    assert stepper.do("proceed").error is None
+    assert stepper.do("continue").error is None
+    assert outcome(runner, stepper.pause, Meter(), judged=True).apart is True

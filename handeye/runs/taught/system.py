@@ -228,8 +228,17 @@ class TaughtSystem(System):
         self._around.emit(state.stopped)
 
     def answer(self, choice: Choice) -> None:
-        """Go on where the run stands: `retry` and `proceed` have the step done again, `skip` ends the program."""
+        """Go on where the run stands: `retry` and `proceed` have the step done again, `skip` ends the program.
+
+        Raises:
+            InvalidInput: a step is to be skipped that the arm undoes.
+        """
         state = self._state
+        if choice == "skip" and state.undoing is not None:
+            raise InvalidInput(
+                "no step is skipped on the way back, where each begins as the last one ends: "
+                "`proceed` has it undone again, `abort` ends the run"
+            )
         if state.undoing is None:
             state.turn = None
         state.at = None if choice == "skip" else state.onward
