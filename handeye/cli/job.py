@@ -15,11 +15,11 @@ from handeye.cli.prompt import PipedLines, typed_already, typed_lines
 from handeye.cli.reports import write_report
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
-from handeye.debugger.command_table import COMMANDS
+from handeye.debugger.command_table import commands_of
 from handeye.debugger.formatting import MOST
 from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
-from handeye.debugger.views import TOPICS
+from handeye.debugger.views import topics
 from handeye.errors import InvalidInput
 from handeye.events import beginning
 from handeye.execution.servo import Halted
@@ -239,7 +239,8 @@ class _Work:
         if self.job.server is not None and self.newest is not None:
             return self._stepped_in_browser(stepper, self.job.server, self.newest)
         names = [name for settable in runner.system.settables().values() for name in settable.names]
-        words = [*(command.name for command in COMMANDS), *TOPICS, *runner.listing.labels, *names]
+        commands = (command.name for command in commands_of(runner))
+        words = [*commands, *topics(runner), *runner.listing.labels, *names]
         lines, live = self._lines(words)
         if self.folder is None and self.job.checkpoints is None:
             note("nothing is kept without --out FOLDER; `checkpoint FILE` keeps a state")

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 from handeye.debugger.breakpoints import stage_number
+from handeye.debugger.choices import choices
 from handeye.debugger.formatting import shown_lines
 from handeye.debugger.listing import excerpt, excerpt_lines, numbered_stage
 from handeye.debugger.views import show
@@ -59,10 +60,11 @@ class Ask:
         if word == "show":
             self._say(shown_lines(show(runner, rest)))
             return None
-        choice = _CHOICES.get(word[:1])
-        if choice is None or rest or not choice.startswith(word):
+        choice, given = _CHOICES.get(word[:1]), choices(runner)
+        if choice is None or rest or not choice.startswith(word) or choice not in (*given, "abort"):
             said = quoted(f"{word} {rest}".strip())
-            raise InvalidInput(f"{said} is not an answer; answer p, r, s, b, u, a or show")
+            letters = ", ".join(name[0] for name in given)
+            raise InvalidInput(f"{said} is not an answer; answer {letters}, b, u, a or show")
         return choice
 
     def _say(self, lines: Sequence[str]) -> None:
@@ -93,17 +95,10 @@ def _question(runner: Runner, sentence: str) -> list[str]:
 
 def _choices(runner: Runner) -> list[str]:
     """Tell what can be said, and what it does here."""
-    program, onward = runner.listing, runner.onward
-    first = next(step.place for step in program.steps if step.stage == runner.stage)
-    where = (
-        "to the end of the program" if onward is None else f"continue at line {program.steps[onward].place}"
-    )
     return [
-        f"p          proceed: {where}",
-        f"r          retry the stage from line {first}, with the world as it is now",
-        "s          skip the rest of the stage",
+        *(f"{word[0]:10} {does}" for word, does in choices(runner).items()),
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
         "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
         "a          abort",
-        "show       show joints, hand, force, saved differences, parts and so on",
+        "show       show the state of the run, or a topic of it",
     ]

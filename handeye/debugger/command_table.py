@@ -1,6 +1,7 @@
 """The commands of the stepper as a table, from which reading and help derive."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 from handeye.debugger import commands as acts
@@ -8,9 +9,11 @@ from handeye.debugger.breakpoints import meant
 from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.reply import CommandResult
 from handeye.debugger.session import DebugSession
-from handeye.debugger.views import TOPICS
+from handeye.debugger.views import topics
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
+from handeye.runs.programs import ProgramSystem
+from handeye.runs.runner import Runner
 
 StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 
@@ -34,33 +37,64 @@ def find(line: str) -> tuple[StepperCommand, str]:
     return named[0], rest
 
 
-def manual() -> str:
+def commands_of(runner: Runner) -> tuple[StepperCommand, ...]:
+    """The commands that do something in a run, with what they do there."""
+    if isinstance(runner.system, ProgramSystem):
+        return COMMANDS
+    return tuple(replace(c, help=_TAUGHT.get(c.usage, c.help)) for c in COMMANDS if c.name not in _OF_PLANS)
+
+
+def manual(runner: Runner) -> str:
     """All commands, for people who see them for the first time."""
-    out = [
-        "The script is carried out a step at a time. A step is a line that does something, together with the",
-        "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
-    ]
-    out += rows(COMMANDS)
+    head, places, units = _ABOUT if isinstance(runner.system, ProgramSystem) else _ABOUT_TAUGHT
     return "\n".join(
         [
-            *out,
+            *head,
+            *rows(commands_of(runner)),
             "",
-            "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
-            "stage or a piece of its name, or an error (error:23). WHAT is one of",
-            f"    {', '.join(TOPICS)}.",
-            "Units: inches, degrees, ounces. On a terminal an empty line repeats the last step, stage",
+            *places,
+            f"    {', '.join(topics(runner))}.",
+            f"Units: {units}. On a terminal an empty line repeats the last step, stage",
             "or continue.",
         ]
     )
 
 
-def _help(_: DebugSession, rest: str) -> CommandResult:
+def _help(hands: DebugSession, rest: str) -> CommandResult:
     if not rest:
-        return CommandResult(said=manual())
+        return CommandResult(said=manual(hands.runner))
     name = find(rest.partition(" ")[0])[0].name
-    return CommandResult(
-        said="\n".join(f"{each.shown}: {each.help}" for each in COMMANDS if each.name == name)
-    )
+    told = [f"{each.shown}: {each.help}" for each in commands_of(hands.runner) if each.name == name]
+    if not told:
+        raise InvalidInput(f"`{name}` has nothing to do in a run of a taught program")
+    return CommandResult(said="\n".join(told))
+
+
+_ABOUT: Final = (
+    (
+        "The script is carried out a step at a time. A step is a line that does something, together with the",
+        "STOP, FORCE, FREE, TORQUE and RESTORE lines that belong to it; the arrow stands before the next one.",
+    ),
+    (
+        "PLACE is a line (58; pins.al:3 in a required file), a label (L1), an instruction (AOJ), a",
+        "stage or a piece of its name, or an error (error:23). WHAT is one of",
+    ),
+    "inches, degrees, ounces",
+)
+"""On steps, on places, and the units."""
+_ABOUT_TAUGHT: Final = (
+    ("The program is carried out a step at a time, as it was taught; the arrow stands before the next one.",),
+    ("PLACE is a line (8), the name of a step, or what steps do (LOOP, GRASP). WHAT is one of",),
+    "millimetres, degrees, newtons",
+)
+_OF_PLANS: Final = ("picture", "set")
+"""Commands that do something in a plan of motions alone."""
+_TAUGHT: Final = {
+    "proceed": "have the step done again, or undone again, that called",
+    "retry": "the same as `proceed`",
+    "skip": "end the program here; on the way back no step is skipped",
+}
+"""What commands do in the run of a taught program, where that is something else."""
 
 
 _GOING, _BACK, _BREAKS, _LOOKING = "Continuing", "Going back in time", "Breakpoints", "Inspecting"

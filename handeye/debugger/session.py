@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final, Literal
 
 from handeye.debugger.breakpoints import breakpoint
+from handeye.debugger.choices import choices
 from handeye.debugger.listing import SourceLine, excerpt
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Break
@@ -169,7 +170,8 @@ class DebugSession:
         if runner.trouble is not None:
             return f"the run cannot continue from here, only go back: {runner.trouble}"
         if runner.call is not None:
-            return "the operator is called: answer `proceed`, `retry`, `skip` or `abort`, go back, or `undo`"
+            given = ", ".join(f"`{word}`" for word in choices(runner))
+            return f"the operator is called: answer {given} or `abort`, go back, or `undo`"
         return "the program has ended: `back` goes back from here, `quit` leaves"
 
     def back_to(self, position: int) -> None:

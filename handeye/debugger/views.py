@@ -1,7 +1,7 @@
 """Looking at a run that pauses: what the arm's own sensors say, and what the program remembers."""
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -43,16 +43,21 @@ def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:
     Raises:
         InvalidInput: no such topic, or the picture cannot be written.
     """
-    topics = TOPICS if isinstance(runner.system, ProgramSystem) else PLAIN
-    names = [_topic(word, topics) for word in what.split()] or [n for n in topics if n != "positions"]
+    known = topics(runner)
+    names = [_topic(word, known) for word in what.split()] or [n for n in known if n != "positions"]
     fields: dict[str, Any] = {}
     for name in names:
-        field, look = topics[name]
+        field, look = known[name]
         fields[field] = look(runner)
     last = fields.get("picture")
     if last is not None and pictures is not None:
         fields["picture"] = _kept(runner, last.name, pictures)
     return Shown(**fields)
+
+
+def topics(runner: Runner) -> "Topics":
+    """What of a run can be shown."""
+    return TOPICS if isinstance(runner.system, ProgramSystem) else PLAIN
 
 
 def write_picture(runner: Runner, file: Path) -> str:
@@ -197,12 +202,14 @@ def _named(table: dict[str, Array]) -> dict[str, Vector3]:
     return {name: _inches(difference) for name, difference in sorted(table.items())}
 
 
-PLAIN: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
+Topics = Mapping[str, tuple[str, Callable[[Runner], Any]]]
+"""Topics: the field of the answer, and how to look."""
+PLAIN: Final[Topics] = {
     "time": ("time_s", lambda runner: runner.elapsed),
     "state": ("state", lambda runner: runner.system.shown),
 }
 """Topics of any system."""
-TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
+TOPICS: Final[Topics] = {
     "time": ("time_s", lambda runner: runner.elapsed),
     "joints": ("joints", _joints),
     "hand": ("hand", _hand),
@@ -217,4 +224,4 @@ TOPICS: Final[dict[str, tuple[str, Callable[[Runner], Any]]]] = {
     "picture": ("picture", _picture),
     "positions": ("positions", _positions),
 }
-"""Topics: the field of the answer, and how to look."""
+"""Topics of a plan of motions."""

@@ -69,6 +69,11 @@ def inches(vector: Sequence[float], places: int = 2) -> str:
     return "(" + ", ".join(f"{c / INCH:z.{places}f}" for c in vector) + ") in"
 
 
+def millimetres(vector: Sequence[float]) -> str:
+    """A vector (m) as TRIG would write it."""
+    return "(" + ", ".join(f"{c / MILLIMETRE:z.1f}" for c in vector) + ") mm"
+
+
 def renderer_name(renderer: Renderer) -> str:
     """How pictures are made: `OpenGL (EGL)`, `ray casting`, `none`, `the caller's code (fog.Foggy)`."""
     named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none", "replaced": "the caller's code"}[

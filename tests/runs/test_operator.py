@@ -204,7 +204,7 @@ def test_the_question_says_what_happened_where_and_what_can_be_said(runner: Runn
         "b [STAGE]  go back in time to the beginning of this stage, or of an earlier one",
         "u [STAGE]  unwind: the arm undoes what it did, as far as that, and the program goes on from there",
         "a          abort",
-        "show       show joints, hand, force, saved differences, parts and so on",
+        "show       show the state of the run, or a topic of it",
     ]
 
 

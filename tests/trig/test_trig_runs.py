@@ -9,9 +9,11 @@ from msgspec import UNSET
 from trig_bench import low_job, low_setup
 
 import handeye
+from handeye.debugger.ask import Ask
+from handeye.debugger.choices import choices
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
-from handeye.events import OperatorCalled, StepFinished
+from handeye.events import Choice, OperatorCalled, StepFinished
 from handeye.execution.servo import Halted
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import all_right
@@ -22,6 +24,7 @@ from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.folder import TRACE, RunFolder, open_again, open_new
 from handeye.runs.host_seconds import Meter
+from handeye.runs.operator import attend
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
@@ -289,3 +292,41 @@ def test_no_step_is_skipped_that_the_arm_undoes(monkeypatch: pytest.MonkeyPatch)
     assert stepper.do("proceed").error is None
     assert stepper.do("continue").error is None
     assert outcome(runner, stepper.pause, Meter(), judged=True).apart is True
+
+
+def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    runner = low_job(0, seed=1)
+    stepper = Stepper(runner)
+    manual = str(stepper.do("help").said)
+    assert all(word not in manual for word in ("set saved", "picture", "inches", "repeat the stage", "AOJ"))
+    assert stepper.do("help set").error == "`set` has nothing to do in a run of a taught program"
+    hand, _, grasp = stepper.do("step 3").did[1:]
+    assert hand.outcome.startswith("hand at (")
+    assert hand.outcome.endswith(") mm")
+    assert grasp.outcome == "gap 0.0 mm"
+    monkeypatch.setattr(AxesArm, "back", lambda *_: Resisted(force=4.0, limit=3.0))
+    called = stepper.do("undo 3")
+    assert called.said == "the operator is called: answer `proceed`, `retry` or `abort`, go back, or `undo`"
+    said: list[str] = []
+    answers = Ask(iter(["s", "a"]), said.append)
+    pause = attend(runner, answers)
+    assert pause.kind == "operator"
+    assert [line[:1] for line in said[0].splitlines()[-6:]] == ["p", "r", "b", "u", "a", "s"]
+    assert "is not an answer; answer p, r, b, u, a or show" in said[1]
+
+
+@pytest.mark.parametrize(("answer", "at"), [("proceed", 1), ("retry", 1), ("skip", None)])
+def test_each_answer_to_a_taught_program_does_what_is_said(
+    monkeypatch: pytest.MonkeyPatch, answer: Choice, at: int | None
+) -> None:
+    runner = low_job(0, seed=1)
+    advance(runner, steps=1)
+    monkeypatch.setattr(AxesArm, "check_travel", _refused)
+    assert advance(runner).kind == "operator"
+    assert answer in choices(runner)
+    runner.answer(answer)
+    assert (runner.at, runner.call) == (at, None)
+
+
+def _refused(*_: object) -> None:
+    raise InvalidInput("the arm cannot go there")

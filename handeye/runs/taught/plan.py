@@ -17,6 +17,8 @@ from handeye.trig.script import Script, type_script
 from handeye.trig.step_words import step_words
 from handeye.trig.symbols import ASCII
 
+HANDS: Final = ("grasp", "ungrasp")
+"""Words of steps that work the hand alone."""
 PATIENCE: Final = 100_000
 """How often an imagined arm may ask whether to halt: a program that is run while it is taught must end."""
 
