@@ -36,11 +36,11 @@ def show(folder: Folder, /, *, json: Json = False) -> int:
 def _way_on(folder: Path, result: "Result") -> str:
     """Tell how a run is gone on with: from Python, if code of its caller belongs to it."""
     from handeye.runs.parts import deciding
-    from handeye.tasks import known
+    from handeye.tasks import known_any
 
     parts = deciding(result.replaced or {})
     own = [f"{part} {quoted(name)}" for part, name in parts.items()]
-    if known(result.task) is None:
+    if known_any(result.task) is None:
         own.append(f"task {quoted(result.task)}")
     if not own:
         return f"resume with: handeye resume {shlex.quote(str(folder))}"

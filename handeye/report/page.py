@@ -10,7 +10,7 @@ from rich.text import Text
 
 from handeye.diagnostics import visible
 from handeye.report.result import Check, Result
-from handeye.tasks import known
+from handeye.tasks import known, known_any
 from handeye.tasks.interface import Period, Words
 
 TimingRow = tuple[str, float, float | None]
@@ -188,7 +188,7 @@ def verdict(result: Result) -> Text:
         return _apart(result)
     if result.assembled is None:
         return Text("The program came to its end.", "bold")
-    task = known(result.task)
+    task = known_any(result.task)
     words = _NEUTRAL if task is None else task.words
     if result.assembled:
         doubt = "; ".join(result.cautions)
@@ -203,7 +203,7 @@ def _apart(result: Result) -> Text:
     """The last word on a run in which the arm has undone what it did."""
     if result.apart is None:
         return Text("Undone as far as was asked for.", "bold")
-    task = known(result.task)
+    task = known_any(result.task)
     words = _NEUTRAL if task is None else task.words
     wrong = "; ".join(wrong_points(result))
     if not result.apart:

@@ -85,6 +85,11 @@ def known(name: str) -> Task | None:
     return found
 
 
+def known_any(name: str) -> AnyTask | None:
+    """The task of a name, whatever kind of system does it; None: as for `known`."""
+    return any_task(name) if name in _TAUGHT else known(name)
+
+
 def _imported(place: tuple[str, str]) -> Any:
     module, value = place
     return getattr(import_module(module), value)

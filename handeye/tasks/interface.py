@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from handeye.arm.model import ArmModel, digest
 from handeye.diagnostics import quoted
@@ -119,6 +119,14 @@ class AnyTask(ABC):
     photographs: tuple[str, ...] = ()
     """Cameras of the scene whose view of the end is kept for people."""
 
+    force_axes: str = "world axes"
+    """The axes that forces of the hand are told along."""
+
+    @property
+    @abstractmethod
+    def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
+        """Names of the arm's joints, and whether each turns or slides."""
+
     @abstractmethod
     def variation(self, seed: int) -> Variation:
         """The quantities in which worlds differ; some seeds may stand for worlds of another make."""
@@ -158,6 +166,11 @@ class Task(AnyTask):
     """Positions at which the hand, or what it holds, meets something, by the name of the operation."""
     trials: Mapping[str, Trial[Any]] = MappingProxyType({})
     """Trials in many worlds without carrying out a program."""
+
+    @property
+    def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
+        """Names of the arm's joints, and whether each turns or slides."""
+        return {joint.name: joint.kind for joint in self.arm.joints}
 
     def fixtures(self) -> Mapping[str, Fixture]:
         """What the planner keeps motions clear of where the program has not been taught otherwise."""

@@ -11,7 +11,7 @@ from handeye.errors import InvalidInput
 from handeye.events import AnyEvent
 from handeye.pose import Array
 from handeye.program.stage_names import stage_index
-from handeye.tasks import known
+from handeye.tasks import known_any
 from handeye.trace.stages import Stage
 from handeye.trace.steps import Span
 from handeye.trace.trace import Trace
@@ -110,8 +110,8 @@ def _stages(trace: Trace) -> Iterator[Stage]:
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
     """A panel for the joints that turn, one for those that slide and the fingers; SI where the arm is not known."""
-    task = known(trace.head.task)
-    kinds = {} if task is None else {joint.name: joint.kind for joint in task.arm.joints}
+    task = known_any(trace.head.task)
+    kinds = {} if task is None else task.joint_kinds
     times = trace.times[rows] - trace.head.time
     motion = trace.motion
     turning, sliding, others = [], [Curve(name="gap", times=times, values=trace.gaps[rows] / INCH)], []

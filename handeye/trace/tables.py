@@ -6,11 +6,11 @@ from typing import Final
 
 import numpy as np
 
-from handeye.arm.model import ArmModel
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, StageStarted, StepStarted
 from handeye.pose import Array
-from handeye.tasks import known
+from handeye.tasks import known_any
+from handeye.tasks.interface import AnyTask
 from handeye.trace.resuming import event_data
 from handeye.trace.sentences import sentence
 from handeye.trace.steps import CLOCKS
@@ -42,13 +42,13 @@ def tables(trace: Trace) -> tuple[Table, ...]:
 
 
 def _joints(trace: Trace) -> Table:
-    task = known(trace.head.task)
-    motion, arm = trace.motion, None if task is None else task.arm
+    task = known_any(trace.head.task)
+    motion, kinds = trace.motion, {} if task is None else task.joint_kinds
     columns = [
         Column(
             name=f"{name.replace(' ', '_')}_{what}",
             about=f"{what} of the joint {name}",
-            unit=_joint_unit(arm, name, what),
+            unit=_UNITS[kinds[name]][what] if name in kinds else "",
             values=values[:, number],
         )
         for number, name in enumerate(motion.names)
@@ -65,11 +65,6 @@ _UNITS: Final = {
     "revolute": {"position": "rad", "rate": "rad/s", "torque": "N m"},
     "prismatic": {"position": "m", "rate": "m/s", "torque": "N"},
 }
-
-
-def _joint_unit(arm: ArmModel | None, name: str, what: str) -> str:
-    kinds = {} if arm is None else {joint.name: joint.kind for joint in arm.joints}
-    return _UNITS[kinds[name]][what] if name in kinds else ""
 
 
 def _forces(trace: Trace) -> Table:
@@ -93,8 +88,10 @@ def _forces(trace: Trace) -> Table:
         Column(name="value", about="what it looks at: N, N m, or finger switches", values=forces.value[rows]),
         Column(name="limit", about="what it allows of that", values=forces.limit[rows]),
     ]
+    task = known_any(trace.head.task)
+    axes = AnyTask.force_axes if task is None else task.force_axes
     about = (
-        "What the hand felt, in the servo periods in which that was estimated or a guard watched; world axes."
+        f"What the hand felt, in the servo periods in which that was estimated or a guard watched; {axes}."
     )
     if not forces.recorded:
         about += " The trace does not hold it: it was reckoned from joints and torques."

@@ -172,6 +172,7 @@ def test_a_job_that_is_interrupted_on_its_way_is_resumed_and_dismantled(
         monkeypatch.setattr(PanicButton, "__call__", lambda _, again=again, far=far: next(again) > far)
         code, _, err = command("trig", "palletise", "--blocks", "1", "--out", folder)
         assert (code, f"resume with: handeye resume {folder}" in err) == (130, True)
+        assert command("show", folder)[2] == f"resume with: handeye resume {folder}\n"
         monkeypatch.setattr(PanicButton, "__call__", lambda _: False)
         assert command("dismantle", folder, "--out", f"{folder}_apart")[0] == 0
         assert json.loads(Path(f"{folder}_apart/result.json").read_bytes())["apart"] is True

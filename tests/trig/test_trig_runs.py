@@ -35,7 +35,9 @@ from handeye.runs.taught.state import TaughtState
 from handeye.runs.undo_orders import to_be_undone
 from handeye.runs.verify import difference
 from handeye.tasks.benches import JobName, TaughtPlan, open_job
+from handeye.trace.plot import plot
 from handeye.trace.reading import read_trace
+from handeye.trace.tables import tables
 from handeye.trig.axes_arm import ArmMemory, AxesArm
 from handeye.trig.obstacles import Resisted
 from handeye.trig.place import Place
@@ -99,6 +101,14 @@ def test_its_trace_is_verified_by_carrying_it_out_again(tmp_path: Path, whole: P
     assert trace.joints.shape[1] == 6
     pressed = trace.forces(4).force[:, 2]  # BOTTOM, which feels for a block
     assert pressed.max() - pressed.min() > 0.5
+
+
+def test_its_tables_and_plots_name_units_and_axes(whole: Path) -> None:
+    trace = read_trace(whole / TRACE)
+    joints, forces, _ = tables(trace)
+    assert [c.unit for c in joints.columns if c.name.endswith("_rate")] == [*3 * ["m/s"], *3 * ["rad/s"]]
+    assert forces.about.endswith("; the hand's own axes.")
+    assert [panel.unit for panel in plot(trace).panels] == ["deg", "in", "oz"]
 
 
 def test_going_back_in_time_and_forward_again_is_the_same() -> None:

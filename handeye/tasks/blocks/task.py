@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from handeye.errors import InvalidInput
 from handeye.judge.finding import Finding, Findings
 from handeye.pose import Array
 from handeye.tasks.benches import read_taught_plan
+from handeye.tasks.blocks.machine import SPECS
 from handeye.tasks.blocks.referee import judge_back, judge_dropped, judge_hand, judge_placed
 from handeye.tasks.blocks.table import BlockTable
 from handeye.tasks.blocks.witness import SEEN, Began, Stood, stands
@@ -35,6 +37,12 @@ _DROPPED: Final = 2
 
 class _BlocksTask(AnyTask):
     """Something that is done with blocks on the platter."""
+
+    force_axes = "the hand's own axes"
+
+    @property
+    def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
+        return {spec.name: spec.kind for spec in SPECS}
 
     def variation(self, seed: int) -> Variation:
         """Nothing: worlds of these tasks are drawn from their numbers alone (`tasks/blocks/world.py`)."""
