@@ -26,11 +26,16 @@ def step_words(graph: Graph, positions: Positions, cell: Cell, symbols: Symbols)
     if node.type == "top":
         return TOP_NAME.lower(), "", "name"
     if node.type == "loop":
-        target = graph.target(node)
-        name = UNNAMED if target is None else target.name or UNNAMED
-        return f"LOOP {_cut(name, symbols)} {node.wanted} ({node.count})", "", "loop"
+        return f"{loop_words(graph, node, symbols)} ({node.count})", "", "loop"
     name = _cut(node.name or UNNAMED, symbols)
     return name, _deed(node, positions, symbols), _STYLES.get(node.type, "hand")
+
+
+def loop_words(graph: Graph, node: Node, symbols: Symbols) -> str:
+    """A loop as it is typed: the step that it goes back to, and how often."""
+    target = graph.target(node)
+    name = UNNAMED if target is None else target.name or UNNAMED
+    return f"LOOP {_cut(name, symbols)} {node.wanted}"
 
 
 def _deed(node: Node, positions: Positions, symbols: Symbols) -> str:

@@ -13,7 +13,7 @@ from handeye.debugger.ask import Ask
 from handeye.debugger.choices import choices
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
-from handeye.events import Choice, OperatorCalled, StepFinished
+from handeye.events import Choice, OperatorCalled, StepFinished, StepStarted
 from handeye.execution.servo import Halted
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import all_right
@@ -101,6 +101,23 @@ def test_its_trace_is_verified_by_carrying_it_out_again(tmp_path: Path, whole: P
     assert trace.joints.shape[1] == 6
     pressed = trace.forces(4).force[:, 2]  # BOTTOM, which feels for a block
     assert pressed.max() - pressed.min() > 0.5
+
+
+def test_a_loop_is_listed_as_it_is_typed_and_told_with_its_round() -> None:
+    runner = low_job(3, seed=1)
+    assert [step.text for step in runner.listing.steps if step.word == "loop"] == [
+        "LOOP GET-BLOCK 2",
+        "LOOP GET-BLOCK 4",
+    ]
+    advance(runner)
+    told = [event.text for event in runner.events if isinstance(event, StepStarted) and "LOOP" in event.text]
+    assert told == [
+        "LOOP GET-BLOCK 2, goes back (1 of 2)",
+        "LOOP GET-BLOCK 2, goes back (2 of 2)",
+        "LOOP GET-BLOCK 2, goes on",
+        "LOOP GET-BLOCK 4, goes back (1 of 4)",
+    ]
+    assert runner.system.shown["rounds"] == {"16 LOOP GET-BLOCK 2": 0, "19 LOOP GET-BLOCK 4": 1}
 
 
 def test_its_tables_and_plots_name_units_and_axes(whole: Path) -> None:

@@ -14,7 +14,7 @@ from handeye.trig.layout import Cell
 from handeye.trig.node import NONE, Node
 from handeye.trig.program import TrigProgram
 from handeye.trig.script import Script, type_script
-from handeye.trig.step_words import step_words
+from handeye.trig.step_words import loop_words, step_words
 from handeye.trig.symbols import ASCII
 
 HANDS: Final = ("grasp", "ungrasp")
@@ -121,15 +121,32 @@ def listing(plan: TaughtPlan) -> TaughtListing:
 
 def _step(program: TrigProgram, node: Node, numbers: Mapping[int, int]) -> TaughtStep:
     graph, number = program.graph, numbers[node.id]
-    shown, deed, _ = step_words(graph, program.positions, Cell(row=number, column=0, node=node), ASCII)
     return TaughtStep(
         node=node.id,
         line=number + 1,
-        text=" ".join(filter(None, (shown if node.name or not deed else "", deed))),
+        text=_text(program, node, number),
         word=node.type,
         label=node.name or "",
         ways=tuple(_ways(graph, node, numbers)),
     )
+
+
+def _text(program: TrigProgram, node: Node, number: int) -> str:
+    """What a step does, whatever the round: how often a loop has gone back is no part of it."""
+    if node.type == "loop":
+        return loop_words(program.graph, node, ASCII)
+    shown, deed, _ = step_words(
+        program.graph, program.positions, Cell(row=number, column=0, node=node), ASCII
+    )
+    return " ".join(filter(None, (shown if node.name or not deed else "", deed)))
+
+
+def text_now(step: TaughtStep, node: Node) -> str:
+    """A step as it is about to be carried out: of a loop, whether it goes back, and the how-manieth time that is."""
+    if node.type != "loop":
+        return step.text
+    back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"
+    return f"{step.text}, {back}"
 
 
 def _ways(graph: Graph, node: Node, numbers: Mapping[int, int]) -> list[int | None]:

@@ -34,7 +34,7 @@ from handeye.pose import Array
 from handeye.record import Vector3
 from handeye.runs.setup import Setup
 from handeye.runs.system import Settable, Surroundings, System, SystemKind
-from handeye.runs.taught.plan import TaughtStep, decode, encode, imagined, listing
+from handeye.runs.taught.plan import TaughtStep, decode, encode, imagined, listing, text_now
 from handeye.runs.taught.state import Executed, TaughtState, Turn
 from handeye.system_state import SystemState
 from handeye.tasks.benches import TaughtJob, TaughtPlan, open_job
@@ -141,7 +141,8 @@ class TaughtSystem(System):
         if state.stage is None:
             state.stage = step.stage
             self._around.emit(StageStarted(time=self.time, stage=self._plan.job))
-        self._around.emit(StepStarted(time=self.time, step=number, line=step.line, text=step.text))
+        text = text_now(step, self.job.session.program.graph[step.node])
+        self._around.emit(StepStarted(time=self.time, step=number, line=step.line, text=text))
         refused = self._carried_out(step)
         hand, gap = self._hand()
         self._around.emit(StepFinished(time=self.time, step=number, hand=hand, planned=None, gap=gap))
@@ -295,9 +296,14 @@ class TaughtSystem(System):
             "gap": round(arm.gap / MILLIMETRE, 3),
             "force": [round(float(each), 3) for each in self._force()],
             "executed": len(self.executed),
-            "rounds": {self._steps[self._numbers[loop.id]].place: loop.count for loop in loops},
+            "rounds": {self._shown(loop.id): loop.count for loop in loops},
             "positions": named,
         }
+
+    def _shown(self, node: int) -> str:
+        """Line and text of a step."""
+        step = self._steps[self._numbers[node]]
+        return f"{step.place} {step.text}"
 
     def settables(self) -> Mapping[str, Settable]:
         return {}
