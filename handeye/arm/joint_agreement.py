@@ -15,8 +15,8 @@ SLID: Final = 0.01
 (.0015 rad, .24 mm), the waviness of a potentiometer (.003 rad), half a step of the tachometer's converter for five
 seconds (.007 rad, 1.3 mm)."""
 SHARE: Final = 0.05
-"""Share of the way by which they may differ besides: scales off by .2 % (potentiometers), and what a converter and a
-servo period lose of a rate that changes. Placeholder."""
+"""Share of the way by which they may differ besides: scales off by .2 % (potentiometers), and what a converter loses.
+Placeholder."""
 
 
 RESTED: Final = 4
@@ -55,16 +55,25 @@ class JointAgreement:
     """Tachometers a servo period ago."""
     _way: Array = field(init=False)
     _path: Array = field(init=False)
+    _between: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        self._way, self._path = np.zeros(len(self.start)), np.zeros(len(self.start))
+        self._way, self._path, self._between = (np.zeros(len(self.start)) for _ in range(3))
 
     def step(self, q: Array, qd: Array) -> Disagreement | None:
-        """Look at the readings of the next servo period; the joint whose sensors disagree most, if any do."""
-        gone = (self.rate + qd) / 2 * self.arm.servo.period
+        """Look at the readings of the next servo period; the joint whose sensors disagree most, if any do.
+
+        Nobody knows how the rate went from one reading to the next: between them the joint went as far as with either
+        of them, or between that, and half their difference is what their mean may be wrong by. Where a joint is struck,
+        as by a casting that comes off what it stuck to, that is several degrees.
+        """
+        period = self.arm.servo.period
+        gone, unknown = (self.rate + qd) / 2 * period, np.abs(qd - self.rate) / 2 * period
         self._way, self._path, self.rate = self._way + gone, self._path + np.abs(gone), qd
+        self._between = self._between + unknown
         by_pot = q - self.start
-        allowed = np.where(constants(self.arm).prismatic, SLID, TURNED) + SHARE * self._path
+        slack = np.where(constants(self.arm).prismatic, SLID, TURNED)
+        allowed = slack + SHARE * self._path + self._between
         excess = np.abs(by_pot - self._way) / allowed
         joint = int(np.argmax(excess))
         if excess[joint] <= 1:
