@@ -44,6 +44,8 @@ BESIDE: Final = 0.3 * INCH
 BEFORE_STEP: Final = 0.38
 BRIGHT: Final = 0.65
 """In the picture before: share of the contrast that is a border, and of the face's level that is face."""
+ROUNDS: Final = 2
+"""Times that the largest hole of the base is looked for: from where it should be, and from where that has found it."""
 RAYS: Final = 32
 WINDOW: Final = 9
 """Neighbouring rays whose median counts: a quarter of the rim, wider than what an aligning pin hides."""
@@ -58,7 +60,7 @@ class GasketInspection:
     cause: InspectionCause | None
     """Why it is not on properly; None: it is."""
     expected: tuple[tuple[float, float], ...]
-    """Where the centres of the large holes should be, by the pose of the base."""
+    """Where the centres of the large holes should be: by the pose of the base, moved to where its largest is seen."""
     found: tuple[tuple[float, float] | None, ...]
     """Where they are found in the difference."""
     shift: float | None
@@ -91,7 +93,7 @@ def inspect(
     if len(part.holes) < 2:
         raise InvalidInput("a gasket can be inspected only by two holes; the program gives fewer of the part")
     new, old = Scan(difference(before, after)), Scan(before)
-    places = hole_places(part, pose)[:2]
+    places = _as_seen(old, view, part, hole_places(part, pose)[:2])
     expected = tuple((float(u), float(v)) for u, v in view.project(places))
     pairs = list(zip(places, part.holes, strict=False))
     outside = tuple(
@@ -118,6 +120,28 @@ def inspect(
 
 
 _NAMES: Final[tuple[LargeHole, LargeHole]] = ("largest", "second")
+
+
+def _as_seen(old: Scan, view: View, part: Part, places: Array) -> Array:
+    """Places of the base's holes, shape (2, 3), m, moved by what the largest lies off its own in the picture before.
+
+    The mount stands beside what its potentiometers tell, by more than the border of a hole is wide at times; the arm
+    knows the place of the base better than that. Where the hole is not found, they are as they were.
+    """
+    for _ in range(ROUNDS):
+        steps = _base_steps(old, view, places[0], part.holes[0])
+        fitted = _centre(old, view, places[0], part.holes[0], steps.before, steps.face)
+        if fitted is None:
+            return places
+        places = places + (np.array([*fitted, places[0][2]]) - places[0])
+    return places
+
+
+class _BaseSteps(NamedTuple):
+    """Levels: least step across a border in the picture before, and what is face there."""
+
+    before: float
+    face: float
 
 
 class _Steps(NamedTuple):
@@ -157,14 +181,16 @@ def _check(name: LargeHole, new: Scan, old: Scan, view: View, place: Array, hole
 def _levels(new: Scan, old: Scan, view: View, place: Array, hole: Hole) -> _Steps:
     """Steps for one hole. The darkest quarter of its surroundings counts: a shadow may lie across."""
     gasket = float(np.percentile(_around(new, view, place, hole), 25))
+    base = _base_steps(old, view, place, hole)
+    return _Steps(after=max(STEP[0], STEP[1] * gasket), before=base.before, face=base.face)
+
+
+def _base_steps(old: Scan, view: View, place: Array, hole: Hole) -> _BaseSteps:
+    """Steps for one hole in the picture before."""
     face = float(np.percentile(_around(old, view, place, hole), 25))
     u, v = view.project(place)[0]
     inside = float(np.median(old.patches(np.array([[u, v]]), 3)))
-    return _Steps(
-        after=max(STEP[0], STEP[1] * gasket),
-        before=max(STEP[0], BEFORE_STEP * (face - inside)),
-        face=BRIGHT * face,
-    )
+    return _BaseSteps(before=max(STEP[0], BEFORE_STEP * (face - inside)), face=BRIGHT * face)
 
 
 def _around(scan: Scan, view: View, place: Array, hole: Hole) -> Array:
