@@ -25,7 +25,9 @@ M:      MOVE    S
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
         SAVE    DS
-        CHANGE  [0 0 1] 1.5
+        FREE    [1 1 0]
+        CHANGE  [0 0 1] .8      ;its hole guides the screw out, and the screw the socket: else it hangs askew
+        CHANGE  [0 0 1] .7
 
 ; That screw once more, when the hand came without it: the socket stood on the edge of its head, .1 in higher than over it.
 DEFINE REFETCH S NR
@@ -47,7 +49,9 @@ R:      SKIPN   6               ;all places tried
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .3 .2
         SAVE    DS
-        CHANGE  [0 0 1] 1.5
+        FREE    [1 1 0]
+        CHANGE  [0 0 1] .8      ;its hole guides the screw out, and the screw the socket: else it hangs askew
+        CHANGE  [0 0 1] .7
 
 ; That screw into a hole, to the torque stop. One that was not on the bit is fetched once more; one that stands wrong,
 ; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
