@@ -15,7 +15,7 @@ place = "        TRANS   S7 [6 43.8 6.37 90 90 0]\n"
 
 # One more call of the script's macro, before the screwdriver goes back into its rack.
 rack = script.rindex("        RACK")
-text = place + script[:rack] + "        SCREW   S7 H6 7\n" + script[rack:]
+text = place + script[:rack] + "        SCREW   S7 H6 Y1 7\n" + script[rack:]
 
 before, after = handeye.plan(script, taught=taught), handeye.plan(text, taught=taught)
 for plan in (before, after):

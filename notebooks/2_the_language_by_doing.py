@@ -148,7 +148,7 @@ print(text[text.rindex("        DRIVER") : rack])
 # %%
 new_place = "        TRANS   S7 [6 43.8 6.37 90 90 0] ;the seventh place of the dispenser\n"
 new_hole = "[positions]\nH6 = { at = [0.004, -1.598, 6.874, -90, 89.98, 0], of = 'PUMP' }\n"
-seven = new_place + text[:rack] + "        SCREW   S7 H6 7\n" + text[rack:]
+seven = new_place + text[:rack] + "        SCREW   S7 H6 Y1 7\n" + text[rack:]
 places = (handeye.scripts / "water_pump.toml").read_text().replace("[positions]\n", new_hole, 1)
 
 # %%

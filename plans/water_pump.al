@@ -55,13 +55,13 @@ R:      SKIPN   6               ;all places tried
 
 ; That screw into a hole, to the torque stop. One that was not on the bit is fetched once more; one that stands wrong,
 ; meets no torque, or stops high is driven again, four times in all, from where its hole was felt.
-DEFINE SCREW S H NR
+DEFINE SCREW S H ACROSS NR
         ASSIGN  TAKEN 2
         FETCH   S
 TRY:    ASSIGN  N 4
         SEARCH  .05
 K:      MOVE    H
-        RESTORE Y1
+        RESTORE ACROSS          ;where the pin at that end of the base stands
         RESTORE X2
         RESTORE HS LEVEL        ;one hole found helps to find the others
         STOP    [0 0 -30]
@@ -449,6 +449,12 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
         OPEN    1
+        MOVE    Q2Y
+        RESTORE Y1
+        RESTORE X2
+        CENTER  .1
+        SAVE    Y2              ;and across it: the base may be turned
+        OPEN    1
         MOVE    FACE            ;over the web of the base
         RESTORE Y1
         RESTORE X2
@@ -559,8 +565,8 @@ TOPPED: OPEN    1.6             ;for the screwdriver
 
         STAGE   "drive the first two screws"
         DRIVER
-        SCREW   S1 H0 1
-        SCREW   S2 H2 2
+        SCREW   S1 H0 Y1 1
+        SCREW   S2 H2 Y1 2
         RACK
 
         STAGE   "take out the aligning pins"
@@ -569,10 +575,10 @@ TOPPED: OPEN    1.6             ;for the screwdriver
 
         STAGE   "drive the last four screws"
         DRIVER
-        SCREW   S3 H5 3
-        SCREW   S4 H1 4
-        SCREW   S5 H4 5
-        SCREW   S6 H3 6
+        SCREW   S3 H5 Y2 3
+        SCREW   S4 H1 Y1 4
+        SCREW   S5 H4 Y2 5
+        SCREW   S6 H3 Y1 6
         RACK
 
         STAGE   "turn the rotor"
