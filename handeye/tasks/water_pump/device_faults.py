@@ -146,7 +146,7 @@ def _screwdriver() -> Iterator[DeviceFault]:
     yield _fault(f"{motor}.dead", "The screwdriver's motor never turns.", motor, DEAD)
     yield _fault(
         "magnet.weak", "So much is left of the force of the bit's magnet, which holds a screw.", "magnet", Scaled,
-        Size(unit="%", usual=5.0, limits=_LEFT),
+        Size(unit="%", usual=1.0, limits=_LEFT),
     )  # fmt: skip
 
 
