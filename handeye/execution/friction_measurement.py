@@ -81,11 +81,21 @@ def measure_joints(
     periods: list[ServoPeriod] = []
     drive = ArmDrive(cell=cell, arm=arm, state=state, watch=periods.append, halt=halt)
     slow, quick = (_drag(drive, periods, way) for way in (SLOW, QUICK))
-    coulomb = (QUICK.rate * slow.rubbing - SLOW.rate * quick.rubbing) / (QUICK.rate - SLOW.rate)
+    coulomb = at_rest(slow.rubbing, quick.rubbing)
     links = mass_factors(arm, state.q, slow.weight)
     _check_weighed(arm, links)
     _check_rubbing(arm, coulomb)
     return Joints(friction=np.maximum(coulomb, 0.0), links=links)
+
+
+def at_rest(slow: Array, quick: Array) -> Array:
+    """Coulomb friction by the friction in both passes, shape (n,): the line through them, where it meets rate 0.
+
+    No friction falls with the rate here: of a joint that seems so, the line of least squares that does not is level.
+    """
+    line = (QUICK.rate * slow - SLOW.rate * quick) / (QUICK.rate - SLOW.rate)
+    level = (SLOW.seconds * slow + QUICK.seconds * quick) / (SLOW.seconds + QUICK.seconds)
+    return np.asarray(np.where(quick >= slow, line, level))
 
 
 def _check_weighed(arm: ArmModel, links: Array) -> None:

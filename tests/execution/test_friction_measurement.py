@@ -12,7 +12,7 @@ from robots import ROBOTS
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
-from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
+from handeye.execution.friction_measurement import FrictionUnknown, at_rest, measure_joints
 from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
 from handeye.faults import Fault
@@ -63,6 +63,13 @@ def test_the_pump_s_arm_finds_its_friction_with_wrong_masses_and_wrong_sensors(t
     found = measure_joints(cell, STANFORD, DriveState.holding(cell.sense(), STANFORD)).friction
     off = np.abs(found - world.arm_build.friction)
     assert (off < stated(STANFORD, world.arm_build.friction)).all()
+
+
+def test_friction_that_seems_to_fall_with_the_rate_is_taken_for_level() -> None:
+    """In world 51049 of the high level that line told 1.88 of a joint that rubs 1.41 times as it should."""
+    np.testing.assert_allclose(
+        at_rest(np.array([1.2, 1.71]), np.array([1.4, 1.36])), [1.1, 1.5933], atol=1e-4
+    )
 
 
 def rubbing(world: PumpWorld, times: float = 1.0) -> PumpWorld:
