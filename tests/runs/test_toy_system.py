@@ -196,6 +196,6 @@ def test_a_system_that_moves_nothing_lacks_no_motions_in_its_trace(tmp_path: Pat
 
 def test_its_result_has_stages_and_no_camera() -> None:
     runner = answered(Runner(begin_toy()))
-    result = summary(runner, advance(runner), findings=None, host=HostSeconds(run_wall_s=1.0))
+    result = summary(runner, advance(runner), findings=None, built={}, host=HostSeconds(run_wall_s=1.0))
     assert [(stage.name, stage.status) for stage in result.stages] == [("count", "done"), ("ask", "done")]
     assert (result.completed, result.camera.renderer) == (True, "none")
