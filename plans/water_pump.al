@@ -18,9 +18,12 @@ M:      MOVE    S
         SKIPN   23
         WAIT    "NO SCREW AT {S}"
         TRAVEL  .17 .40         ;socket over the head, or beside it?
-        SKIPN   8
+        SKIPE   8
+        JUMP    OVER
+        HEIGHT  RIM -.05 .05    ;as high as over the last one? On the edge of a head it stands .1 in higher
+        SKIPN   9
         AOJ     M
-        SAVE    RIM
+OVER:   SAVE    RIM
         STOP    [0 0 -45]
         FREE    [1 1 0]
         CHANGE  [0 0 -1] .3 .2  ;and on to the head, where its edge has met the ring
@@ -116,7 +119,7 @@ HOME:   CHANGE  [0 0 1] 1
 
 ; The screwdriver out of its rack, its place felt both ways.
 DEFINE DRIVER
-        OPEN    1.6
+        OPEN    2.2
         MOVE    D
         CENTER  .5
         SAVE    DRV             ;where the driver really is across the fingers
@@ -234,6 +237,15 @@ DEFINE LIFT
         WAIT    "THE GASKET CANNOT BE TAKEN UP AGAIN"
         CLOSE   .7
         CHANGE  [0 0 1] 2
+
+; Down to the flange of the top on its stand, a finger on each side of its hub.
+DEFINE BESTRIDE
+        MOVE    TOPUP
+        STOP    [0 0 -25]
+        CHANGE  [0 0 -1] .8 .5
+        SKIPN   23
+        WAIT    "NO TOP IS ON ITS STAND"
+        CHANGE  [0 0 1] .15
 
 ; The top that is held, onto the pins: likewise. CENTER knows where it is along y.
 DEFINE COVER
@@ -448,9 +460,8 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         OPEN    .5
         CENTER  .1
         SAVE    X2              ;where its hole is, along the line of centres
-        OPEN    1
+        OPEN    1.2
         MOVE    Q2Y
-        RESTORE Y1
         RESTORE X2
         CENTER  .1
         SAVE    Y2              ;and across it: the base may be turned
@@ -522,10 +533,23 @@ ANEW:   LIFT                    ;both pictures again, the arm elsewhere: its sha
         LAY
         MOVE    ASIDE
         JUMP    CHECK
-RIGHT:  OPEN    2.8             ;for the top
+RIGHT:  OPEN    3.4             ;for the top: .6 in beside its hub on each side
 
         STAGE   "put on the top"
-        MOVE    TOP
+        BESTRIDE
+        CLOSE   2               ;its hub into the line of the hand, and its narrow end: so the top is turned straight.
+        OPEN    3.4             ;fingers that close on the hub alone wedge it as it lies
+        MOVE    TOPEND
+        STOP    [0 0 -25]
+        CHANGE  [0 0 -1] .8 .5  ;beside it, down to the stand
+        SKIPN   23
+        WAIT    "NO STAND IS UNDER THE TOP"
+        CHANGE  [0 0 1] .1
+        CLOSE   1.5
+        SKIPN   2
+        WAIT    "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
+        OPEN    3.4
+        BESTRIDE
         CENTER  2
         CLOSE   2 2.4
         LOAD    36
@@ -561,7 +585,7 @@ PINS:   FEEL    T1END           ;do both still stand?
         SKIPN   23
         WAIT    "PIN 2 DOES NOT STAND: THE TOP HAS DRAWN IT OUT"
         CHANGE  [0 0 1] 1
-TOPPED: OPEN    1.6             ;for the screwdriver
+TOPPED: OPEN    2.2             ;for the screwdriver
 
         STAGE   "drive the first two screws"
         DRIVER

@@ -18,7 +18,7 @@ from handeye.units import INCH, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
 
-ONE = f"{MACROS}        DRIVER\n        SCREW   S1 H0 1\n"
+ONE = f"{MACROS}        DRIVER\n        SCREW   S1 H0 Y1 1\n"
 
 
 @cache
