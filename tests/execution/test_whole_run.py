@@ -77,7 +77,7 @@ def test_row_55_every_screw_ends_by_torque(whole: Whole, stage: str, screws: int
 @pytest.mark.parametrize("stage", ["insert the aligning pins", "take out the aligning pins"])
 def test_row_55_two_pins_go_in_and_two_come_out(whole: Whole, stage: str) -> None:
     texts = [e.text for e in whole.during(stage) if isinstance(e, StepStarted)]
-    places = {m[1] for text in texts if (m := re.match(r"MOVE\s+([PTQ]\d\b)", text))}
+    places = {m[1] for text in texts if (m := re.match(r"MOVE\s+([PTQ]\d)(?:UP)?\b", text))}
     assert places == ({"P1", "P2", "T1", "T2"} if stage.startswith("insert") else {"P1", "P2", "Q1", "Q2"})
 
 

@@ -34,8 +34,9 @@ def lay_gasket(assembly: Assembly) -> None:
 
 def lay_top(assembly: Assembly) -> Array:
     """Take the top by its hub, and lay it on the pins; where it comes to lie, x, y and turn, shape (n, 3)."""
-    off = layer_on_stand(assembly.worlds, "top")[:, :3, 3] - assembly.hand("TOP")[:, :3, 3]
-    assembly.fits("top", "TOP", off, dimensions()("top.hub_flats"))
+    over = "TOPUP" if "TOPUP" in assembly.ways else "TOP"  # the careful program comes down from there
+    off = layer_on_stand(assembly.worlds, "top")[:, :3, 3] - assembly.hand(over)[:, :3, 3]
+    assembly.fits("top", over, off, dimensions()("top.hub_flats"))
     laid = _lay(assembly, "top", "TOP", "TOPON", np.zeros(3))
     assembly.window("top", "TOPON", Travel, laid[:, 2] - base_top() - dimensions()("gasket.thickness"))
     return _between_pins(assembly, "top", laid[:, [0, 1, 3]])

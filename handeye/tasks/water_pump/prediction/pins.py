@@ -63,6 +63,12 @@ def insert(assembly: Assembly, pin: Pin) -> None:
     assembly.centre(pin.put, pin.along, home - hand[:, :3, 3])
 
 
+def ask_across(assembly: Assembly) -> None:
+    """Feel where the second pin stands across the base, too, as the careful program does."""
+    if "Q2Y" in assembly.ways:
+        assembly.centre("Q2Y", "Y2", _hole(assembly, PINS[1]) - assembly.hand("Q2Y")[:, :3, 3])
+
+
 def take_out(assembly: Assembly, pin: Pin) -> None:
     """Take a pin out of the base, and put it back."""
     d, operation = dimensions(), f"unpin {pin.number}"

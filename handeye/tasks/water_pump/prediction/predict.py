@@ -22,7 +22,7 @@ from handeye.units import INCH
 from handeye.variation import WorldSpec
 
 GOALS: Final = (
-    "A", "B", *(goal for pin in pins.PINS for goal in pin.positions), "GUP", "GON", "TOP", "TOPON", "FACE", "D",
+    "A", "B", *(goal for pin in pins.PINS for goal in pin.positions), "GUP", "GON", "TOPON", "FACE", "D",
     "DX", *(goal for screw in screws.SCREWS for goal in (screw.fetched, screw.driven)), "DUP", "CRANK",
 )  # fmt: skip
 """Positions that every program of the pump goes to."""
@@ -45,11 +45,13 @@ def predict(
         )
     assembly = Assembly(worlds=Worlds(world, seeds), program=program, without=frozenset(without))
     lacking = [goal for goal in GOALS if goal not in assembly.ways]
+    lacking += ["TOP"] if assembly.ways.keys().isdisjoint({"TOP", "TOPUP"}) else []
     if lacking:
         raise InvalidInput(f"the prediction is of the pump's program; this one never goes to {lacking[0]}")
     grasping.grasp(assembly)
     for pin in pins.PINS:
         pins.insert(assembly, pin)
+    pins.ask_across(assembly)
     layers.save_heights(assembly)
     layers.lay_gasket(assembly)
     top = layers.lay_top(assembly)
