@@ -7,6 +7,7 @@ Inside the program every quantity is SI: metres, radians, newtons, newton metres
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -52,6 +53,33 @@ UNITS: Final = {
     )
 }
 """Units by name; the last is that of a plain number."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measures:
+    """The units in which people are told lengths and forces of a run."""
+
+    length: Unit
+    places: int
+    """Of a length behind its point."""
+    force: Unit
+
+    def place(self, p: Sequence[float]) -> str:
+        """A place (m) as they read it: `(1.00, -2.50, 0.00) in`."""
+        return f"({', '.join(map(self._number, p))}) {self.length.name}"
+
+    def distance(self, metres: float) -> str:
+        """A length as they read it."""
+        return f"{self._number(metres)} {self.length.name}"
+
+    def _number(self, metres: float) -> str:
+        return f"{metres / self.length.size:z.{self.places}f}"
+
+
+INCHES: Final = Measures(length=UNITS["in"], places=2, force=UNITS["oz"])
+"""Those of the arm language."""
+MILLIMETRES: Final = Measures(length=UNITS["mm"], places=1, force=UNITS["N"])
+"""Those of TRIG."""
 
 _WRITTEN: Final = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*", re.IGNORECASE | re.ASCII)
 

@@ -27,12 +27,11 @@ from handeye.host_time import HostTimer
 from handeye.judge.finding import all_right
 from handeye.report.cautions import cautions, losses
 from handeye.report.finishing import finished
-from handeye.report.job_folder import write_job
 from handeye.report.judging import findings
 from handeye.report.page import page
 from handeye.report.progress import Progress
 from handeye.report.result import Result, to_json
-from handeye.report.taught_job import account, carry_out, ends_job, system_of
+from handeye.report.taught_job import carry_out
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
 from handeye.runs.folder import PICTURES, REPORT, RunFolder, open_new
@@ -324,7 +323,6 @@ class _Work:
         if pause.kind == "break" and job.halfway and self.folder is None:
             self._keep(runner.checkpoint())
         result = finished(runner, pause, self.meter, judged=job.referee, folder=self.folder)
-        self._leave_job(runner, pause, result)
         self._print(result)
         self._report()
         if pause.kind in ("break", "operator"):
@@ -332,13 +330,6 @@ class _Work:
         elif self.folder is not None:
             note(f"saved in {self.folder.path}")
         return result.exit_code
-
-    def _leave_job(self, runner: Runner, pause: Pause, result: Result) -> None:
-        """Leave the account of a taught job in the folder of its run, if that is over."""
-        if self.folder is None or not ends_job(runner, result):
-            return
-        program = system_of(runner).job.session.program
-        write_job(self.folder.path, account(runner, pause, result), program)
 
     def _report(self) -> None:
         """Leave a page of the run in its folder, if that is wanted; the run is what it is, whatever comes of that."""

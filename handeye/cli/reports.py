@@ -99,11 +99,14 @@ def page_of(run: Path) -> bytes:
     Raises:
         InvalidInput: there is none, or an older handeye recorded it.
     """
+    from handeye.report.job_folder import kept_job_page
     from handeye.see.animation import animation
     from handeye.see.facts.scene import check_scene
     from handeye.see.page.document import report_page
     from handeye.see.photographs import album
 
+    if (job := kept_job_page(run)) is not None:
+        return job
     recorded = read_recorded(run)
     check_scene(recorded)
     return report_page(recorded, album(recorded), animation(recorded))

@@ -132,8 +132,8 @@ def _carried_out(
     video: "JobVideo | None",
 ) -> "tuple[JobReport, TaughtJob]":
     """Teach a job and carry it out; what it comes to is in its folder before anybody can break it off."""
-    from handeye.report.finishing import finished, outcome
-    from handeye.report.job_folder import write_job
+    from handeye.report.finishing import finished
+    from handeye.report.outcome import outcome
     from handeye.report.taught_job import account, carry_out, system_of
     from handeye.runs.host_seconds import Meter
 
@@ -149,16 +149,13 @@ def _carried_out(
         if video is not None:
             video.watch(job)
         pause = carry_out(runner, tell=note)
-        if pause.kind == "panic":
-            result = outcome(runner, pause, meter, judged=True)
-        else:
+        if pause.kind != "panic":
             result = finished(runner, pause, meter, judged=True, folder=folder)
-        done = account(runner, pause, result)
-        if folder is not None and pause.kind == "panic":
-            folder.close()
-        elif folder is not None:
-            write_job(folder.path, done, job.session.program)
-    return done, job
+        else:
+            result = outcome(runner, pause, meter, judged=True)
+            if folder is not None:
+                folder.close()
+    return account(runner, pause, result), job
 
 
 def _taught(

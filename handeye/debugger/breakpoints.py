@@ -11,6 +11,7 @@ from handeye.errors import ERRORS, InvalidInput
 from handeye.program.stage_names import stage_called, stage_index
 from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
 from handeye.runs.system import Listing
+from handeye.runs.taught.plan import TaughtListing
 from handeye.source import line_name
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
@@ -25,12 +26,16 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
             instruction word (every step that begins with it); a stage, by its name or a piece of it.
 
     Raises:
-        InvalidInput: there is nothing of that name, or more than one stage.
+        InvalidInput: there is nothing of that name, more than one stage, or an error that no step can raise.
     """
     text = text.strip()
     if not text:
         raise InvalidInput("give an error (error:23), a line, a label, an instruction or a stage")
     if error := _ERROR.fullmatch(text):
+        if isinstance(listing, TaughtListing):
+            raise InvalidInput(
+                "steps of a taught program raise no errors; where the arm is stopped, the run stops"
+            )
         return _on_error(error["number"] or error["any"])
     place = named_place(text, listing)
     if place is not None:

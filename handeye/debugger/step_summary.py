@@ -9,8 +9,8 @@ from handeye.plain_text import one_line
 from handeye.record import Record
 from handeye.runs.system import Listing
 from handeye.runs.taught.plan import HANDS, TaughtListing
-from handeye.trace.sentences import inches, millimetres, sentence
-from handeye.units import INCH, MILLIMETRE
+from handeye.trace.sentences import sentence
+from handeye.units import INCHES, MILLIMETRES
 
 _BETWEEN: Final = (
     happened.StageStarted,
@@ -83,9 +83,8 @@ def _end(group: Sequence[AnyEvent], step: happened.StepStarted, program: Listing
     last = next((event for event in group if isinstance(event, happened.StepFinished)), None)
     if last is None or last.time == step.time:
         return ""
-    taught, facts = isinstance(program, TaughtListing), program.steps[step.step]
+    measures = MILLIMETRES if isinstance(program, TaughtListing) else INCHES
+    facts = program.steps[step.step]
     if (facts.needs == "hand" or facts.word in HANDS) and last.gap is not None:
-        return f"gap {last.gap / MILLIMETRE:z.1f} mm" if taught else f"gap {last.gap / INCH:z.2f} in"
-    if last.hand is None:
-        return ""
-    return f"hand at {millimetres(last.hand) if taught else inches(last.hand)}"
+        return f"gap {measures.distance(last.gap)}"
+    return "" if last.hand is None else f"hand at {measures.place(last.hand)}"

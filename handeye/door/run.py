@@ -26,8 +26,9 @@ from handeye.errors import InvalidInput
 from handeye.events import AnyEvent
 from handeye.files import check_place
 from handeye.plain_text import counted
-from handeye.report.finishing import finished, outcome
+from handeye.report.finishing import finished
 from handeye.report.judging import Referee
+from handeye.report.outcome import outcome
 from handeye.report.pauses import pause_sentence
 from handeye.report.pictures import annotated_webp
 from handeye.report.result import Result

@@ -1,17 +1,15 @@
-"""The end of a run, or a pause in it: account, verdict, pictures and result."""
-
-import msgspec
-from msgspec import UNSET
+"""The end of a run, or a pause in it: account, verdict, pictures and result, in its folder."""
 
 from handeye.files import write_whole
-from handeye.report.judging import Referee, findings, findings_built
+from handeye.report.job_folder import write_job
+from handeye.report.judging import Referee
+from handeye.report.outcome import outcome
 from handeye.report.pictures import keep_pictures
 from handeye.report.result import Result, to_json
-from handeye.report.summary import summary
+from handeye.report.taught_job import account, ends_job, system_of
 from handeye.runs.advance import Pause
 from handeye.runs.folder import PICTURES, RESULT, RunFolder
 from handeye.runs.host_seconds import Meter
-from handeye.runs.parts import deciding, name_of
 from handeye.runs.runner import Runner
 
 
@@ -25,6 +23,8 @@ def finished(
     folder: RunFolder | None = None,
 ) -> Result:
     """Finish a run, unless it only pauses; its result, which is kept in its folder with the pictures.
+
+    The result is written last: where there is one, all else is there, too.
 
     Args:
         meter: measures what the run costs the host.
@@ -40,20 +40,7 @@ def finished(
     if folder is not None:
         folder.close()
         keep_pictures(folder.path / PICTURES, runner)
+        if ends_job(runner, result):
+            write_job(folder.path, account(runner, pause, result), system_of(runner).job.session.program)
         write_whole(folder.path / RESULT, to_json(result))
     return result
-
-
-def outcome(
-    runner: Runner, pause: Pause, meter: Meter, *, judged: bool, referee: Referee | None = None
-) -> Result:
-    """The result of a run as it pauses, which nothing is done to; arguments are those of `finished`."""
-    asked = judged and pause.kind != "break"
-    found = findings(runner, pause, referee) if asked else None
-    built = findings_built(runner) if asked else {}
-    result = summary(runner, pause, findings=found, built=built, host=meter.seconds(runner))
-    others = deciding(runner.setup.replaced) | ({} if referee is None else {"referee": name_of(referee)})
-    limits = runner.setup.limits if found is not None and referee is None else None
-    return msgspec.structs.replace(
-        result, limits=limits or UNSET, replaced=others or UNSET, without=runner.setup.without or UNSET
-    )

@@ -7,7 +7,7 @@ from typing import Final
 from handeye.markup import Markup
 from handeye.plain_text import counted
 from handeye.report.taught_job import JobReport, Outcome
-from handeye.see.page.document import head, resource
+from handeye.see.page.document import MARK, head, resource
 from handeye.see.page.elements import element, joined, note, section
 from handeye.see.page.plots import Scale, dot, drawing, rule, words
 from handeye.see.page.referee import findings_table
@@ -48,7 +48,7 @@ def job_page(done: JobReport, program: TrigProgram) -> bytes:
         element("main", note(_facts(done)), *_ends(done), *_sections(done, program)),
     )
     page = element("html", head(title, resource("page.css"), []), body, lang="en")
-    return f"<!doctype html>\n{page}\n".encode()
+    return f"{MARK}{page}\n".encode()
 
 
 def _facts(done: JobReport) -> str:

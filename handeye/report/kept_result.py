@@ -50,7 +50,7 @@ def _bring_up_to_date(result: dict[str, Any]) -> tuple[str, ...]:
             missing.append(name)
     checks = result.get("referee")
     for check in checks.values() if isinstance(checks, dict) else ():
-        _restore_figures(check)
+        restore_figures(check)
         _complete(check)
     timing = result.get("timing")
     return (*missing, *(_retimed(timing) if isinstance(timing, dict) else ()))
@@ -71,7 +71,7 @@ def _retimed(timing: dict[str, Any]) -> tuple[str, ...]:
     return _ADDED
 
 
-def _restore_figures(check: Any) -> None:
+def restore_figures(check: Any) -> None:
     """Give a finding the figures back that JSON has no numbers for: what is not finite is null there."""
     for name in ("value", "limit"):
         if isinstance(check, dict) and name in check and check[name] is None:

@@ -5,7 +5,7 @@ from typing import Final, Literal
 
 from handeye.plain_text import counted
 from handeye.record import Record
-from handeye.report.finishing import outcome
+from handeye.report.outcome import outcome
 from handeye.report.result import Check, Result
 from handeye.runs.advance import Pause, advance
 from handeye.runs.host_seconds import Meter

@@ -20,6 +20,7 @@ from handeye.pose import Array
 from handeye.program.program import Fixture, Part, Program
 from handeye.program.senses import Sense
 from handeye.tasks.trial import Trial
+from handeye.units import INCHES, Measures
 from handeye.variation import Variation, WorldSpec
 from handeye.vision.camera_model import CameraModel, View
 
@@ -121,6 +122,8 @@ class AnyTask(ABC):
 
     force_axes: str = "world axes"
     """The axes that forces of the hand are told along."""
+    measures: Measures = INCHES
+    """The units in which people are told of its runs."""
 
     @property
     @abstractmethod

@@ -1,4 +1,4 @@
-"""What a plot of a trace shows: joints, force and events against time, in the units of the arm language."""
+"""What a plot of a trace shows: joints, force and events against time, in the units of those who read it."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from handeye.tasks import known_any
 from handeye.trace.stages import Stage
 from handeye.trace.steps import Span
 from handeye.trace.trace import Trace
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.units import DEGREE, INCHES, Measures
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -110,37 +110,42 @@ def _stages(trace: Trace) -> Iterator[Stage]:
 
 def _joints(trace: Trace, rows: slice) -> Iterator[Panel]:
     """A panel for the joints that turn, one for those that slide and the fingers; SI where the arm is not known."""
-    task = known_any(trace.head.task)
+    task, measures = known_any(trace.head.task), _measures(trace)
     kinds = {} if task is None else task.joint_kinds
     times = trace.times[rows] - trace.head.time
-    motion = trace.motion
-    turning, sliding, others = [], [Curve(name="gap", times=times, values=trace.gaps[rows] / INCH)], []
+    motion, length = trace.motion, measures.length
+    turning, sliding, others = [], [Curve(name="gap", times=times, values=trace.gaps[rows] / length.size)], []
     for number, name in enumerate(motion.names):
         values = motion.joints[rows, number]
         match kinds.get(name):
             case "revolute":
                 turning.append(Curve(name=name, times=times, values=values / DEGREE))
             case "prismatic":
-                sliding.append(Curve(name=name, times=times, values=values / INCH))
+                sliding.append(Curve(name=name, times=times, values=values / length.size))
             case _:
                 others.append(Curve(name=name, times=times, values=values))
     for name, unit, curves in (
         ("joints that turn", "deg", turning),
-        ("joints that slide, fingers", "in", sliding),
+        ("joints that slide, fingers", length.name, sliding),
         ("joints", "SI", others),
     ):
         if curves:
             yield Panel(name=name, unit=unit, curves=tuple(curves))
 
 
+def _measures(trace: Trace) -> Measures:
+    task = known_any(trace.head.task)
+    return INCHES if task is None else task.measures
+
+
 def _forces(trace: Trace, rows: slice) -> Panel:
-    forces = trace.forces()
+    forces, unit = trace.forces(), _measures(trace).force
     times = forces.times[rows] - trace.head.time
     curves = (
-        Curve(name=axis, times=times, values=forces.force[rows, number] / OUNCE_FORCE)
+        Curve(name=axis, times=times, values=forces.force[rows, number] / unit.size)
         for number, axis in enumerate("xyz")
     )
-    return Panel(name="force of the hand", unit="oz", curves=tuple(curves))
+    return Panel(name="force of the hand", unit=unit.name, curves=tuple(curves))
 
 
 def _marks(trace: Trace, begin: float, end: float) -> Iterator[Mark]:

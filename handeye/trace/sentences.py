@@ -12,7 +12,7 @@ from handeye.plain_text import counted, told_apart
 from handeye.ports.camera import Renderer
 from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence
 from handeye.program.guards import GuardKind
-from handeye.units import DEGREE, INCH, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH
+from handeye.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 
 LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.RunStarted: Log.INFO,
@@ -69,11 +69,6 @@ def inches(vector: Sequence[float], places: int = 2) -> str:
     return "(" + ", ".join(f"{c / INCH:z.{places}f}" for c in vector) + ") in"
 
 
-def millimetres(vector: Sequence[float]) -> str:
-    """A vector (m) as TRIG would write it."""
-    return "(" + ", ".join(f"{c / MILLIMETRE:z.1f}" for c in vector) + ") mm"
-
-
 def renderer_name(renderer: Renderer) -> str:
     """How pictures are made: `OpenGL (EGL)`, `ray casting`, `none`, `the caller's code (fog.Foggy)`."""
     named = {"opengl": "OpenGL", "rays": "ray casting", "none": "none", "replaced": "the caller's code"}[
@@ -82,8 +77,12 @@ def renderer_name(renderer: Renderer) -> str:
     return f"{named} ({renderer.platform})" if renderer.platform else named
 
 
-def sentence(event: Event) -> str:
-    """Tell what happened, without the time."""
+def sentence(event: Event, measures: Measures = INCHES) -> str:
+    """Tell what happened, without the time.
+
+    Args:
+        measures: the units in which the end of a step is told; all else is of the arm language.
+    """
     match event:
         case happened.RunStarted():
             pictures = "" if event.camera.method == "none" else f", pictures by {renderer_name(event.camera)}"
@@ -108,7 +107,7 @@ def sentence(event: Event) -> str:
         case happened.StepStarted():
             return event.text
         case happened.StepFinished():
-            return _ended(event)
+            return _ended(event, measures)
         case happened.Adjusted():
             return f"{event.goal} is {inches(event.shift, 3)} from its planned place"
         case happened.FrictionMeasured():
@@ -211,10 +210,10 @@ _MET: Final[dict[GuardKind, Callable[[happened.GuardTripped], str]]] = {
 }
 
 
-def _ended(event: happened.StepFinished) -> str:
+def _ended(event: happened.StepFinished, measures: Measures) -> str:
     if event.hand is None or event.gap is None:
         return "the step is done"
-    return f"the hand is at {inches(event.hand)}, open {event.gap / INCH:z.2f} in"
+    return f"the hand is at {measures.place(event.hand)}, open {measures.distance(event.gap)}"
 
 
 def _seen(event: happened.PartSeen) -> str:

@@ -16,6 +16,7 @@ from handeye.trace.sentences import sentence
 from handeye.trace.steps import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
+from handeye.units import INCHES
 
 NO_STEP: Final = -1
 """Number in the place of a step where none was under way."""
@@ -99,13 +100,16 @@ def _forces(trace: Trace) -> Table:
 
 
 def _events(trace: Trace) -> Table:
-    events = trace.events
+    events, task = trace.events, known_any(trace.head.task)
+    measures = INCHES if task is None else task.measures
     times = np.array([event.time for event in events])
     columns = (
         _since(trace, times),
         *_places(_happening(events)),
         Column(name="event", about="its kind", values=tuple(type(event).__name__ for event in events)),
-        Column(name="said", about="the event in a sentence", values=tuple(map(sentence, events))),
+        Column(
+            name="said", about="the event in a sentence", values=tuple(sentence(e, measures) for e in events)
+        ),
         Column(name="data", about="all of it, as JSON", values=tuple(event_data(e).decode() for e in events)),
     )
     return Table(name="events", about="Everything that happened and was not undone.", columns=columns)

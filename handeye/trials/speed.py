@@ -15,7 +15,7 @@ from typing import Final
 from handeye.cell.bare_physics import Bare, play
 from handeye.cell.tape import Tape
 from handeye.events import AnyEvent, StageStarted
-from handeye.report.finishing import outcome
+from handeye.report.outcome import outcome
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
 from handeye.runs.host_seconds import Meter

@@ -15,7 +15,7 @@ from trig_bench import low_script
 from trig_sessions import PLANS
 
 from handeye.cli.panic_button import PanicButton
-from handeye.report import job_folder, taught_job
+from handeye.report import finishing, taught_job
 from handeye.tasks.blocks import referee
 from handeye.trials.pallet import broken_off_after
 from handeye.trig.axes_arm import AxesArm
@@ -110,7 +110,12 @@ def test_a_job_that_is_right_is_told_and_kept(command: Command) -> None:
     command("resume", "job", "--step", typed="quit\n")
     assert json.loads(Path("job/job.json").read_bytes()) == told  # nor has anything been done
     assert "Palletise: right" in Path("job/report.html").read_text(encoding="utf-8")
-    assert command("report", "job", "-o", "other.html")[0] == 2
+    assert command("report", "job", "-o", "other.html")[0] == 0
+    assert Path("other.html").read_bytes() == Path("job/report.html").read_bytes()
+    assert (
+        command("report", "job")[2]
+        == "handeye: job/report.html holds a report already; --overwrite replaces it\n"
+    )
 
 
 @pytest.mark.slow
@@ -195,13 +200,14 @@ def _without_host_time(folder: str) -> dict[str, Any]:
 def test_a_key_behind_the_last_step_loses_nothing_of_what_a_job_came_to(
     command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write = job_folder.write_job
+    write = finishing.write_job
 
     def struck(*words: Any) -> None:
+        assert not Path("job/result.json").exists()  # which says that all is there
         os.kill(os.getpid(), signal.SIGINT)
         write(*words)
 
-    monkeypatch.setattr(job_folder, "write_job", struck)
+    monkeypatch.setattr(finishing, "write_job", struck)
     assert command("trig", "palletise", "--blocks", "0", "--out", "job")[0] == 0
     assert json.loads(Path("job/job.json").read_bytes())["outcome"] == "right"
 

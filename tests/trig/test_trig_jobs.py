@@ -4,7 +4,7 @@ import pytest
 from trig_bench import low_job
 
 from handeye.judge.finding import Findings, all_right
-from handeye.report.finishing import outcome
+from handeye.report.outcome import outcome
 from handeye.report.taught_job import account, carried_out, carry_out, system_of
 from handeye.runs.advance import Pause, advance
 from handeye.runs.host_seconds import Meter

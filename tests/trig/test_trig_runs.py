@@ -6,10 +6,11 @@ from pathlib import Path
 import msgspec
 import pytest
 from msgspec import UNSET
-from trig_bench import low_job, low_setup
+from trig_bench import low_job, low_script, low_setup
 
 import handeye
 from handeye.debugger.ask import Ask
+from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.choices import choices
 from handeye.debugger.stepper import Stepper
 from handeye.errors import InvalidInput
@@ -17,8 +18,8 @@ from handeye.events import Choice, OperatorCalled, StepFinished, StepStarted
 from handeye.execution.servo import Halted
 from handeye.execution.undo.done import Undoing
 from handeye.judge.finding import all_right
-from handeye.report.finishing import outcome
 from handeye.report.judging import findings
+from handeye.report.outcome import outcome
 from handeye.report.taught_job import account, carried_out
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode
@@ -122,10 +123,12 @@ def test_a_loop_is_listed_as_it_is_typed_and_told_with_its_round() -> None:
 
 def test_its_tables_and_plots_name_units_and_axes(whole: Path) -> None:
     trace = read_trace(whole / TRACE)
-    joints, forces, _ = tables(trace)
+    joints, forces, events = tables(trace)
     assert [c.unit for c in joints.columns if c.name.endswith("_rate")] == [*3 * ["m/s"], *3 * ["rad/s"]]
     assert forces.about.endswith("; the hand's own axes.")
-    assert [panel.unit for panel in plot(trace).panels] == ["deg", "in", "oz"]
+    assert [panel.unit for panel in plot(trace).panels] == ["deg", "mm", "N"]
+    said = next(c for c in events.columns if c.name == "said").values
+    assert "the hand is at (-0.3, 0.5, 60.2) mm, open 48.0 mm" in said
 
 
 def test_going_back_in_time_and_forward_again_is_the_same() -> None:
@@ -340,6 +343,11 @@ def test_the_stepper_tells_of_a_taught_program_what_is_true_of_it(monkeypatch: p
     assert pause.kind == "operator"
     assert [line[:1] for line in said[0].splitlines()[-6:]] == ["p", "r", "b", "u", "a", "s"]
     assert "is not an answer; answer p, r, b, u, a or show" in said[1]
+
+
+def test_no_breakpoint_waits_for_an_error_that_a_taught_program_never_raises() -> None:
+    with pytest.raises(InvalidInput, match=r"^steps of a taught program raise no errors; where the arm"):
+        breakpoint("error:23", listing(TaughtPlan(job="palletise", script=low_script(1))))
 
 
 @pytest.mark.parametrize(("answer", "at"), [("proceed", 1), ("retry", 1), ("skip", None)])

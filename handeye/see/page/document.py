@@ -32,8 +32,9 @@ from handeye.see.page.view import view_section, widths
 from handeye.see.photographs import Album
 from handeye.see.recorded import Recorded
 
-_MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
-REPORT: Final = Kind("report of handeye", _MARK.encode(), ending=".html")
+MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
+"""What every report begins with."""
+REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
 
 
 def report_page(run: Recorded, photographs: Album, animated: Animation | None) -> bytes:
@@ -57,7 +58,7 @@ def report_page(run: Recorded, photographs: Album, animated: Animation | None) -
     )
     name = printable(f"{run.trace.head.program}: {title(run, came)}")
     page = element("html", head(name, resource("page.css") + widths(run), scripts), body, lang="en")
-    return (_MARK + page + "\n").encode()
+    return (MARK + page + "\n").encode()
 
 
 def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:

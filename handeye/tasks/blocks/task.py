@@ -20,6 +20,7 @@ from handeye.tasks.interface import AnyTask, Words
 from handeye.trig.hearing import stripped
 from handeye.trig.place import Place
 from handeye.trig.tabletop import MARK, arrange
+from handeye.units import MILLIMETRES
 from handeye.variation import Variation, WorldSpec
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ class _BlocksTask(AnyTask):
     """Something that is done with blocks on the platter."""
 
     force_axes = "the hand's own axes"
+    measures = MILLIMETRES
 
     @property
     def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:

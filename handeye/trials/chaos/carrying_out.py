@@ -11,7 +11,7 @@ from typing import Final
 from handeye.events import OperatorAnswered, OperatorCalled
 from handeye.execution.servo_period import ServoPeriod
 from handeye.files import write_whole
-from handeye.report.finishing import outcome
+from handeye.report.outcome import outcome
 from handeye.report.result import to_json
 from handeye.runs.advance import Pause, keep, paused_before
 from handeye.runs.folder import EVENTS, RESULT, open_again, open_new
