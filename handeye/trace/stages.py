@@ -1,12 +1,25 @@
 """The stages of a run as they were carried out."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 from typing import Final, Literal
 
-from handeye.events import AnyEvent, StageFinished, StageStarted
+from handeye.events import (
+    AnyEvent,
+    OperatorCalled,
+    RunFinished,
+    StageFinished,
+    StageStarted,
+    StageUndone,
+    StepStarted,
+    UndoEnded,
+    UndoStarted,
+)
 from handeye.record import Record
 
 BROKEN_OFF: Final = "broken off"
+Status = Literal["done", "stopped", "skipped", "broken off", "turned"]
+"""How the way through a stage ended; `turned`: the arm went the other way from there."""
 
 
 class Stage(Record, frozen=True, kw_only=True):
@@ -17,7 +30,9 @@ class Stage(Record, frozen=True, kw_only=True):
     """s"""
     end: float
     """s; of one that was broken off, the time of the last event."""
-    status: Literal["done", "stopped", "skipped", "broken off"]
+    status: Status
+    back: bool = False
+    """The arm undid what was done in it."""
 
 
 def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
@@ -35,3 +50,60 @@ def stages(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
     if begun is not None:
         found.append(Stage(name=begun.stage, begin=begun.time, end=time, status=BROKEN_OFF))
     return tuple(found)
+
+
+def stages_both_ways(events: Iterable[AnyEvent]) -> tuple[Stage, ...]:
+    """The stages in the order in which the arm went through them, forwards or, undoing them, back."""
+    walk, time = _Walk(), 0.0
+    for event in events:
+        time = event.time
+        walk.go(event)
+    walk.end(time, BROKEN_OFF)
+    return tuple(walk.found)
+
+
+@dataclass(slots=True)
+class _Walk:
+    """Follows a run through its stages."""
+
+    found: list[Stage] = field(default_factory=list)
+    _done: list[str] = field(default_factory=list)
+    """Stages that were begun and are not undone; the last one is the one under way, or the last that was."""
+    _begun: float | None = None
+    """When the stage under way was begun or come back to; None: none is under way."""
+    _back: bool = False
+
+    def go(self, event: AnyEvent) -> None:
+        match event:
+            case StageStarted():
+                self._done.append(event.stage)
+                self._begun, self._back = event.time, False
+            case StageFinished():
+                self.end(event.time, event.status)
+            case StageUndone():
+                self.end(event.time, "done")
+                del self._done[-1:]
+            case UndoStarted():
+                self._turn(event.time, back=True)
+            case StepStarted():
+                self._turn(event.time, back=False)
+            case UndoEnded():
+                self.end(event.time, "turned")
+            case OperatorCalled() if self._back:
+                self.end(event.time, "stopped")
+            case RunFinished():
+                self.end(event.time, "done")
+
+    def _turn(self, time: float, *, back: bool) -> None:
+        """The arm goes one way or the other from now on, if it did not."""
+        if self._begun is not None and self._back != back:
+            self.end(time, "turned")
+        if self._begun is None:
+            self._begun, self._back = time, back
+
+    def end(self, time: float, status: Status) -> None:
+        """The way through the stage under way ends, if there is one."""
+        if self._begun is not None and self._done:
+            stage = Stage(name=self._done[-1], begin=self._begun, end=time, status=status, back=self._back)
+            self.found.append(stage)
+        self._begun = None

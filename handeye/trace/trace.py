@@ -29,7 +29,7 @@ from handeye.trace.pictures import TakenPicture, read_pictures
 from handeye.trace.reckoning import reckoned_forces
 from handeye.trace.records import RawMessage
 from handeye.trace.replay import Moment, Replay
-from handeye.trace.stages import Stage, stages
+from handeye.trace.stages import Stage, stages, stages_both_ways
 from handeye.trace.steps import done_steps
 
 if TYPE_CHECKING:
@@ -74,6 +74,11 @@ class Trace:
     def stages(self) -> tuple[Stage, ...]:
         """The stages as they were carried out, in order."""
         return stages(self.events)
+
+    @cached_property
+    def stages_both_ways(self) -> tuple[Stage, ...]:
+        """The same, with those through which the arm went back to undo what it did."""
+        return stages_both_ways(self.events)
 
     @cached_property
     def pictures(self) -> tuple[TakenPicture, ...]:

@@ -35,7 +35,7 @@ class Passage:
     """s, on the cell's clock"""
     end: float
     stage: int
-    """Counted through the stages as they were carried out; -1 before the first."""
+    """Counted through the stages as the arm went through them, either way; -1 before the first."""
     looked_at: SeenPicture | None = None
     """The picture that is shown while the run stands still."""
 
@@ -50,10 +50,11 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
         InvalidInput: there is no motion in that time.
     """
     pictures = _pictures(trace) if looks else {}
-    edges = sorted({*pictures, *(stage.begin for stage in trace.stages)})
+    edges = sorted({*pictures, *(stage.begin for stage in trace.stages_both_ways)})
     found: list[Passage] = []
+    begun = [stage.begin for stage in trace.stages_both_ways]
     for begin, end in _pieces(_without_waits(trace, span), edges):
-        stage = int(np.searchsorted([stage.begin for stage in trace.stages], begin, side="right")) - 1
+        stage = int(np.searchsorted(begun, begin, side="right")) - 1
         found.append(Passage(begin=begin, end=end, stage=stage))
         if end in pictures:
             found.append(Passage(begin=end, end=end, stage=stage, looked_at=pictures[end]))

@@ -143,12 +143,13 @@ def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:
 
 
 def _caption(trace: Trace, program: tuple[str, ...], passage: Passage, time: float) -> Caption:
-    stage = trace.stages[passage.stage] if passage.stage >= 0 else None
+    stage = trace.stages_both_ways[passage.stage] if passage.stage >= 0 else None
     name = "" if stage is None else stage.name
     shown = visible(name)
     number = program.index(name) + 1 if name in program else 0
     stopped = stage is not None and stage.status in (BROKEN_OFF, "stopped") and time >= stage.end - SHOWN
-    words = f"{number}  {shown}" if number else shown
+    way = "undo: " if stage is not None and stage.back else ""
+    words = f"{number}  {way}{shown}" if number else f"{way}{shown}"
     return Caption(
         words=f"{words}: stopped" if stopped else words,
         clock=clock(trace.elapsed(time)),

@@ -35,7 +35,7 @@ def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list
 
     Args:
         camera: a camera of the scene, `orbit` or `follow`.
-        stages: which stage each frame is of, by its number in `trace.stages`; shape (n,).
+        stages: which stage each frame is of, by its number in `trace.stages_both_ways`; shape (n,).
         rate: frames a second.
 
     Raises:
@@ -79,7 +79,7 @@ def _targets(trace: Trace) -> list[Array]:
 
     Where the hand stays where it is, it is what the next stage shows, or the one before.
     """
-    found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages]
+    found = [_target(np.array(_hands(trace, stage))) for stage in trace.stages_both_ways]
     return [_nearest(found, number, trace) for number in range(max(len(found), 1))]
 
 

@@ -9,11 +9,12 @@ from recordings import record
 from report_pages import renamed
 
 from handeye.errors import InvalidInput
-from handeye.events import StageFinished
+from handeye.events import OperatorCalled, StageFinished, StageUndone, UndoOrdered, UndoStarted
 from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 from handeye.video import storyboard as module
+from handeye.video.passages import Passage
 from handeye.video.storyboard import storyboard
 from handeye.video.wanted import Wanted
 
@@ -107,6 +108,26 @@ def test_a_stage_that_was_stopped_says_so_when_it_is(trace: Trace) -> None:
     assert captions[-1] is not None
     assert (captions[-1].words, captions[-1].stopped) == ("3  again: stopped", True)
     assert sum(caption.stopped for caption in captions if caption) <= 3
+
+
+def test_captions_tell_which_stage_the_arm_undoes(trace: Trace) -> None:
+    back = (
+        UndoOrdered(time=11.2, left=0, halts=True),
+        UndoStarted(time=11.2, step=3, line=4, text="CLOSE"),
+        StageUndone(time=11.3, stage="again"),
+        UndoStarted(time=11.3, step=2, line=3, text="CLOSE"),
+        OperatorCalled(time=11.4, message="the hand has met 24 N"),
+    )
+    undone = replace(trace, events=(*trace.events, *back))
+    shown = {
+        stage.begin: module._caption(
+            undone, ("open", "close", "again"), Passage(begin=0, end=0, stage=number), 0
+        )
+        for number, stage in enumerate(undone.stages_both_ways)
+    }
+    words = [(at, caption.words, caption.begun) for at, caption in shown.items()]
+    assert words[2:] == [(10.8, "3  again", 3), (11.2, "3  undo: again", 3), (11.3, "2  undo: close", 2)]
+    assert [stage.name for stage in undone.stages] == ["open", "close", "again"]
 
 
 def test_a_stage_is_called_what_it_is_called(trace: Trace) -> None:
