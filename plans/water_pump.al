@@ -352,18 +352,34 @@ LA:     MOVE    A
         JUMP    MISSED
         SAVE    DA              ;how far it is off across this wall
         OPEN    1.42
+        ASSIGN  FAR 1
         SEARCH  .2
 LB:     MOVE    B
         RESTORE DA
         STOP    [0 0 -30]
         CHANGE  [0 0 -1] 1.5    ;one finger into the small hole
-        SKIPE   23
+        SKIPN   23
+        JUMP    WALL
+        ASSIGN  FAR 2
         AOJ     LB
-        CENTER  .3
+WALL:   CENTER  .3
         SKIPN   2
         JUMP    MISSED
         SAVE    DB              ;and along the line of centres
-        OPEN    1.85
+        SOJG    FAR ACROSS
+        JUMP    FELT
+ACROSS: OPEN    1.775           ;far off: the first wall was felt where it bends. Once more, in its middle
+        MOVE    A
+        RESTORE DB
+        STOP    [0 0 -30]
+        CHANGE  [0 0 -1] 1.5
+        SKIPE   23
+        JUMP    FELT
+        CENTER  .5
+        SKIPN   2
+        JUMP    MISSED
+        SAVE    DA
+FELT:   OPEN    1.85
         MOVE    WEB
         RESTORE DA
         RESTORE DB
@@ -412,7 +428,7 @@ HELD:   LOAD    84.6
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T1              ;GO TO THE HOLE
-        SEARCH  .07
+        SEARCH  .07 STEPS 4     ;as far as arm, holder and hand may be off together
 L1:     MOVE    T1              ;GO TO THE HOLE
         STOP    [0 0 -50]
         CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE
@@ -440,7 +456,7 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         CHANGE  [0 0 1] 1.5     ;draw it out of its holder
         CLOSE   0.1             ;has it come along?
         MOVE    T2              ;GO TO THE HOLE
-        SEARCH  .07
+        SEARCH  .07 STEPS 4
 L2:     MOVE    T2              ;GO TO THE HOLE
         STOP    [0 0 -50]
         CHANGE  [0 0 -1] 0.6    ;TRY TO GO DOWN WITHOUT MEETING RESISTANCE

@@ -27,6 +27,7 @@ from handeye.al.operand_kinds import (
     LENS,
     MOMENT,
     STEP,
+    STEPS,
     TIMES,
     also,
     gap,
@@ -225,8 +226,8 @@ _TABLE = (
         op="SEARCH",
         group=FLOW,
         help="start a spiral search with this step (in), or one along a line in a direction, degrees from table x; "
-        "the present place is the first",
-        operands=(STEP, ALONG),
+        "the present place is the first; it extends three steps to each side, four along a line, or so many",
+        operands=(STEP, ALONG, STEPS),
     ),
     Instruction(
         op="AOJ",

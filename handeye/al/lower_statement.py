@@ -37,10 +37,10 @@ PLACE_DEPTH: Final = 3.0 * INCH
 PLACE_FORCE: Final = 50.0 * OUNCE_FORCE
 """Force that PLACE stops on, N. The first stop of the pin insertion of 1973, over three times what joint friction can
 be felt as upright."""
-PLACES: Final = 49
-"""Of a search: three steps to each side."""
-LINE_PLACES: Final = 9
-"""Of a search along a line: four steps to each side."""
+STEPS: Final = 3
+"""Of a search to each side."""
+LINE_STEPS: Final = 4
+"""Of a search along a line to each side."""
 _PLACES: Final = {
     i.op: {
         o.name or o.word: (place, tuple(unit.si for unit in o.units)) for place, o in enumerate(i.operands)
@@ -167,7 +167,9 @@ def _change(operands: Operands, how: _How) -> Change:
 
 def _search(operands: Operands) -> Search:
     along = operands.number_or("direction")
-    return Search(step=operands.number("step"), limit=PLACES if along is None else LINE_PLACES, along=along)
+    steps = round(operands.number_or("number") or (STEPS if along is None else LINE_STEPS))
+    width = 2 * steps + 1
+    return Search(step=operands.number("step"), limit=width**2 if along is None else width, along=along)
 
 
 def _place(_: Operands, how: _How) -> Change:

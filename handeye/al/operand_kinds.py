@@ -89,7 +89,19 @@ STEP: Final = Operand(
     units=(IN,),
     low=SMALLEST,
     high=LARGEST_STEP,
-    why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends three steps to each side",
+    why=f"a step is {SMALLEST:g} to {LARGEST_STEP:g} in: a search extends several to each side",
+)
+STEPS: Final = Operand(
+    name="number",
+    takes=(Number,),
+    units=(ONE,),
+    low=1,
+    high=20,
+    why="a search extends 1 to 20 steps to each side",
+    whole=True,
+    word="STEPS",
+    optional=True,
+    ours=True,
 )
 TIMES: Final = Operand(
     name="number",

@@ -92,13 +92,13 @@ class Graph:
                 (found if type(self.steps[before].operation) in kinds else waiting).append(before)
         return found
 
-    def leads(self, first: int | None, last: int, without: Container[int]) -> bool:
-        """True if there is a way from one step to another that avoids some; near steps are tried first."""
+    def leads(self, first: int | None, last: int | None, without: Container[int]) -> bool:
+        """True if there is a way from one step to another, or to the end, that avoids some; near steps come first."""
         waiting = [] if first is None or first in without else [first]
         seen = set(waiting)
         while waiting:
             number = heappop(waiting)
-            if number == last:
+            if number == last or (last is None and None in self.onward[number]):
                 return True
             for target in self.onward[number]:
                 if target is not None and target not in seen and target not in without:

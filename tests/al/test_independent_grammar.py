@@ -66,7 +66,7 @@ def is_program(text: str) -> bool:
         len(set(macros)) == len(macros)
         and all(takes.get(word) == len(given) for word, given in calls)
         and all(len({*parameters}) == len(parameters) for _, *parameters in heads)
-        and not {*INSTRUCTIONS, "DEFINE", "ALONG", "DIRECT", "HOLD", "LEVEL", "NIL", "OF", "TIMES"}
+        and not {*INSTRUCTIONS, "DEFINE", "ALONG", "DIRECT", "HOLD", "LEVEL", "NIL", "OF", "STEPS", "TIMES"}
         & {name.upper() for name in named}
         and not {"X", "Y", "Z"} & named
         and not any([*macro.find_data("require")] for macro in tree.find_data("macro"))

@@ -38,8 +38,10 @@ def stale_rounds(graph: Graph) -> Iterator[Stale]:
 
 
 def _anew(graph: Graph, circles: Circles, jump: int, target: int | None, begins: set[int]) -> Iterator[Stale]:
-    """A jump back whose every round begins anew."""
-    if not graph.leads(target, jump, without=begins) and target in circles()[jump]:
+    """A jump back whose every round begins anew; one from which another way leads to the end is none."""
+    if graph.leads(target, None, without=begins) or graph.leads(target, jump, without=begins):
+        return
+    if target in circles()[jump]:
         yield Stale(jump, min(circles()[jump] & begins))
 
 
