@@ -140,6 +140,11 @@ def test_order_counts_along_jumps_and_not_along_lines() -> None:
     assert codes("JUMP A\nB: MOVE T\nAOJ B\nA: SEARCH .1\nJUMP B") == []
 
 
+def test_a_count_whose_jump_leads_on_is_begun_anew_by_no_round() -> None:
+    text = "L: ASSIGN N 2\nMOVE T\nSOJG N ON\nPARK\nON: CLOSE .1\nSKIPN 2\nJUMP L\nOPEN 1"
+    assert codes(text) == []
+
+
 def test_flow_is_not_looked_at_while_a_mistake_stands() -> None:
     assert codes("L: OPEN 9\nSKIPE 24\nAOJ L\nJUMP L") == ["number-out-of-range"]
 

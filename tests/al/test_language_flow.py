@@ -6,6 +6,8 @@ How the executor follows it, the tests of `tests/execution` show.
 import pytest
 from al_support import LISTING, codes, compiled, diagnose, walk
 
+from handeye.program.flow_operations import Search
+
 DOWN = "CHANGE [0 0 -1] 0.6"
 
 
@@ -35,6 +37,16 @@ def test_search_goes_on_when_the_pin_misses_everything() -> None:
     trace = walk(compiled(LISTING), {DOWN: [23, 23, 23, None]})
     assert trace.count("MOVE  T") == 3
     assert trace.count("SAVE  H") == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "places"),
+    [("", 49), ("ALONG 90", 9), ("STEPS 4", 81), ("STEPS 1", 9), ("ALONG 90 STEPS 2", 5)],
+)
+def test_search_extends_as_far_as_it_says(text: str, places: int) -> None:
+    search = compiled(f"SEARCH .07 {text}\nL: MOVE T\nAOJ L").steps[0].operation
+    assert isinstance(search, Search)
+    assert search.limit == places
 
 
 def test_jump_to_a_label_behind_everything_ends_the_program() -> None:
