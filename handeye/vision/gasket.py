@@ -50,7 +50,8 @@ RAYS: Final = 32
 WINDOW: Final = 9
 """Neighbouring rays whose median counts: a quarter of the rim, wider than what an aligning pin hides."""
 CLEAR: Final = 0.06 * INCH
-"""The base's border in the picture before counts where it is this near to the circle it should be."""
+"""The base's border in the picture before counts where it is this near to the circle that it is seen as. How large that
+is tells the camera's scale, which may be 5 % off (high level, seed 54010)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -248,7 +249,8 @@ def _bulge(new: Scan, old: Scan, view: View, centre: Array, hole: Hole, steps: _
         points = _border(scan, view, centre, hole, step, beyond)
         spokes = view.back_project(points, float(centre[2])) - centre
         radii.append(np.hypot(spokes[:, 0], spokes[:, 1]))
-    clear = np.abs(radii[0] - hole.diameter / 2) < CLEAR
+    seen = np.median(np.nan_to_num(radii[0], nan=hole.diameter / 2))
+    clear = np.abs(radii[0] - seen) < CLEAR
     clear &= np.roll(clear, 1) & np.roll(clear, -1) & ~np.isnan(radii[1])
     if np.count_nonzero(clear) < RAYS // 3:
         return None

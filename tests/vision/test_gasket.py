@@ -79,6 +79,18 @@ def test_a_mount_that_stands_half_a_degree_beside_its_potentiometers_changes_no_
     assert (seen.ok, type(seen.cause)) == (straight.ok, type(straight.cause))
 
 
+@pytest.mark.parametrize("scale", [0.95, 1.05])
+@pytest.mark.parametrize("shift", [(0.01, -0.01), (0.3, 0.0), None])
+def test_a_camera_whose_scale_is_a_twentieth_off_changes_no_verdict(
+    scale: float, shift: tuple[float, float] | None
+):
+    before, after = pictures(shift)
+    lens = dataclasses.replace(WHERE.lens, scale=WHERE.lens.scale * scale)
+    seen = inspect(before, after, dataclasses.replace(WHERE, lens=lens), PART, POSE)
+    straight = inspected(shift)
+    assert (seen.ok, type(seen.cause)) == (straight.ok, type(straight.cause))
+
+
 @pytest.mark.row(52)
 @pytest.mark.parametrize("direction", range(0, 360, 45))
 def test_a_gasket_off_by_three_tenths_of_an_inch_is_rejected(direction: int):
