@@ -174,11 +174,13 @@ R:      MOVE    P
         AOJ     R
         OPEN    1
 
-; The gasket that is held, onto the pins. Fingers that close on its web know where it is along x; along y it is searched for.
+; The gasket that is held, onto the pins. Fingers that close on its web know where it is along x; along y it is searched for:
+; about where the arm takes it, which is as far off as it was where the gasket lay, then about where the first pin is. No line
+; goes farther: .4 in off its place the gasket goes down beside the pins.
 DEFINE LAY
-        SEARCH  .05 ALONG 90
+        SEARCH  .05 ALONG 90 STEPS 3
 LG:     SKIPN   6               ;all places tried
-        JUMP    LEFT
+        JUMP    NEARER
         MOVE    GON
         RESTORE X2
         STOP    [0 0 -24]
@@ -189,6 +191,18 @@ LG:     SKIPN   6               ;all places tried
         SKIPE   8
         JUMP    ON
         AOJ     LG
+NEARER: SEARCH  .05 ALONG 90 STEPS 3
+LN:     SKIPN   6
+        JUMP    LEFT
+        MOVE    GON
+        RESTORE X2
+        RESTORE Y1
+        STOP    [0 0 -24]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.2 2.2
+        SKIPE   8
+        JUMP    ON
+        AOJ     LN
 LEFT:   SEARCH  .05 ALONG 90    ;base and hand may be turned against each other: a degree and a half to the left
 LL:     SKIPN   6
         JUMP    RIGHT
