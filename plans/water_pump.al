@@ -434,7 +434,7 @@ HELD:   LOAD    84.6
         AIM     PUMP            ;for the gasket: meanwhile the pins go in
 
         STAGE   "insert the aligning pins"
-        OPEN    1
+        OPEN    1.3
         MOVE    P1
         CENTER  .1
         SAVE    C1              ;where the holder really is
@@ -462,7 +462,7 @@ L1:     MOVE    T1              ;GO TO THE HOLE
         OPEN    .5
         CENTER  .1
         SAVE    Y1              ;where its hole is, across the line of centres
-        OPEN    1
+        OPEN    1.3
         MOVE    P2
         CENTER  .1
         SAVE    C2              ;where the holder really is
@@ -568,10 +568,12 @@ RIGHT:  OPEN    3.4             ;for the top: .6 in beside its hub on each side
         STAGE   "put on the top"
         BESTRIDE
         CLOSE   2               ;its hub into the line of the hand, and its narrow end: so the top is turned straight.
+        SKIPN   2
+        WAIT    "NO TOP IS ON ITS STAND"
         OPEN    3.4             ;fingers that close on the hub alone wedge it as it lies
         MOVE    TOPEND
         STOP    [0 0 -25]
-        CHANGE  [0 0 -1] .8 .5  ;beside it, down to the stand
+        CHANGE  [0 0 -1] 1 .5   ;beside it, down to the stand
         SKIPN   23
         WAIT    "NO STAND IS UNDER THE TOP"
         CHANGE  [0 0 1] .1
