@@ -191,7 +191,7 @@ LG:     SKIPN   6               ;all places tried
         SKIPE   8
         JUMP    ON
         AOJ     LG
-NEARER: SEARCH  .05 ALONG 90 STEPS 3
+NEARER: SEARCH  .05 ALONG 90
 LN:     SKIPN   6
         JUMP    LEFT
         MOVE    GON
@@ -263,9 +263,9 @@ DEFINE BESTRIDE
 
 ; The top that is held, onto the pins: likewise. CENTER knows where it is along y.
 DEFINE COVER
-        SEARCH  .05 ALONG 0
+        SEARCH  .05 ALONG 0 STEPS 3
 LT:     SKIPN   6               ;all places tried
-        JUMP    WIDER
+        JUMP    NEARER
         MOVE    TOPON
         RESTORE Y1
         STOP    [0 0 -43]
@@ -277,6 +277,18 @@ LT:     SKIPN   6               ;all places tried
         JUMP    ON
         ASSIGN  STOOD 2         ;skew on the pins, it may take them along
         AOJ     LT
+NEARER: SEARCH  .05 ALONG 0
+LX:     SKIPN   6
+        JUMP    WIDER
+        MOVE    TOPON
+        RESTORE Y1
+        RESTORE X2
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.2 2.1
+        SKIPE   8
+        JUMP    ON
+        AOJ     LX
 WIDER:  SEARCH  .05
 LU:     MOVE    TOPON
         RESTORE E1 LEVEL
@@ -509,13 +521,22 @@ L2:     MOVE    T2              ;GO TO THE HOLE
         PARK
         LOOK    BEFORE          ;the camera was aimed while the pins went in
         OPEN    1.9
-        ASSIGN  TRIES 9
+        SEARCH  .1 ALONG 0 STEPS 1
+GX:     SKIPN   6               ;all places tried
+        JUMP    AROUND
+        MOVE    GUP
+        STOP    [0 0 -25]
+        CHANGE  [0 0 -1] .75
+        SKIPN   23
+        JUMP    INSIDE          ;no resistance: a finger is in each large hole
+        AOJ     GX
+AROUND: ASSIGN  TRIES 9         ;aside, too: so it is held aside, and is laid so
         SEARCH  .1
 GA:     MOVE    GUP
         STOP    [0 0 -25]
         CHANGE  [0 0 -1] .75
         SKIPN   23
-        JUMP    INSIDE          ;no resistance: a finger is in each large hole
+        JUMP    INSIDE
         SOJG    TRIES BESIDE
         WAIT    "THE GASKET LIES OFF ITS PLACE"
 BESIDE: AOJ     GA
