@@ -279,7 +279,7 @@ LT:     SKIPN   6               ;all places tried
         AOJ     LT
 NEARER: SEARCH  .05 ALONG 0
 LX:     SKIPN   6
-        JUMP    WIDER
+        JUMP    LEFT
         MOVE    TOPON
         RESTORE Y1
         RESTORE X2
@@ -289,6 +289,30 @@ LX:     SKIPN   6
         SKIPE   8
         JUMP    ON
         AOJ     LX
+LEFT:   SEARCH  .05 ALONG 0     ;base and hand may be turned against each other
+LY:     SKIPN   6
+        JUMP    RIGHT
+        MOVE    TOPON
+        RESTORE Y1
+        TURN    TOPON 1.5
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.2 2.1
+        SKIPE   8
+        JUMP    ON
+        AOJ     LY
+RIGHT:  SEARCH  .05 ALONG 0
+LZ:     SKIPN   6
+        JUMP    WIDER
+        MOVE    TOPON
+        RESTORE Y1
+        TURN    TOPON -1.5
+        STOP    [0 0 -43]
+        CHANGE  [0 0 -1] 2.3
+        TRAVEL  1.2 2.1
+        SKIPE   8
+        JUMP    ON
+        AOJ     LZ
 WIDER:  SEARCH  .05
 LU:     MOVE    TOPON
         RESTORE E1 LEVEL
