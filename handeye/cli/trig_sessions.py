@@ -3,10 +3,12 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Final
 
 from rich.status import Status
 
 from handeye.cli.common import note, notes
+from handeye.host_time import HostTimer
 from handeye.plain_text import counted, printable
 from handeye.source import read_source
 from handeye.tasks.benches import ArmName, new_session
@@ -15,6 +17,9 @@ from handeye.trig.script import Script, type_script
 from handeye.trig.session import Session
 from handeye.trig.storage import ENDING, read_program
 from handeye.trig.teachable import Halted
+
+_SEEN: Final = 0.1
+"""s: nobody sees what stands there for a shorter time."""
 
 
 def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Session:
@@ -57,8 +62,13 @@ class _Watched(Script):
     def __init__(self, session: Session, status: Status, halted: Halted) -> None:
         super().__init__((), note, halted)
         self._session, self._status = session, status
+        self._since = HostTimer()
 
     def refresh(self) -> None:
+        """Tell where it is, at most so often as people can see: to count what a long run has done takes its time."""
+        if self._since.wall_s < _SEEN:
+            return
+        self._since = HostTimer()
         program = self._session.program
         steps = sum(program.graph[done.node].shown for done in program.trail if done.node in program.graph)
         active = program.active
