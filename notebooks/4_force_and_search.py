@@ -159,7 +159,7 @@ print(f"({x:.2f}, {y:.2f}) in; the hole is at (15, 35)")
 # MEET SOME RESISTANCE. A hole has a bottom, the air beside the holder has none.
 
 # %%
-text = (handeye.scripts / "water_pump.al").read_text()
+text = (handeye.scripts / "water_pump_1973.al").read_text()
 print(text[text.index("        SEARCH  .07\nL1:") : text.index("        SAVE    E1")])
 
 # %% [markdown]
