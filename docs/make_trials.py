@@ -5,7 +5,7 @@ python docs/make_trials.py NAME COMMIT DIR                  # the file of the ba
 
 DIR is what `handeye trials assembly --out DIR` has left; of a batch that was broken off, the trials before the first
 that is missing count. A file has a line a trial, and above them command, commit, digests of code and plan, worlds and
-versions. Batches of one plan and one kind of worlds are added up, also where their code differs.
+versions. Batches of one plan, one kind of worlds and the same code, scenes among it, are added up.
 """
 
 import csv
@@ -48,9 +48,9 @@ class Batch:
     trials: Sequence[Mapping[str, str]]
 
     @property
-    def kind(self) -> tuple[str, str]:
-        """Batches of one kind are added up."""
-        return self.facts["plan"], self.facts["worlds"]
+    def kind(self) -> tuple[str, str, str]:
+        """Plan, worlds and code: batches of one kind are added up."""
+        return self.facts["plan"], self.facts["worlds"], self.facts["code"]
 
 
 # -- files -----------------------------------------------------------------------------------------------
@@ -120,7 +120,7 @@ def table(batches: Sequence[Batch]) -> str:
     return "\n".join((_rows(batches, kinds), *_failures(batches)))
 
 
-def _rows(batches: Sequence[Batch], kinds: Mapping[tuple[str, str], None]) -> str:
+def _rows(batches: Sequence[Batch], kinds: Mapping[tuple[str, str, str], None]) -> str:
     lines = [
         "| worlds | plan | command | commit | assembled | silent | Wilson 95 % | at least | arm, s | CPU h |",
         "|---|---|---|---|---|---|---|---|---|---|",
@@ -135,7 +135,7 @@ def _rows(batches: Sequence[Batch], kinds: Mapping[tuple[str, str], None]) -> st
     return "\n".join(lines) + "\n"
 
 
-def _row(trials: Sequence[Mapping[str, str]], kind: tuple[str, str], command: str, commit: str) -> str:
+def _row(trials: Sequence[Mapping[str, str]], kind: tuple[str, str, str], command: str, commit: str) -> str:
     verdicts = Counter(trial["verdict"] for trial in trials)
     sure = rate(verdicts["assembled"], len(trials))
     if sure.wilson95 is None or sure.p_s is None:
@@ -144,7 +144,7 @@ def _row(trials: Sequence[Mapping[str, str]], kind: tuple[str, str], command: st
     arm = sorted(float(trial["arm_s"]) for trial in trials if trial["verdict"] == "assembled")
     times = f"{arm[0]:.0f} to {arm[-1]:.0f}, median {median(arm):.0f}" if arm else ""
     hours = sum(float(trial["cpu_s"]) for trial in trials) / 3600
-    plan, worlds = kind
+    plan, worlds, _ = kind
     return (
         f"| {worlds} | `{plan[:8]}` | {command} | {commit} | {sure.successes} of {sure.trials} | {verdicts['silent']} "
         f"| {low:.1%} to {high:.1%} | {sure.p_s:.1%} | {times} | {hours:.1f} |"
