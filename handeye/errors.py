@@ -56,7 +56,8 @@ ERRORS: Final[dict[int, str]] = {
     GASKET_WRONG: "the gasket is not on properly",
     SWITCH_WRONG: "a finger switch does not tell what its finger touches",
     GAP_WRONG: "the gap does not follow its drive: its potentiometer fails, or something holds the fingers",
-    FORCE_WRONG: "the hand feels a force in free air: the force sense or a drive fails, or the load is not as declared",
+    FORCE_WRONG: "the hand feels a force in free air: something touches it, the load is not as declared, "
+    "or the force sense or a drive fails",
     JOINT_SENSE_WRONG: "the potentiometer and the tachometer of a joint disagree: one of them fails",
     CURRENT_WRONG: "the screwdriver runs, and its motor current shows nothing",
     PICTURE_WRONG: "the camera gives a picture that is not a live one",
