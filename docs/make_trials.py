@@ -19,20 +19,29 @@ from pathlib import Path
 from statistics import median
 from typing import Final
 
+from msgspec import convert
+
 ROOT: Final = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 from handeye.files import Kind, write_over  # noqa: E402
 from handeye.see.facts.again import sense_words, world_words  # noqa: E402
+from handeye.trials.batch.comparing import Outcome, beside  # noqa: E402
 from handeye.trials.batch.folder import Head, read_batch  # noqa: E402
 from handeye.trials.batch.rates import rate  # noqa: E402
-from handeye.trials.batch.row import Row  # noqa: E402
+from handeye.trials.batch.row import Row, Verdict  # noqa: E402
 from handeye.trials.batch.trial import SIMULATED_LIMIT_S  # noqa: E402
 
 PAGE: Final = ROOT / "docs" / "figures.md"
 FOLDER: Final = ROOT / "docs" / "trials"
 BEGIN, END = "<!-- Below: docs/make_trials.py -->\n", "<!-- Above: docs/make_trials.py -->\n"
 COLUMNS: Final = ("seed", "verdict", "stage", "cause", "arm_s", "cpu_s", "events")
+PROGRAM: Final = "water_pump"
+"""Whose plan `handeye trials assembly` takes where it is given none."""
+PAIRED: Final = """The same worlds in pairs, something left out or another program:
+
+| batch | beside | assembled | beside it | only here | only beside it | p | noticed | silent | broken off | arm | p |
+|---|---|---|---|---|---|---|---|---|---|---|---|"""
 FACTS: Final = ("command", "commit", "code", "plan", "worlds", "versions")
 """What stands above the trials of a batch."""
 FIGURES: Final = Kind("page of figures", b"# Forces", ending=".md")
@@ -51,6 +60,23 @@ class Batch:
     def kind(self) -> tuple[str, str, str]:
         """Plan, worlds and code: batches of one kind are added up."""
         return self.facts["plan"], self.facts["worlds"], self.facts["code"]
+
+    @property
+    def level(self) -> str:
+        return self.facts["worlds"].partition(" ")[0]
+
+    @property
+    def whole(self) -> bool:
+        """The task's own program, with all its senses, in worlds of a level as they are."""
+        return self.facts["worlds"] == self.level and "--plan" not in self.facts["command"]
+
+    @property
+    def outcomes(self) -> Mapping[int, Outcome]:
+        return {int(trial["seed"]): _outcome(trial) for trial in self.trials}
+
+
+def _outcome(trial: Mapping[str, str]) -> Outcome:
+    return Outcome(convert(trial["verdict"], Verdict), float(trial["arm_s"]) if trial["arm_s"] else None)
 
 
 # -- files -----------------------------------------------------------------------------------------------
@@ -87,9 +113,10 @@ def _options(head: Head) -> list[str]:
 
 
 def _command(head: Head, n: int) -> str:
-    """The command that carries out a batch, where the plan is that of the task's script."""
+    """The command that carries out a batch; a plan that is not the task's own is made by `handeye plan`."""
     level = [] if head.world.level == "nominal" else ["--level", head.world.level]
-    words = ["--n", str(n), "--seed", str(head.world.seed), *level, *_options(head)]
+    plan = [] if head.program == PROGRAM else ["--plan", f"{head.program}.plan.json"]
+    words = ["--n", str(n), "--seed", str(head.world.seed), *level, *_options(head), *plan]
     return shlex.join(["handeye", "trials", "assembly", *words])
 
 
@@ -115,9 +142,9 @@ def read(file: Path) -> Batch:
 
 
 def table(batches: Sequence[Batch]) -> str:
-    """Batches one by one, those of one kind together, and what failed."""
+    """Batches one by one, those of one kind together; pairs of them world by world; and what failed."""
     kinds = dict.fromkeys(batch.kind for batch in batches)
-    return "\n".join((_rows(batches, kinds), *_failures(batches)))
+    return "\n".join((_rows(batches, kinds), *_pairs(batches), *_failures(batches)))
 
 
 def _rows(batches: Sequence[Batch], kinds: Mapping[tuple[str, str, str], None]) -> str:
@@ -149,6 +176,34 @@ def _row(trials: Sequence[Mapping[str, str]], kind: tuple[str, str, str], comman
         f"| {worlds} | `{plan[:8]}` | {command} | {commit} | {sure.successes} of {sure.trials} | {verdicts['silent']} "
         f"| {low:.1%} to {high:.1%} | {sure.p_s:.1%} | {times} | {hours:.1f} |"
     )
+
+
+def _pairs(batches: Sequence[Batch]) -> Iterator[str]:
+    """Batches beside one of the task's program with all its senses, of the same code and level."""
+    lines = [
+        _pair(first, other) for first in batches if first.whole for other in batches if _alike(first, other)
+    ]
+    if lines:
+        yield PAIRED
+        yield from lines
+        yield ""
+
+
+def _alike(first: Batch, other: Batch) -> bool:
+    same = other.facts["code"] == first.facts["code"] and other.level == first.level
+    return same and not other.whole and not first.outcomes.keys().isdisjoint(other.outcomes)
+
+
+def _pair(first: Batch, other: Batch) -> str:
+    found = beside(other.name, first.outcomes, other.outcomes)
+    counts = (
+        *(f"{found.assembled} of {found.pairs}", found.first_assembled, found.only_this, found.only_first),
+        *(f"{found.p:.2g}", found.told, found.silent, found.failed),
+    )
+    times = ("", "")
+    if found.longer_s is not None and found.p_longer is not None:
+        times = (f"{found.longer_s:+.1f} s in {found.both}", f"{found.p_longer:.2g}")
+    return f"| {' | '.join(map(str, (other.name, first.name, *counts, *times)))} |"
 
 
 def _failures(batches: Sequence[Batch]) -> Iterator[str]:

@@ -1,6 +1,6 @@
 """The figures of a batch for a terminal."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
@@ -62,24 +62,18 @@ def _counted(found: "Figures | DismantlingFigures", successes: int, right: str) 
     return f"{text}\n{right}: {percent(*found.wilson95)} (Wilson, 95 %), at least {percent(found.p_s)} (exact, 95 %)"
 
 
-def comparison(first: str, found: "Iterable[Paired]") -> RenderableType:
-    """Batches beside the first one."""
-    counts = (
-        "pairs",
-        "assembled",
-        "first",
-        "only first",
-        "only this",
-        "p",
-        "noticed",
-        "silent",
-        "broken off",
-    )
-    table = plain_table((f"beside {first}",), *counts)
+def comparison(first: str, found: "Sequence[Paired]") -> RenderableType:
+    """Batches beside the first one: how often they are right, and how long the arm takes where both are."""
+    headings = ("assembled", "first", "only\nfirst", "only\nthis", "p", "noticed", "silent", "broken\noff")
+    rates = plain_table((f"beside {first}",), *headings)
+    times = plain_table(("where both are assembled",), "pairs", "arm time", "p")
     for each in found:
-        table.add_row(each.name, *map(str, (each.pairs, each.assembled, each.first_assembled, each.only_first,
-                      each.only_this)), f"{each.p:.2g}", *map(str, (each.told, each.silent, each.failed)))  # fmt: skip
-    return table
+        counts = each.first_assembled, each.only_first, each.only_this
+        rates.add_row(each.name, f"{each.assembled} of {each.pairs}", *map(str, counts), f"{each.p:.2g}",
+                      *map(str, (each.told, each.silent, each.failed)))  # fmt: skip
+        if each.longer_s is not None and each.p_longer is not None:
+            times.add_row(each.name, str(each.both), f"{each.longer_s:+.1f} s", f"{each.p_longer:.2g}")
+    return Group(rates, Text(), times) if times.rows else rates
 
 
 def percent(*parts: float) -> str:
@@ -129,7 +123,7 @@ def _margins(found: "Figures | DismantlingFigures") -> Table:
 def plain_table(words: tuple[str, ...], *figures: str) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for title in words:
-        table.add_column(title)
+        table.add_column(title, overflow="fold")
     for title in figures:
         table.add_column(title, justify="right", no_wrap=True)
     return table

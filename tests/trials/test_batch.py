@@ -24,7 +24,7 @@ from handeye.trials.batch.contacts import Contact, SearchEnd, contacts, searches
 from handeye.trials.batch.distributions import margins
 from handeye.trials.batch.engines import processes
 from handeye.trials.batch.figures import figures
-from handeye.trials.batch.folder import BatchFolder, read_batch
+from handeye.trials.batch.folder import BatchFolder, Head, read_batch
 from handeye.trials.batch.page import batch_page
 from handeye.trials.batch.rates import mcnemar, rate
 from handeye.trials.batch.row import Row
@@ -292,6 +292,22 @@ def test_batches_are_compared_over_the_seeds_that_both_have() -> None:
         InvalidInput, match=r"^other has no seed in common with the first batch; they are compared "
     ):
         paired(["first", "other"], [(head, first[:1]), (head, first[1:])])
+
+
+def test_batches_that_assemble_alike_are_told_apart_by_the_time_of_the_arm() -> None:
+    def batch(*seconds: float) -> tuple[Head, tuple[Row, ...]]:
+        timing = [msgspec.structs.replace(RIGHT.timing, manipulation_s=each) for each in seconds]
+        results = [msgspec.structs.replace(RIGHT, timing=each) for each in timing]
+        rows = [Row(trial=k, seed=k, ended="ended", result=each) for k, each in enumerate(results)]
+        return head_of(TRIAL, WORLD), tuple(rows)
+
+    first = batch(400, 401, 402, 403, 404, 405)
+    names = ["first", "slower", "alike"]
+    slower, alike = paired(names, [first, batch(405, 406, 407, 408, 409, 410), first])
+    assert (slower.both, slower.p, slower.longer_s, slower.p_longer) == (6, 1, 5, 2 / 2**6)
+    assert (alike.longer_s, alike.p_longer) == (0, 1)
+    (apart,) = paired(names[:2], [first, (first[0], (Row(trial=0, seed=0, ended="ended", result=STOPPED),))])
+    assert (apart.both, apart.longer_s, apart.p_longer) == (0, None, None)
 
 
 def test_page_and_tables_have_all_figures_and_nothing_from_outside() -> None:

@@ -63,7 +63,7 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
         batches.append(maker.read(file))
     options = "--set camera.place.x=0.00762m --fault gasket.thick=0.11811in@4 --without touch --camera ray"
     options += " --on-stop 'unwind:the pins'"
-    command = f"handeye trials assembly --n 2 --seed 7 --level high {options}"
+    command = f"handeye trials assembly --n 2 --seed 7 --level high {options} --plan p.plan.json"
     assert batches[0].facts["command"] == command
     told = maker.table(batches)
     worlds = f"high {options}"
@@ -73,6 +73,35 @@ def test_what_a_batch_has_left_is_told_and_added_up(maker: ModuleType, tmp_path:
     )
     assert f"| {worlds} | `abababab` | together |  | 0 of 4 | 0 | 0.0% to 49.0% | 0.0% |  | 2.0 |" in told
     assert "- : failed, Bad: luck (2: 7, 8)" in told
+
+
+def test_batches_of_the_same_code_and_level_are_paired_with_the_whole_program(maker: ModuleType) -> None:
+    def batch(name: str, words: str, *trials: tuple[str, str], code: str = "c") -> object:
+        options = words.partition("--plan")[0]
+        facts = {
+            "command": f"handeye trials assembly --n 2 --seed 5 {words}".strip(), "commit": "c0ffee", "code": code,
+            "plan": "p" if options == words else "other", "worlds": f"nominal {options}".strip(),
+        }  # fmt: skip
+        rows = [
+            {"seed": str(5 + k), "verdict": verdict, "stage": "", "cause": "", "arm_s": arm, "cpu_s": "1"}
+            for k, (verdict, arm) in enumerate(trials)
+        ]
+        return maker.Batch(name, facts, rows)
+
+    right, stopped = ("assembled", "400"), ("stopped", "90")
+    told = maker.table(
+        [
+            batch("whole", "", right, right),
+            batch("blind", "--without vision", stopped, ("assembled", "410")),
+            batch("once", "--plan once.plan.json", stopped, stopped),
+            batch("before", "--without touch", right, right, code="b"),
+        ]
+    )
+    pairs = told.partition(maker.PAIRED)[2].split("\n\n")[0].strip().splitlines()
+    assert pairs == [
+        "| blind | whole | 1 of 2 | 2 | 0 | 1 | 1 | 1 | 0 | 0 | +10.0 s in 1 | 1 |",
+        "| once | whole | 0 of 2 | 2 | 0 | 2 | 0.5 | 2 | 0 | 0 |  |  |",
+    ]
 
 
 def test_other_trials_and_other_pages_are_refused(maker: ModuleType) -> None:

@@ -1,12 +1,15 @@
 """Batches in the same worlds, compared pair by pair."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from statistics import median
+from typing import NamedTuple
 
 from handeye.errors import InvalidInput
 from handeye.record import Record
+from handeye.report.result import Result
 from handeye.trials.batch.folder import Head
-from handeye.trials.batch.rates import mcnemar
-from handeye.trials.batch.row import Row
+from handeye.trials.batch.rates import mcnemar, signed_rank
+from handeye.trials.batch.row import Row, Verdict
 
 Batch = tuple[Head, tuple[Row, ...]]
 
@@ -24,6 +27,12 @@ class Paired(Record, frozen=True, kw_only=True):
     only_this: int
     p: float
     """Two-sided, of McNemar's exact test: how likely so uneven a split is if neither is better."""
+    both: int
+    """Pairs in which both were assembled."""
+    longer_s: float | None
+    """Median of how much longer the arm took, over those pairs, by the clock of the cell; None: there are none."""
+    p_longer: float | None
+    """Two-sided, of Wilcoxon's signed-rank test: how likely such differences are if both take as long."""
     told: int
     """Failures of this batch that the program noticed, by an error or a call."""
     silent: int
@@ -32,25 +41,47 @@ class Paired(Record, frozen=True, kw_only=True):
     """Runs of this batch that broke off."""
 
 
+class Outcome(NamedTuple):
+    """What one trial counts as in a comparison."""
+
+    verdict: Verdict
+    arm_s: float | None
+    """Arm time, of a trial that left a result."""
+
+
 def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[Paired, ...]:
     """Each batch beside the first one.
 
     Raises:
         InvalidInput: one has no seed in common with the first.
     """
-    first = {row.seed: row for row in batches[0][1]}
-    return tuple(_beside(first, name, rows) for name, (_, rows) in zip(names[1:], batches[1:], strict=True))
+    first, *others = (_outcomes(rows) for _, rows in batches)
+    return tuple(beside(name, first, other) for name, other in zip(names[1:], others, strict=True))
 
 
-def _beside(first: dict[int, Row], name: str, rows: Sequence[Row]) -> Paired:
-    pairs = [(first[row.seed], row) for row in rows if row.seed in first]
+def _outcomes(rows: Sequence[Row]) -> dict[int, Outcome]:
+    return {row.seed: Outcome(row.verdict, _arm_s(row.result)) for row in rows}
+
+
+def _arm_s(result: Result | None) -> float | None:
+    return None if result is None else result.timing.manipulation_s
+
+
+def beside(name: str, first: Mapping[int, Outcome], other: Mapping[int, Outcome]) -> Paired:
+    """A batch beside another, trials by their seeds.
+
+    Raises:
+        InvalidInput: they have no seed in common.
+    """
+    pairs = [(first[seed], this) for seed, this in other.items() if seed in first]
     if not pairs:
         raise InvalidInput(
             f"{name} has no seed in common with the first batch; they are compared pair by pair"
         )
-    right = [(one.verdict == "assembled", other.verdict == "assembled") for one, other in pairs]
+    right = [(one.verdict == "assembled", this.verdict == "assembled") for one, this in pairs]
     only_first, only_this = right.count((True, False)), right.count((False, True))
-    counts = [other.verdict for _, other in pairs]
+    counts = [this.verdict for _, this in pairs]
+    longer = list(_longer(pairs))
     return Paired(
         name=name,
         pairs=len(pairs),
@@ -59,7 +90,17 @@ def _beside(first: dict[int, Row], name: str, rows: Sequence[Row]) -> Paired:
         only_first=only_first,
         only_this=only_this,
         p=mcnemar(only_first, only_this),
+        both=len(longer),
+        longer_s=median(longer) if longer else None,
+        p_longer=signed_rank(longer) if longer else None,
         told=counts.count("stopped"),
         silent=counts.count("silent"),
         failed=counts.count("failed"),
     )
+
+
+def _longer(pairs: Sequence[tuple[Outcome, Outcome]]) -> Iterator[float]:
+    """How much longer the arm took in the second of each pair of which both were assembled, s."""
+    for one, this in pairs:
+        if one.verdict == this.verdict == "assembled" and one.arm_s is not None and this.arm_s is not None:
+            yield this.arm_s - one.arm_s

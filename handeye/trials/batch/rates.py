@@ -1,5 +1,6 @@
 """How sure a count of successes makes us of the rate behind it."""
 
+from collections.abc import Sequence
 from typing import Final
 
 from handeye.record import Record
@@ -49,3 +50,14 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
     differ = only_first + only_second
     return 1.0 if differ == 0 else float(binomtest(only_first, differ).pvalue)
+
+
+def signed_rank(differences: Sequence[float]) -> float:
+    """Two-sided p of Wilcoxon's signed-rank test: how likely pairs differ so far to one side if both are alike.
+
+    Args:
+        differences: of each pair, in any unit; pairs that do not differ say nothing.
+    """
+    from scipy.stats import wilcoxon
+
+    return float(wilcoxon(differences).pvalue) if any(differences) else 1.0
