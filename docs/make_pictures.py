@@ -1,5 +1,5 @@
-"""Makes every picture of the README and of docs/ anew, but for `pipeline.svg`, which people draw, and
-`report.webp`, which `make_report_picture.py` makes by a browser.
+"""Makes every picture of the README and of docs/ anew, but for `pipeline.svg`, which people draw, `report.webp`, which
+`make_report_picture.py` makes by a browser, and `apart.webp`, which docs/dismantling.md tells how to make.
 
 python docs/make_pictures.py [DIR]
 
