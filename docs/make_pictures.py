@@ -1,5 +1,6 @@
 """Makes every picture of the README and of docs/ anew, but for `pipeline.svg`, which people draw, `report.webp`, which
-`make_report_picture.py` makes by a browser, and `apart.webp`, which docs/dismantling.md tells how to make.
+`make_report_picture.py` makes by a browser, and `apart.webp` and `palletiser*.webp`, made as docs/dismantling.md and
+docs/trig.md say.
 
 python docs/make_pictures.py [DIR]
 

@@ -61,8 +61,9 @@ def begin(
         search: the places that a `SEARCH` tries, in the place of its square spiral: called with the number of a
             place, from 0, it gives x and y in steps of the search (table coordinates). It is called once for each
             number, and again where the run is taken up: it must give the same then. A search ends with error 6 where it
-            gives None or raises StopIteration, and after 49 places. Its tries are events `SearchAdvanced`, and
-            `run.state.memory.place` is the number it has come to.
+            gives None or raises StopIteration, and after as many places as the `SEARCH` has, 49 if it does not say;
+            one `ALONG` a line tries its own. Tries are events `SearchAdvanced`, and `run.state.memory.place` is the
+            number it has come to.
         referee: called with the truth of the cell, gives findings by their names; or limits alone, by the names of the
             findings that the task's referee has, as `{"screws_clamp": 60}`, each in the unit of its finding. A run that
             was kept is judged again by `handeye.begin(folder, referee=...).result`.

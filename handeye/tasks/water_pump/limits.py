@@ -14,7 +14,7 @@ LAYER_HEIGHT: Final = 0.3
 
 SCREW_GAP: Final = 0.2
 """mm between head and flange. A crossed screw stands 4.4 to 5.7 mm high; assembly study."""
-SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 70-200 N
+SCREW_CLAMP: Final = 40.0  # N, each: over the 19 N of a hand's pull; seated screws end at 65 to 214 N
 SCREW_THREAD: Final = 6.35
 """mm in the base: one diameter of 1/4 in, the rule for steel. A seated screw has 6.93."""
 SCREW_PLACE: Final = 0.12
@@ -40,7 +40,7 @@ HAND_CLEAR: Final = 25.0  # mm from the hand to any part: a hand that holds or t
 
 APART: Final = 3.0  # mm from where the run found a part: what the arm puts back, its next run must find
 APART_GASKET: Final = 6.0
-"""mm. Fingers that close on the gasket in its tray draw it along before they lift it, 3.2 mm in seed 0. It is laid back
+"""mm. Fingers that close on the gasket in its tray draw it along before they lift it, 3.3 mm in seed 0. It is laid back
 where it was lifted; at 6.4 mm its holes would not let the fingers of the next run in."""
 APART_TURN: Final = (
     3.0  # deg: at the end of a part as long as the base, half of what the fingers have to spare

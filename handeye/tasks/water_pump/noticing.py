@@ -126,7 +126,7 @@ EXPECTED: Final[dict[str, Expected]] = {
     "servo": Expected(errors=(WATCHDOG,)),
     "magnet": Expected(
         calls=tuple(call for screw in range(1, 7) for call in _lost(screw)),
-        harmless="A screw weighs .07 N, an eightieth of that force: what bears it holds it straight, too.",
+        harmless="A screw weighs .06 N, a hundredth of that force: what bears it holds it straight, too.",
     ),
     "bit": Expected(calls=(_loose(1),)),
     "lamp": Expected(at_setup=True),
