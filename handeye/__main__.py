@@ -1,10 +1,23 @@
-"""`python -m handeye`."""
+"""The way in: `handeye`, and `python -m handeye`."""
 
-import sys
+import os
+import signal
+from typing import NoReturn
 
-try:
-    from handeye.cli import main
-except KeyboardInterrupt:  # Ctrl-C before there is anything that could be interrupted
-    sys.exit(130)
 
-main()
+def main() -> NoReturn:
+    """Run the command line; Ctrl-C ends it even while it is still being imported."""
+    # MuJoCo, as it is imported, would load the OpenGL named here, or try windows; `cell.opengl` looks for its own
+    os.environ["MUJOCO_GL"] = "disable"
+    heard = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if heard:  # not raised: modules written in C make an ImportError of it
+        signal.signal(signal.SIGINT, lambda *_: os._exit(130))
+    from handeye.cli import main as run
+
+    if heard:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    run()
+
+
+if __name__ == "__main__":
+    main()

@@ -71,7 +71,8 @@ def check_place(path: Path, kind: Kind) -> None:
     if not path.name.lower().endswith(kind.ending):
         raise InvalidInput(f"{path}: the name of the {kind.name} must end in {kind.ending}")
     try:
-        if path.is_file():
+        _check_file(path, path)
+        if path.exists():
             with path.open("rb") as file:
                 front = file.read(_FRONT)
             if front and not re.match(kind.begins, front):
@@ -80,6 +81,16 @@ def check_place(path: Path, kind: Kind) -> None:
             pass
     except OSError as error:
         raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+
+
+def check_free(path: Path, what: str, *, overwrite: bool) -> None:
+    """Look whether there is nothing at a place yet, or what it holds may be replaced.
+
+    Raises:
+        InvalidInput: it may not; `what`: it.
+    """
+    if path.exists() and not overwrite:
+        raise InvalidInput(f"{path} holds a {what} already; --overwrite replaces it")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:
@@ -102,8 +113,7 @@ def write_whole(path: Path, data: bytes) -> None:
     temporary = None
     place = Path(os.path.realpath(path))
     try:
-        if place.exists() and not place.is_file():
-            raise InvalidInput(f"{path} cannot be written: it is not a file")
+        _check_file(place, path)
         mode = stat.S_IMODE(place.stat().st_mode) if place.exists() else 0o666 & ~_umask()
         handle, temporary = tempfile.mkstemp(dir=place.parent, prefix=f".{place.name}.")
         with os.fdopen(handle, "wb") as file:
@@ -118,6 +128,11 @@ def write_whole(path: Path, data: bytes) -> None:
         if isinstance(error, OSError):
             raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
         raise
+
+
+def _check_file(place: Path, named: Path) -> None:
+    if place.exists() and not place.is_file():
+        raise InvalidInput(f"{named} cannot be written: it is not a file")
 
 
 def _umask() -> int:

@@ -1,8 +1,10 @@
 """The command line: exit codes, and one clear error for every kind of bad input."""
 
 import json
+import os
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -138,6 +140,32 @@ def test_a_plan_that_cannot_be_written_leaves_nothing_behind(command: Command, t
             ("trials", "assembly", "--wall-limit", "0"),
             "a limit of time is a number of seconds above 0; 0 is not",
         ),
+        (
+            ("trials", "assembly", "--wall-limit", "inf"),
+            "a limit of time is a number of seconds above 0; inf is",
+        ),
+        (
+            ("trials", "assembly", "--simulated-limit", "1e999"),
+            "a limit of time is a number of seconds above 0",
+        ),
+        (("trials", "assembly", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
+        (("trials", "assembly", "--seeds", f"0-{2**63 - 1}"), "at most 1,000,000 trials can be had"),
+        (("trials", "predict", "--n", str(2**63)), "at most 1,000,000 worlds can be had"),
+        (("trials", "base", "9" * 20), "at most 1,000,000 worlds can be had"),
+        (("trials", "pallet", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
+        (("bench", "insertion", "--n", "9" * 20), "at most 1,000,000 trials can be had"),
+        (
+            ("trials", "predict", "--against", "absent", "--level", "high"),
+            "leave --n, --seed, --level, --without and --set out",
+        ),
+        (
+            ("trials", "predict", "--against", "absent", "--n", "10000"),
+            "leave --n, --seed, --level, --without and --set out",
+        ),
+        (("faults", "--list", "--only", "rotr"), "there is no fault `rotr`; there are `finger_switch`"),
+        (("faults", "--list", "--stage", "pins"), "--list tries nothing: leave --stage and --out out"),
+        (("faults", "--list", "--out", "it"), "--list tries nothing: leave --stage and --out out"),
+        (("faults", "--list", "--workers", "0"), "at least one worker is needed; 0 is too few"),
         (("frobnicate",), "there is no command `frobnicate`"),
     ],
 )
@@ -207,6 +235,47 @@ def test_an_output_folder_that_cannot_be_made_ends_with_two(
     exit_code, _, err = command("run", planned("OPEN 1"), "--out", "file/folder")
     assert exit_code == 2
     assert "file/folder cannot be made" in err
+
+
+STRUCK = """
+import signal, sys
+from importlib.metadata import EntryPoint
+from runpy import run_module
+
+class Struck:
+    def find_spec(self, name, path=None, target=None):
+        if name == "handeye.cli.runs":
+            try:
+                signal.raise_signal(signal.SIGINT)
+            except KeyboardInterrupt:
+                raise ImportError("initialization failed") from None
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Struck())
+"""
+"""Presses Ctrl-C in the middle of the import, in a module that takes a KeyboardInterrupt for a mistake of its own."""
+ENTRY = tomllib.loads((Path(__file__).parent.parent / "pyproject.toml").read_text("utf-8"))["project"][
+    "scripts"
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "start",
+    [f"EntryPoint('', {ENTRY['handeye']!r}, '').load()()", "run_module('handeye', run_name='__main__')"],
+)
+def test_ctrl_c_while_the_command_is_still_being_imported_ends_it_without_a_traceback(start: str) -> None:
+    done = subprocess.run([sys.executable, "-c", STRUCK + start], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "")
+
+
+@pytest.mark.slow
+def test_an_opengl_that_is_not_there_is_in_nobody_s_way(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "handeye", "export", "glb", "-o", "it.glb"],
+        cwd=tmp_path, env={**os.environ, "MUJOCO_GL": "nix"}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.slow

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
+from handeye.cli.common import screen
 from handeye.cli.world_options import ErrorOptions, WorldOptions
 from handeye.tasks import task
 from handeye.tasks.water_pump.variation import SEVENTH, variation
@@ -55,6 +56,20 @@ def test_the_list_fits_the_terminal(command: Command, monkeypatch: pytest.Monkey
     rows = [line.split() for line in out.splitlines() if line.startswith("  ")]
     assert (code, [row[0] for row in rows]) == (0, list(variation(3).quantities))
     assert max(map(len, out.splitlines())) <= int(columns)
+
+
+@pytest.mark.parametrize("columns", ["1", "19"])
+def test_the_list_is_whole_on_the_narrowest_terminal(
+    command: Command, monkeypatch: pytest.MonkeyPatch, columns: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    code, out, _ = command("world")
+    assert (code, [name for name in variation(0).quantities if name not in "".join(out.split())]) == (0, [])
+
+
+def test_no_columns_at_all_are_taken_for_the_usual_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "0")
+    assert type(screen)().width == 80
 
 
 def test_the_list_says_what_is_off_and_what_is_set(command: Command) -> None:
@@ -277,6 +292,16 @@ def test_every_fault_is_listed_with_its_size(
     ]
     assert (code, names) == (0, [*task().faults(0).kinds, "panic"])
     assert max(map(len, out.splitlines())) <= int(columns)
+
+
+def test_the_faults_that_are_named_are_listed_alone(command: Command) -> None:
+    _, out, _ = command("faults", "--list", "--json", "--only", "pin", "--only", "panic")
+    listed = {fault["name"]: fault["matrix"] for fault in json.loads(out)["faults"]}
+    catalogue = task().faults(0)
+    assert listed == {kind.name: kind.name in catalogue.matrix for kind in catalogue.select("pin")} | {
+        "panic": True
+    }
+    assert command("faults", "--list", "--only", "lamp.dead")[1].splitlines()[0] == "lamp"
 
 
 def test_faults_are_listed_for_programs(command: Command) -> None:

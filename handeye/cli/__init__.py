@@ -1,6 +1,5 @@
 """The command line: parses arguments, wires concrete things together, prints."""
 
-import os
 import sys
 from contextlib import suppress
 from typing import Final, NoReturn
@@ -77,9 +76,6 @@ for commands in (
 
 def main() -> NoReturn:
     """Run the command line; the exit code says how it went."""
-    os.environ.setdefault(
-        "MUJOCO_GL", "disable"
-    )  # MuJoCo would try windows, in one more process; none is opened
     prepare_streams()
     try:
         code = _carried_out()

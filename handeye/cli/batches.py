@@ -4,15 +4,16 @@ import re
 import shlex
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.errors import InvalidInput
-from handeye.files import write_over
+from handeye.files import check_place, write_over
 from handeye.host_time import HostTimer
 from handeye.plain_text import counted
 from handeye.planfile.store import read_plan
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
 
 COUNT: Final = 20
 """Trials, if nobody says how many."""
+PICTURED, TABLES = "figures.html", "tables"
+"""What a batch leaves in its folder."""
 
 
 def assembly_trials(
@@ -125,6 +128,8 @@ def assembly_trials(
     )
     fresh: list[Row] = []
     with kept_batch(out, trial, world) as folder:
+        if out is not None:
+            _check_leaving(out, tables)
         tell = progress(len(numbers), 0 if folder is None else len({*folder.rows} & {*numbers}), timer, fresh)
         rows = carry_out(
             trial, jobs_of(world, numbers), _engine(engine, workers, scheduler), folder=folder, told=tell
@@ -153,16 +158,26 @@ def _engine(name: str, workers: int, scheduler: str | None) -> "Engine":
     return dask_workers(workers, scheduler)
 
 
+def _check_leaving(out: Path, tables: "Format | None") -> None:
+    """Raises InvalidInput if page or tables of a batch cannot be left in its folder when the trials have ended."""
+    from handeye.trace.table_files import check_tables
+    from handeye.trials.batch.page import PAGE
+
+    check_place(out / PICTURED, PAGE)
+    if tables is not None:
+        check_tables(out / TABLES, tables)
+
+
 def _leave(out: Path, rows: "Sequence[Row]", found: "Figures", tables: "Format | None", title: str) -> None:
     """Leave the page of a batch in its folder, and its tables."""
     from handeye.trace.table_files import write_tables
     from handeye.trials.batch.page import PAGE, batch_page
     from handeye.trials.batch.tables import tables as tables_of
 
-    write_over(out / "figures.html", batch_page(title, rows, found), PAGE)
+    write_over(out / PICTURED, batch_page(title, rows, found), PAGE)
     if tables is not None:
         units = "Figures are in the unit of their column"
-        write_tables(out / "tables", tables_of(rows, found), tables, units)
+        write_tables(out / TABLES, tables_of(rows, found), tables, units)
 
 
 def _title(trial: "Trial", world: "WorldSpec") -> str:
@@ -174,7 +189,9 @@ def _title(trial: "Trial", world: "WorldSpec") -> str:
 def compare_trials(
     first: Annotated[Path, Parameter(help="Folder of a batch.")],
     /,
-    *others: Annotated[Path, Parameter(help="Folders of batches that are compared with it.")],
+    *others: Annotated[
+        Path, Parameter(help="Folders of batches that are compared with it.", json_list=False)
+    ],
     json: Json = False,
 ) -> int:
     """Compare batches with a first one, world by world: what a sense, or an error of the world, makes of the rate.
@@ -210,6 +227,7 @@ def _chosen(n: int | None, seed: int | None, seeds: str | None) -> range:
     first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
     if last < first:
         raise InvalidInput(f"seeds are given as a number or a range such as 0-19; {seeds!r} is neither")
+    positive(last - first + 1, "trial")
     return range(first, last + 1)
 
 
@@ -222,14 +240,9 @@ def _numbers(count: int, only: int | None) -> range:
     return range(only, only + 1)
 
 
-def positive(count: int, what: str) -> None:
-    if count < 1:
-        raise InvalidInput(f"at least one {what} is needed; {count} is too few")
-
-
 def _limits(*seconds: float) -> None:
     for limit in seconds:
-        if not limit > 0:
+        if not 0 < limit < inf:
             raise InvalidInput(f"a limit of time is a number of seconds above 0; {limit:g} is not")
 
 

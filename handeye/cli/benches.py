@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli import insertion, speed
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, put_json, say, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, positive, put_json, say, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.errors import InvalidInput
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
@@ -96,8 +95,7 @@ def language(
     """
     from handeye.trials.language import measure
 
-    if times < 1:
-        raise InvalidInput(f"at least one time is needed; {times} is too few")
+    positive(times, "time")
     measured = []
     for waiting in measure(times):
         measured.append(waiting)
@@ -125,7 +123,8 @@ def vision(
     from handeye.tasks import task
     from handeye.trials.vision import measure
 
-    _at_least_one(poses, times)
+    positive(poses, "pose")
+    positive(times, "time")
     _tell(list(measure(task().sights(poses, camera), times)), json)
     return 0
 
@@ -143,15 +142,10 @@ def ik(
     from handeye.tasks import task
     from handeye.trials.inverse_kinematics import measure
 
-    _at_least_one(poses, times)
+    positive(poses, "pose")
+    positive(times, "time")
     _tell([measure(task().arm, poses, times)], json)
     return 0
-
-
-def _at_least_one(*counts: int) -> None:
-    for count in counts:
-        if count < 1:
-            raise InvalidInput(f"at least one is needed; {count} is too few")
 
 
 def _tell(comparisons: Sequence[Comparison], json: bool) -> None:

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, say
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, say
 from handeye.cli.tally import Tally
-from handeye.errors import InvalidInput
 from handeye.plain_text import counted
 from handeye.runs.scripts import default_script
 from handeye.variation import checked_seed
@@ -63,8 +62,7 @@ def chaos_trials(
     from handeye.trials.chaos.schedule import parse_schedule
 
     for number, what in ((count, "schedule"), (worlds, "world"), (workers, "worker")):
-        if number < 1:
-            raise InvalidInput(f"at least one {what} is needed; {number} is too few")
+        positive(number, what)
     checked_seed(seed + worlds)
     given = [parse_schedule(text) for text in schedule or ()]
     plan = compiled(default_script())

@@ -18,8 +18,11 @@ from handeye.planfile.plan import Plan
 from handeye.runs.scripts import plan_script
 from handeye.source import Source
 
+MOST: Final = 1_000_000
+"""Trials, worlds, times and processes that a command takes."""
 LONGEST: Final = 99
 """Characters of a whole number."""
+_USUAL_WIDTH: Final = 80
 
 Script = Annotated[Path, Parameter(help="A script (.al), with its taught file (.toml) beside it.")]
 PlanFile = Annotated[Path, Parameter(help="A plan made by `handeye plan` (.plan.json).")]
@@ -38,6 +41,18 @@ def whole(_: type, tokens: Sequence[Token]) -> int:
     if len(typed) > LONGEST:
         raise ValueError(f"{quoted(typed)} is too large a number")
     return int(typed)
+
+
+def positive(count: int, what: str) -> None:
+    """Make sure that at least one is asked for, and no more than a year of a processor and its memory bear.
+
+    Raises:
+        InvalidInput: so many cannot be had; `what`: one of them.
+    """
+    if count < 1:
+        raise InvalidInput(f"at least one {what} is needed; {count} is too few")
+    if count > MOST:
+        raise InvalidInput(f"at most {MOST:,} {what}s can be had; {count} are too many")
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
@@ -59,13 +74,18 @@ Out = Annotated[
 
 
 class _Screen(Console):
+    def __init__(self, *, stderr: bool = False) -> None:
+        super().__init__(stderr=stderr, highlight=False, emoji=False, markup=False)
+        if not self.width:  # COLUMNS=0, from a shell that does not know
+            self.width = _USUAL_WIDTH
+
     def on_broken_pipe(self) -> None:
         """Leave it to the command line, which has an exit code for it."""
         raise BrokenPipeError
 
 
-screen = _Screen(highlight=False, emoji=False)
-notes = _Screen(stderr=True, highlight=False, emoji=False)
+screen = _Screen()
+notes = _Screen(stderr=True)
 
 
 def say(text: str, to: Console = screen, *, style: str | None = None, whole: bool = False) -> None:
@@ -76,7 +96,7 @@ def say(text: str, to: Console = screen, *, style: str | None = None, whole: boo
     shown = visible(text)
     if to.is_terminal and not whole:
         shown = folded(shown, to.width)
-    to.print(shown, style=style, markup=False, soft_wrap=True)
+    to.print(shown, style=style, soft_wrap=True)
 
 
 def put(answer: bytes) -> None:

@@ -66,11 +66,10 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
     """
     from handeye.comparison.comparison import comparison
     from handeye.comparison.page import PAGE, comparison_page
-    from handeye.files import check_place, write_over
+    from handeye.files import check_free, check_place, write_over
 
     check_place(place, PAGE)
-    if place.exists() and not overwrite:
-        raise InvalidInput(f"{place} holds a comparison already; --overwrite replaces it")
+    check_free(place, "comparison", overwrite=overwrite)
     one, other = read_recorded(a), read_recorded(b)
     found = comparison(one, other)
     write_over(place, comparison_page(one, other, found, _animations(one, other)), PAGE)

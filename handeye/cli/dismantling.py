@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.batches import kept_batch, positive, progress
-from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, put_json, screen
+from handeye.cli.batches import kept_batch, progress
+from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.runs import Overwrite
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
 from handeye.host_time import HostTimer

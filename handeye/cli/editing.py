@@ -25,7 +25,7 @@ def register(app: App) -> None:
 
 
 def fmt(
-    *files: Annotated[Path, Parameter(allow_leading_hyphen=True)],
+    *files: Annotated[Path, Parameter(allow_leading_hyphen=True, json_list=False)],
     check: Annotated[bool, Parameter(help="Write nothing; exit code 1 if a file would change.")] = False,
 ) -> int:
     """Format scripts in columns, as in a listing of the period; comments stay.

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put, put_json, say, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put, put_json, say, screen
 from handeye.cli.kept_records import KeptRecords
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
@@ -46,8 +46,13 @@ def faults(
     camera: Camera = "auto",
     json: Json = False,
     out: Annotated[
-        Path | None, Parameter(help="File for the outcomes, one JSON object a line; written as runs end.")
+        Path | None,
+        Parameter(
+            help="File for the outcomes, one JSON object a line; written as runs end. One that is there is not gone on "
+            "with, and is replaced with --overwrite only."
+        ),
     ] = None,
+    overwrite: Annotated[bool, Parameter(help="Replace the outcomes that are there.")] = False,
 ) -> int:
     """Assemble once with each fault of a matrix, at its usual size, and tell what that comes to.
 
@@ -66,23 +71,26 @@ def faults(
     catalogue = with_panic(task().faults(spec.seed))
     if every and only:
         raise InvalidInput("--all excludes --only")
+    if listed and (stage is not None or out is not None):
+        raise InvalidInput("--list tries nothing: leave --stage and --out out")
+    positive(workers, "worker")
+    everything = every or (listed and not only)
+    kinds = chosen(catalogue, tuple(catalogue.kinds) if everything else only or ())
     if listed:
-        return _list(catalogue, json=json)
-    kinds = chosen(catalogue, tuple(catalogue.kinds) if every else only or ())
-    if workers < 1:
-        raise InvalidInput(f"at least one worker is needed; {workers} is too few")
+        return _list(catalogue, kinds, json=json)
+    tried = KeptRecords(out, OUTCOMES, by="name", overwrite=overwrite)
     plan = compiled(default_script())
     number = None if stage is None else stage_of(plan.program)(stage)
-    return _tried(plan, spec, kinds, number, workers=workers, camera=camera, json=json, out=out)
+    return _tried(plan, spec, kinds, number, workers=workers, camera=camera, json=json, tried=tried)
 
 
-def _list(catalogue: "Catalogue", *, json: bool) -> int:
+def _list(catalogue: "Catalogue", kinds: "list[FaultKind]", *, json: bool) -> int:
     from handeye.report.faults_page import faults_json, faults_page
 
     if json:
-        put(faults_json(catalogue))
+        put(faults_json(catalogue, kinds))
     else:
-        screen.print(faults_page(catalogue, screen.width))
+        screen.print(faults_page(catalogue, kinds, screen.width))
     return 0
 
 
@@ -95,14 +103,13 @@ def _tried(
     workers: int,
     camera: str,
     json: bool,
-    out: Path | None,
+    tried: KeptRecords,
 ) -> int:
-    """Carry the plan out with each fault, and tell of each as it ends; the exit code."""
+    """Carry the plan out with each fault, keep and tell each outcome as its run ends; the exit code."""
     from handeye.trials.faults import counted_outcomes, matrix_of, try_faults
 
     tally = Tally(len(kinds), "faults")
     note(f"{len(kinds)} runs, {workers} at a time")
-    tried = KeptRecords(out, OUTCOMES, by="name")
     try:
         with tally:
             for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, workers=workers):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final, Literal
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Json, WholeNumber, put_json, screen
+from handeye.cli.common import Json, WholeNumber, positive, put_json, screen
 from handeye.cli.tally import Tally
 from handeye.errors import InvalidInput
 from handeye.files import Kind, check_place, write_over
@@ -75,8 +75,7 @@ def insertion(
 
     jobs = min(4, os.cpu_count() or 1) if workers is None else workers
     for count, what in ((n, "trial"), (jobs, "process")):
-        if count < 1:
-            raise InvalidInput(f"at least one {what} is needed; {count} is too few")
+        positive(count, what)
     if out is not None:
         check_place(out, _kind(out))
     conditions = _conditions(clearance, chamfer, sd, search)

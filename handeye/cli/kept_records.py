@@ -4,21 +4,22 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from handeye.files import Kind, check_place, write_over
+from handeye.files import Kind, check_free, check_place, write_over
 
 
 class KeptRecords(list[Any]):
     """Records, of which those that there are so far stand in a file, in order of a field: nothing that ends is lost."""
 
-    def __init__(self, out: Path | None, kind: Kind, *, by: str) -> None:
+    def __init__(self, out: Path | None, kind: Kind, *, by: str, overwrite: bool) -> None:
         """None yet. `out`: the file; None: they are not written.
 
         Raises:
-            InvalidInput: that file cannot be written.
+            InvalidInput: that file cannot be written, or it is there and may not be replaced.
         """
         super().__init__()
         if out is not None:
             check_place(out, kind)
+            check_free(out, kind.name, overwrite=overwrite)
         self._out, self._kind, self._order = out, kind, attrgetter(by)
 
     def keep(self, record: Any) -> None:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from handeye.cli.common import Json, WholeNumber, put_json, say
+from handeye.cli.common import Json, WholeNumber, positive, put_json, say
 from handeye.cli.tally import Tally
 from handeye.errors import InvalidInput
 from handeye.plain_text import counted as words
@@ -39,8 +39,7 @@ def pallet_trials(
     from handeye.trials.pallet import figures, trials
 
     for count, what in ((n, "trial"), (workers, "process")):
-        if count < 1:
-            raise InvalidInput(f"at least one {what} is needed; {count} is too few")
+        positive(count, what)
     if not 0 <= blocks <= MOST_BLOCKS:
         raise InvalidInput(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
     found: list[JobReport] = []

@@ -7,7 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.cli.batch_text import percent, plain_table
+from handeye.cli.batch_text import PlainTable, percent
 from handeye.plain_text import counted
 
 if TYPE_CHECKING:
@@ -31,14 +31,12 @@ def page(found: "PredictionFigures") -> RenderableType:
 
 def _operations(found: "PredictionFigures") -> Table:
     heads = "room", "median", "95 %", "worst", "used", "seed", "beyond"
-    table = plain_table(("operation", "at", "what is off", "unit"), *heads)
+    table = PlainTable(("operation", "at", "what is off", "unit"), *heads)
     for each in found.operations:
         if each.used >= THIN:
             figures = (f"{value:.2f}" for value in (each.room, each.median, each.p95, each.worst, each.used))
             beyond = percent(each.beyond) if each.beyond else ""
-            table.add_row(
-                each.operation, each.at, each.what, each.unit, *figures, str(each.worst_seed), beyond
-            )
+            table.row(each.operation, each.at, each.what, each.unit, *figures, str(each.worst_seed), beyond)
     return table
 
 
@@ -49,10 +47,10 @@ def _left_out(found: "PredictionFigures") -> Iterator[str]:
 
 
 def _worst(found: "PredictionFigures") -> Table:
-    table = plain_table(("worst worlds: seed",), "used", "operation", "at", "what is off", "by", "of")
+    table = PlainTable(("worst worlds: seed",), "used", "operation", "at", "what is off", "by", "of")
     for each in found.worst[:WORLDS]:
         far = (f"{value:.2f} {each.unit}" for value in (each.off, each.room))
-        table.add_row(str(each.seed), f"{each.used:.2f}", each.operation, each.at, each.what, *far)
+        table.row(str(each.seed), f"{each.used:.2f}", each.operation, each.at, each.what, *far)
     return table
 
 
@@ -62,13 +60,13 @@ def _more(found: "PredictionFigures") -> Iterator[str]:
 
 
 def _agreements(each: "tuple[Agreement, ...]") -> Table:
-    table = plain_table(
+    table = PlainTable(
         ("predicted and measured", "unit"), "trials", "predicted", "measured", "alike", "correlation"
     )
     for one in each:
         medians = f"{one.predicted:.3g}", f"{one.measured:.3g}"
         told = "" if one.correlation is None else f"{one.correlation:.2f}"
-        table.add_row(one.name, one.unit, str(one.n), *medians, percent(one.close), told)
+        table.row(one.name, one.unit, str(one.n), *medians, percent(one.close), told)
     return table
 
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from cyclopts import Parameter
 
-from handeye.cli.batches import command_of, kept_batch, positive, progress
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, put_json, screen
+from handeye.cli.batches import command_of, kept_batch, progress
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions
 from handeye.errors import InvalidInput
 from handeye.host_time import HostTimer
@@ -33,10 +33,11 @@ TOLD: Final = 2500
 
 def predict_trials(
     *,
-    n: Annotated[WholeNumber, Parameter(help="How many worlds.")] = WORLDS,
+    n: Annotated[WholeNumber | None, Parameter(help=f"How many worlds; by default {WORLDS}.")] = None,
     seed: Annotated[
-        WholeNumber, Parameter(group=WORLD, help="The first world; the next has a number greater by 1.")
-    ] = 0,
+        WholeNumber | None,
+        Parameter(group=WORLD, help="The first world, by default 0; the next has a number greater by 1."),
+    ] = None,
     errors: ErrorOptions = ANY_ERRORS,
     plan: Annotated[
         Path | None, Parameter(help="A plan made by `handeye plan`; by default that of the water pump.")
@@ -73,12 +74,17 @@ def predict_trials(
     from handeye.cli.prediction_text import page
     from handeye.trials.prediction.figures import figures, worst_of
 
-    for count, what in ((n, "world"), (worst, "world"), (workers, "process")):
+    worlds = WORLDS if n is None else n
+    for count, what in ((worlds, "world"), (worst, "world"), (workers, "process")):
         positive(count, what)
     if against is not None and (simulate or plan is not None):
         raise InvalidInput("--against takes plan and trials of its folder: leave --plan and --simulate out")
+    if against is not None and (n is not None or seed is not None or errors != ANY_ERRORS):
+        raise InvalidInput(
+            "--against takes the worlds of its folder: leave --n, --seed, --level, --without and --set out"
+        )
     timer = HostTimer()
-    asked = _asked(n, seed, errors, plan) if against is None else _of_batch(against)
+    asked = _asked(worlds, seed or 0, errors, plan) if against is None else _of_batch(against)
     found = _predicted(asked, workers)
     command = command_of(asked.world, plan, camera, asked.without)
     rows = asked.rows
@@ -113,14 +119,14 @@ def _asked(n: int, seed: int, errors: ErrorOptions, plan: Path | None) -> _Asked
 
 
 def _of_batch(folder: Path) -> _Asked:
-    from handeye.trials.batch.folder import PLAN, read_batch
+    from handeye.trials.batch.folder import read_batch, read_plan_of
 
     head, rows = read_batch(folder)
     if not rows:
         raise InvalidInput(f"no trial of the batch in {folder} has ended")
     seeds = [row.seed for row in rows]
     return _Asked(
-        plan=read_plan(folder / PLAN), world=head.world, seeds=seeds, without=head.without, rows=rows
+        plan=read_plan_of(folder, head), world=head.world, seeds=seeds, without=head.without, rows=rows
     )
 
 

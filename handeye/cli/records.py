@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, note, screen
+from handeye.cli.trace_files import check_no_batch
 from handeye.diagnostics import quoted
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ def shown(folder: Path, *, json: bool) -> "KeptRun":
     from handeye.report.page import page
     from handeye.report.result import to_json
 
+    check_no_batch(folder)
     kept = kept_run(folder)
     for fault in kept.faults:
         note(f"left out: {fault}")

@@ -84,12 +84,11 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
     Raises:
         InvalidInput: there is no such run, or the report cannot be written there.
     """
-    from handeye.files import check_place, write_over
+    from handeye.files import check_free, check_place, write_over
     from handeye.see.page.document import REPORT
 
     check_place(place, REPORT)
-    if place.exists() and not overwrite:
-        raise InvalidInput(f"{place} holds a report already; --overwrite replaces it")
+    check_free(place, "report", overwrite=overwrite)
     write_over(place, page_of(run), REPORT)
 
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from cyclopts import App, Parameter
 
-from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, put_json, screen
+from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, positive, put_json, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.errors import InvalidInput
 from handeye.runs.scripts import default_script
@@ -50,8 +50,7 @@ def speed(
     from handeye.trials.speed import Watching, measure
     from handeye.trials.speed_page import as_json, page
 
-    if worlds < 1:
-        raise InvalidInput(f"at least one world is needed; {worlds} is too few")
+    positive(worlds, "world")
     first = world.spec
     start = time.process_time()
     plan = compiled(default_script())

@@ -21,7 +21,7 @@ def thin(
 
     It is a trace in its own right; only `verify` needs the whole one.
     """
-    from handeye.files import check_place
+    from handeye.files import check_free, check_place
     from handeye.trace.reading import TRACE, read_trace
     from handeye.trace.thinned_file import write_thinned
 
@@ -30,8 +30,7 @@ def thin(
     check_place(output, TRACE)
     if output.exists() and output.samefile(whole):
         raise InvalidInput(f"{output} holds the trace that is to be thinned")
-    if output.exists() and not overwrite:
-        raise InvalidInput(f"{output} holds a trace already; --overwrite replaces it")
+    check_free(output, "trace", overwrite=overwrite)
     kept = write_thinned(trace, output)
     say(f"{output}: {kept} of {len(trace.times)} servo periods")
     return 0

@@ -16,7 +16,7 @@ def trace_file(path: Path) -> Path:
     """The trace of the run in a folder, or its event list if there is no trace; of a file, the file.
 
     Raises:
-        InvalidInput: the run has not begun.
+        InvalidInput: the run has not begun, or the folder is a batch's.
     """
     from handeye.runs.folder import EVENTS, PLAN, TRACE
     from handeye.trace.recorder import part
@@ -30,8 +30,17 @@ def trace_file(path: Path) -> Path:
     if (path / TRACE).exists():
         return path / TRACE
     if (path / PLAN).exists() and not (path / EVENTS).exists():
+        check_no_batch(path)
         raise InvalidInput(f"the run in {path} has not begun")
     return path / EVENTS
+
+
+def check_no_batch(folder: Path) -> None:
+    """Raises InvalidInput if a folder is not a run's, but that of a batch of trials."""
+    from handeye.trials.batch.folder import TRIALS
+
+    if (folder / TRIALS).is_file():
+        raise InvalidInput(f"{folder} is the folder of a batch of trials, not of a run")
 
 
 def motion_file(path: Path) -> Path:

@@ -8,7 +8,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.batches import assembly_trials, compare_trials
 from handeye.cli.chaos import chaos_trials
-from handeye.cli.common import Camera, Json, WholeNumber, note, put_json, say
+from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
 from handeye.cli.dismantling import dismantling_trials
 from handeye.cli.pallet_trials import pallet_trials
 from handeye.cli.predictions import predict_trials
@@ -114,10 +114,13 @@ def _vision_trial(
 
     from handeye.trials.eye import try_in
 
-    number = min(_some(count), _some(worlds if worlds is not None else count))
+    worlds = count if worlds is None else worlds
+    for each, what in ((count, "world"), (worlds, "world"), (jobs, "process")):
+        positive(each, what)
+    number = min(count, worlds)
     specs = [replace(first, seed=seed) for seed in range(first.seed, first.seed + number)]
     trial, tell, tried = task().trials[name], note if json else say, []
-    for its in try_in(name, specs, count, camera=camera, known=eye, jobs=_some(jobs, "process")):
+    for its in try_in(name, specs, count, camera=camera, known=eye, jobs=jobs):
         tried.append(its)
         for attempt in its.attempts:
             tell(f"seed {attempt.seed:4}  {trial.sentence(attempt)}")
@@ -130,12 +133,6 @@ def _vision_trial(
         for line in (*counted.lines, f"{cpu_s:.1f} s of processor time each"):
             say(line)
     return 3 if counted.wrong else 0
-
-
-def _some(count: int, what: str = "world") -> int:
-    if count < 1:
-        raise InvalidInput(f"at least one {what} is needed; {count} is too few")
-    return count
 
 
 def breaking_trials(
@@ -165,8 +162,8 @@ def breaking_trials(
     """
     from handeye.trials import breaking, detours
 
-    _some(jobs, "process")
-    _some(count, "time")
+    positive(jobs, "process")
+    positive(count, "time")
     if dismantling and kind not in ("killed", "interrupted"):
         raise InvalidInput(f"--dismantling goes with killed and interrupted, not with {kind}")
     spec = world.spec

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from rich.status import Status
+from rich.text import Text
 
 from handeye.cli.common import note, notes
 from handeye.host_time import HostTimer
@@ -35,7 +36,7 @@ def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Sessi
     elif file is not None:
         script = Script(read_source(file).text.splitlines(), halted=interrupting(halted))
         session.desk = script
-        with notes.status(f"typing {printable(str(file))}"):
+        with notes.status(Text(f"typing {printable(str(file))}")):
             type_script(session, script, str(file))
     session.desk, session.over = Script((), note, halted), False
     return session

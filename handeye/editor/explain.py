@@ -25,6 +25,7 @@ _FOUND: Final = {
     "planning": "when its motions are planned",
     "strict": "by `handeye check --strict-1973` only",
 }
+_NUMBERS: Final = {str(number): number for number in ERRORS}
 _FILES = 2
 """Required files of an example that are shown."""
 
@@ -39,8 +40,8 @@ def explanation(word: str) -> str:
         return _code(word)
     if word.upper() in EXPLAINED:
         return _instruction(EXPLAINED[word.upper()])
-    if word.isascii() and word.isdigit() and int(word) in ERRORS:
-        return error_text(int(word))
+    if (number := word.lstrip("0")) in _NUMBERS:
+        return error_text(_NUMBERS[number])
     near = suggestion(word, {*CODES, *EXPLAINED, *map(str, ERRORS)}) or suggestion(
         word, [code for code in CODES if word.lower() in code]
     )

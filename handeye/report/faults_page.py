@@ -1,5 +1,6 @@
 """The faults of a task and what must happen with each, as a page for the terminal or as one JSON object."""
 
+from collections.abc import Sequence
 from itertools import groupby
 from textwrap import fill
 
@@ -30,24 +31,24 @@ class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
-    """All faults of a catalogue."""
+    """Faults of a catalogue."""
 
     faults: tuple[FaultReport, ...]
 
 
-def report(catalogue: Catalogue) -> FaultsReport:
-    """The faults of a catalogue, in their order."""
-    return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in catalogue.kinds.values()))
+def report(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> FaultsReport:
+    """Some faults of a catalogue."""
+    return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in kinds))
 
 
-def faults_json(catalogue: Catalogue) -> bytes:
-    """The faults of a catalogue as one JSON object."""
-    return msgspec.json.format(msgspec.json.encode(report(catalogue)), indent=1) + b"\n"
+def faults_json(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> bytes:
+    """Some faults of a catalogue as one JSON object."""
+    return msgspec.json.format(msgspec.json.encode(report(catalogue, kinds)), indent=1) + b"\n"
 
 
-def faults_page(catalogue: Catalogue, columns: int) -> RenderableType:
-    """The faults of a catalogue, for a terminal of so many columns."""
-    found = report(catalogue).faults
+def faults_page(catalogue: Catalogue, kinds: Sequence[FaultKind], columns: int) -> RenderableType:
+    """Some faults of a catalogue, for a terminal of so many columns."""
+    found = report(catalogue, kinds).faults
     parts: list[RenderableType] = []
     for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):
         parts += [Text(), Text(device, "bold")] if parts else [Text(device, "bold")]

@@ -115,10 +115,9 @@ class Progress(Observer):
 def _columns(width: int, longest: int) -> Iterator[ProgressColumn]:
     """What a line of so many columns has room for: time and stage always, then a bar, then the statement."""
 
-    def text(form: str, columns: int) -> TextColumn:
-        return TextColumn(
-            form, table_column=Column(no_wrap=True, overflow="ellipsis", min_width=columns, max_width=columns)
-        )
+    def text(form: str, columns: int, style: str = "none") -> TextColumn:
+        column = Column(no_wrap=True, overflow="ellipsis", min_width=columns, max_width=columns)
+        return TextColumn(form, style, markup=False, table_column=column)
 
     stage = max(1, min(longest, width - _CLOCK - 1))
     room = width - _CLOCK - 1 - stage
@@ -129,6 +128,6 @@ def _columns(width: int, longest: int) -> Iterator[ProgressColumn]:
     yield text("{task.fields[clock]:>7}", _CLOCK)
     if bar:
         yield BarColumn(bar_width=_BAR)
-    yield text("[bold]{task.description}", stage)
+    yield text("{task.description}", stage, "bold")
     if room > _STATEMENT:
-        yield text("[dim]{task.fields[text]}", room - 1)
+        yield text("{task.fields[text]}", room - 1, "dim")

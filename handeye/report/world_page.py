@@ -92,7 +92,7 @@ def _spread(quantity: Quantity, factor: float) -> float | tuple[float, float] | 
 def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
     """A line of the page, or two if it has not the columns; names have `width` of them."""
     how = f"({_how(quantity)})" if quantity.override else _how(quantity)
-    row = Text(f"  {quantity.name:{width}} {quantity.value:10.4g} {quantity.unit:5}")
+    row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")
     told = (
         Text(" ").append(quantity.override or "", "yellow").append(" " * bool(quantity.override)).append(how)
     )

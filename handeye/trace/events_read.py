@@ -18,6 +18,13 @@ def read_event(data: bytes) -> AnyEvent:
         UnicodeDecodeError: it is no text.
     """
     try:
+        return _read(data)
+    except RecursionError:
+        raise msgspec.DecodeError("it is nested too deeply") from None
+
+
+def _read(data: bytes) -> AnyEvent:
+    try:
         return _DECODER.decode(data)
     except msgspec.ValidationError:
         written = msgspec.json.decode(data)

@@ -11,6 +11,7 @@ from rich.text import Text
 
 from handeye import events as happened
 from handeye.events import AnyEvent, Event
+from handeye.plain_text import printable
 
 BROKEN_OFF = "interrupted"
 """Status of a stage whose end was not recorded."""
@@ -124,7 +125,7 @@ def statistics_table(figures: Statistics, columns: int) -> RenderableType:
     parts: list[RenderableType] = [table, Text(), Text(told)]
     if figures.messages:
         channels = ", ".join(f"{topic} {count}" for topic, count in sorted(figures.messages.items()))
-        parts.append(Text(f"messages: {channels}"))
+        parts.append(Text(printable(f"messages: {channels}")))
     return Group(*parts)
 
 
@@ -135,7 +136,7 @@ def _table(figures: Statistics) -> Table:
     for name in _HEADS:
         table.add_column(name, justify="left" if name == "errors" else "right", no_wrap=True)
     for stage in figures.stages:
-        table.add_row(_name(stage), *_cells(stage))
+        table.add_row(Text(_name(stage)), *_cells(stage))
     table.add_row("all", *_cells(figures.total), style="bold")
     return table
 
@@ -151,7 +152,7 @@ def _lines(figures: Statistics) -> Group:
 
 
 def _name(stage: StageFigures) -> str:
-    return stage.stage if stage.status == "done" else f"{stage.stage} ({stage.status})"
+    return printable(stage.stage if stage.status == "done" else f"{stage.stage} ({stage.status})")
 
 
 def _cells(figures: Figures) -> list[str]:

@@ -44,6 +44,16 @@ def export_tables(
     return made
 
 
+def check_tables(path: Path, kind: Format) -> None:
+    """Look whether tables may be written to a folder, and can be.
+
+    Raises:
+        InvalidInput: they cannot be written there, or a package is missing.
+    """
+    check_folder(path, EXPORT, overwrite=True)
+    _WRITERS[kind](Table(name="", about="", columns=()))
+
+
 def write_tables(path: Path, made: Sequence[Table], kind: Format, units: str = _SI) -> None:
     """Write tables to a folder, in the place of tables that are there, with a README that tells their columns.
 
@@ -85,7 +95,7 @@ def parquet_bytes(table: Table) -> bytes:
         import pyarrow as pa
         from pyarrow import parquet
     except ImportError:
-        raise MissingExtra("trace export parquet", "pyarrow", "export") from None
+        raise MissingExtra("parquet", "pyarrow", "export") from None
     arrays = [pa.array(column.values, from_pandas=True) for column in table.columns]  # NaN is none
     fields = [
         pa.field(column.name, array.type, metadata={"unit": column.unit, "about": column.about})

@@ -18,6 +18,8 @@ T = TypeVar("T")
 
 TRIES: Final = 2
 """Times that a trial is begun whose process is killed."""
+LONGEST_WAIT_S: Final = 86400.0
+"""Of one wait: the system takes no more than 24 days."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,7 +121,7 @@ def _heard(workers: list[Worker], limit_s: float | None) -> list[Worker]:
     """Wait for workers that have answered, were lost, or have taken too long."""
     busy = [worker for worker in workers if worker.given is not None]
     left = None if limit_s is None else max(min(limit_s - w.given.timer.wall_s for w in busy if w.given), 0.0)
-    told = connection.wait([worker.here for worker in busy], left)
+    told = connection.wait([worker.here for worker in busy], left and min(left, LONGEST_WAIT_S))
     return [w for w in busy if w.here in told or _overdue(w, limit_s)]
 
 

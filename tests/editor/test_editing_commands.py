@@ -155,6 +155,11 @@ def test_explain_names_the_nearest_code(command: Command) -> None:
     )
 
 
+def test_explain_refuses_a_number_that_is_larger_than_any(command: Command) -> None:
+    code, out, err = command("explain", "9" * 5000)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+
+
 def test_explain_without_a_word_lists_every_code_and_error(command: Command) -> None:
     _, out, _ = command("explain")
     assert [code for code in CODES if f"  {code} " not in out] == []

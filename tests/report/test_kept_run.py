@@ -157,6 +157,7 @@ DAMAGE: dict[str, tuple[str, Damage]] = {
         (run / PLAN).read_bytes().replace(b"ADD A ", b"ADD B "))),
     "a damaged plan": ("is not sound", lambda run: (run / PLAN).write_bytes(b"[")),
     "other events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"{}\n")),
+    "deep events": ("is not an event", lambda run: (run / EVENTS).write_bytes(b"[" * 90_000 + b"\n")),
     "no start": ("without the start of a run", lambda run: (run / EVENTS).write_bytes(
         (run / EVENTS).read_bytes().partition(b"\n")[2])),
     "other stages": ("stages that the plan beside it lacks", lambda run: (run / EVENTS).write_bytes(

@@ -26,7 +26,9 @@ def test_a_line_that_is_cut_short_is_named(tmp_path: Path) -> None:
         read_events(path)
 
 
-@pytest.mark.parametrize("garbage", [b"\xff\xfe\n", b"{}\n", b"\n", b'{"event":"Sneezed","time":1.0}\n'])
+@pytest.mark.parametrize(
+    "garbage", [b"\xff\xfe\n", b"{}\n", b"\n", b'{"event":"Sneezed","time":1.0}\n', b"[" * 100_000 + b"\n"]
+)
 def test_a_line_that_is_no_event_is_named(tmp_path: Path, garbage: bytes) -> None:
     path = _written(tmp_path / "events.jsonl", to_line(EVENTS[0]) + garbage + to_line(EVENTS[1]))
     with pytest.raises(InvalidInput, match=r"^line 2 of .*events\.jsonl is not an event: "):

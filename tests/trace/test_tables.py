@@ -136,7 +136,7 @@ def test_parquet_without_pyarrow_is_told_with_the_way_to_get_it(
     record(tmp_path / "a.mcap")
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     code, _, err = command("trace", "export", "parquet", "a.mcap", "-o", "told")
-    needed = "`trace export parquet` needs pyarrow, which is not installed"
+    needed = "`parquet` needs pyarrow, which is not installed"
     how = "`pip install pyarrow` brings it, and so does the extra `export` of handeye"
     assert (code, err) == (2, f"handeye: {needed}: {how}\n")
     assert not Path("told").exists()

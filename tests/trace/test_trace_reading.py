@@ -129,10 +129,18 @@ def test_a_trace_with_a_plan_that_is_none_is_refused(tmp_path: Path) -> None:
         read_trace(recording.path)
 
 
-def test_an_event_that_is_not_known_is_refused(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    "event",
+    [
+        b'{"event":"Sneezed","time":11.0}',
+        b"[" * 100_000,
+        b'{"event":"ErrorRaised","detail":' + b"[" * 100_000,
+    ],
+)
+def test_an_event_that_is_not_known_is_refused(path: Path, event: bytes) -> None:
     other = path.with_name("newer.mcap")
     recording = Recording(other).begin().play(last=4)
-    recording.recorder._writing.file.write("/events", 11, b'{"event":"Sneezed","time":11.0}')
+    recording.recorder._writing.file.write("/events", 11, event)
     recording.close()
     assert _refusal(other, other.read_bytes()).startswith(f"{other}: event 5 cannot be understood: ")
 

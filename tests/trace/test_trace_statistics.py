@@ -66,6 +66,15 @@ def test_the_table_has_a_row_for_each_stage_and_one_for_all() -> None:
     assert lines[-1].strip() == "messages: /events 40"
 
 
+@pytest.mark.parametrize("columns", [100, 40])
+def test_the_name_of_a_stage_is_shown_as_it_is_and_steers_no_terminal(columns: int) -> None:
+    stage = StageFigures(stage="one [/old]\x1b]0;", status="done")
+    figures = Statistics(stages=[stage], total=stage, operator=0, experiments=0, messages={"/x\x1b[2J": 1})
+    console = Console(file=io.StringIO(), width=columns)
+    console.print(statistics_table(figures, columns))
+    assert ("one [/old]" in console.file.getvalue(), "\x1b" in console.file.getvalue()) == (True, False)
+
+
 def test_a_narrow_terminal_shows_every_figure() -> None:
     stage = StageFigures(
         stage="put the base in its standard position", seconds=123.4, camera_s=56.7, steps=987

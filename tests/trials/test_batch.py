@@ -8,16 +8,18 @@ from pathlib import Path
 
 import msgspec
 import pytest
+from conftest import Command
 from results import result
 from short_runs import FEEL, plan_of
 
 from handeye.errors import SEARCH_EXHAUSTED, InvalidInput
 from handeye.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
+from handeye.planfile.store import read_plan, write_plan
 from handeye.program.taught import load_taught
 from handeye.report.result import Check
 from handeye.resources import plans
 from handeye.tasks import task
-from handeye.trace.table_files import csv_bytes
+from handeye.trace.table_files import check_tables, csv_bytes, write_tables
 from handeye.trials.batch.batch import carry_out, head_of, jobs_of
 from handeye.trials.batch.comparing import paired
 from handeye.trials.batch.contacts import Contact, SearchEnd, contacts, searches
@@ -106,6 +108,49 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
         InvalidInput, match=r"trials\.jsonl, line 1, is of no batch that this handeye reads: "
     ):
         opened(tmp_path)
+
+
+@pytest.mark.parametrize("mine", [b"my notes", b"line 1\nline 2\nthe last one has no end"])
+def test_notes_of_somebody_are_not_taken_for_a_batch_that_was_cut_short(tmp_path: Path, mine: bytes) -> None:
+    (tmp_path / "trials.jsonl").write_bytes(mine)
+    with pytest.raises(InvalidInput, match=r"trials\.jsonl, line 1, is of no batch"):
+        opened(tmp_path)
+    assert {file.name: file.read_bytes() for file in tmp_path.iterdir()} == {"trials.jsonl": mine}
+
+
+def test_another_batch_that_was_cut_short_is_refused_as_it_is(tmp_path: Path) -> None:
+    opened(tmp_path).close()
+    with (tmp_path / "trials.jsonl").open("ab") as file:
+        file.write(b'{"trial":2,"seed"')
+    kept = (tmp_path / "trials.jsonl").read_bytes()
+    with pytest.raises(InvalidInput, match=r"of another batch, which differs in worlds"):
+        opened(tmp_path, world=msgspec.structs.replace(WORLD, level="high"))
+    assert (tmp_path / "trials.jsonl").read_bytes() == kept
+
+
+def test_the_plan_in_the_folder_is_that_of_the_batch(tmp_path: Path) -> None:
+    opened(tmp_path).close()
+    write_plan(tmp_path / "plan.json", plan_of("OPEN 1\n"))
+    with pytest.raises(InvalidInput, match=r"plan\.json is not the plan of the batch in "):
+        opened(tmp_path)
+    (tmp_path / "plan.json").unlink()
+    opened(tmp_path).close()
+    assert read_plan(tmp_path / "plan.json") == TRIAL.plan
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        (b'{"trial":0,"seed":77,"ended":"killed"}', "has the seed 77, which trial 0 has not"),
+        (b'{"trial":0,"seed":5,"ended":"ended"}', "a trial that counts as 'ended' has left no result"),
+    ],
+)
+def test_a_trial_that_cannot_be_of_the_batch_is_refused(tmp_path: Path, line: bytes, why: str) -> None:
+    opened(tmp_path).close()
+    with (tmp_path / "trials.jsonl").open("ab") as file:
+        file.write(line + b"\n")
+    with pytest.raises(InvalidInput, match=rf"trials\.jsonl, line 2, .*{why}"):
+        read_batch(tmp_path)
 
 
 def test_two_commands_do_not_write_one_batch(tmp_path: Path) -> None:
@@ -308,6 +353,56 @@ def test_batches_that_assemble_alike_are_told_apart_by_the_time_of_the_arm() -> 
     assert (alike.longer_s, alike.p_longer) == (0, 1)
     (apart,) = paired(names[:2], [first, (first[0], (Row(trial=0, seed=0, ended="ended", result=STOPPED),))])
     assert (apart.both, apart.longer_s, apart.p_longer) == (0, None, None)
+
+
+def test_batches_of_other_worlds_or_other_work_are_not_compared() -> None:
+    rows = carry_out(TRIAL, jobs_of(WORLD, range(2)), Engine())
+    head = head_of(TRIAL, WORLD)
+    drawn = msgspec.structs.replace(head, world=msgspec.structs.replace(WORLD, drawing=WORLD.drawing - 1))
+    with pytest.raises(InvalidInput, match=r"^other was carried out by another version, whose seeds were "):
+        paired(["first", "other"], [(head, rows), (drawn, rows)])
+    with pytest.raises(InvalidInput, match=r"^other holds trials of another kind"):
+        paired(["first", "other"], [(head, rows), (msgspec.structs.replace(head, work="dismantle"), rows)])
+
+
+def test_what_cannot_be_left_is_told_before_a_trial_is_carried_out(command: Command, tmp_path: Path) -> None:
+    write_plan(tmp_path / "open.plan.json", plan_of("OPEN 2\n"))
+    words = ("trials", "assembly", "--plan", "open.plan.json", "--n", "1", "--out", "batch")
+    (tmp_path / "batch").mkdir()
+    (tmp_path / "batch" / "trials.jsonl").touch()
+    (tmp_path / "batch" / "tables" / "mine").mkdir(parents=True)
+    (tmp_path / "batch" / "tables" / "mine" / "it.csv").write_text("mine")
+    code, out, err = command(*words, "--tables", "csv")
+    assert (code, out, "tables holds other things (`mine/it.csv`)" in err) == (2, "", True)
+    (tmp_path / "batch" / "figures.html").write_text("mine")
+    code, out, err = command(*words)
+    assert (code, out, "figures.html exists and is no page of trials" in err) == (2, "", True)
+    assert read_batch(tmp_path / "batch")[1] == ()
+
+
+def test_only_tables_that_handeye_wrote_are_replaced(tmp_path: Path) -> None:
+    rows = carry_out(TRIAL, jobs_of(WORLD, range(2)), Engine())
+    write_tables(tmp_path / "tables", tables(rows, figures(rows, lambda _: "")), "csv")
+    (tmp_path / "tables" / "mine").mkdir()
+    (tmp_path / "tables" / "mine" / "it.csv").write_text("mine")
+    with pytest.raises(InvalidInput, match=r"holds other things \(`mine/it\.csv`\)"):
+        check_tables(tmp_path / "tables", "csv")
+
+
+@pytest.mark.parametrize("columns", ["20", "80"])
+def test_names_of_batches_are_shown_as_they_are(
+    command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, columns: str
+) -> None:
+    names = ["first", "[/]", "[bold]", "[1]", ":smile:", "esc\x1b[31m"]
+    for name in names:
+        folder = opened(tmp_path / name)
+        carry_out(TRIAL, jobs_of(WORLD, range(2)), Engine(), folder=folder)
+        folder.close()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", columns)
+    code, out, _ = command("trials", "compare", *names)
+    rows = [line.split()[0] for line in out.splitlines() if "1 of 2" in line]
+    assert (code, rows) == (0, [*names[1:-1], "esc\N{REPLACEMENT CHARACTER}[31m"])
 
 
 def test_page_and_tables_have_all_figures_and_nothing_from_outside() -> None:

@@ -111,7 +111,7 @@ def test_the_bench_tells_a_program_the_same(command: Command) -> None:
 
 @pytest.mark.parametrize("bench", ["vision", "ik"])
 def test_a_bench_wants_to_measure_at_least_once(command: Command, bench: str) -> None:
-    said = "handeye: at least one is needed; 0 is too few\n"
+    said = "handeye: at least one time is needed; 0 is too few\n"
     assert command("bench", bench, "--times", "0") == (2, "", said)
 
 

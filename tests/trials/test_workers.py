@@ -37,6 +37,11 @@ def test_a_trial_that_hangs_is_ended_and_not_tried_again() -> None:
     assert (found["hung"].overdue, found["hung"].lost, found["well"].value) == (True, False, "done")
 
 
+@pytest.mark.parametrize("limit", [1e9, 1e300])
+def test_a_limit_may_be_longer_than_the_system_waits_at_once(limit: float) -> None:
+    assert [each.value for each in answers(refused, [2], 1, limit_s=limit)] == [2]
+
+
 def test_an_exception_is_an_answer() -> None:
     found = {each.item: each for each in answers(refused, [1, 2], 1)}
     assert (str(found[1].error), found[2].value) == ("1 is odd", 2)

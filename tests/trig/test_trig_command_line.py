@@ -47,6 +47,12 @@ def test_both_displays_of_a_program_are_shown(command: Command) -> None:
     assert command("trig", "show", PALLETISE, "--width", "5")[0] == 2
 
 
+def test_the_name_of_a_script_may_have_brackets(command: Command) -> None:
+    Path("tg[").mkdir()
+    Path("tg[/]x.trig").write_text("M A\nX 10 RECORD\n", encoding="utf-8")
+    assert command("trig", "show", "tg[/]x.trig")[::2] == (0, "")
+
+
 def test_a_program_that_was_written_is_run(command: Command) -> None:
     typed = "M A\nX 20 RECORD\nM B\nX 40 RECORD\nEX both\n"
     assert command("trig", typed=typed) == (0, "written to both.trig.json\n", "")

@@ -53,8 +53,15 @@ def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[Paired, ...]
     """Each batch beside the first one.
 
     Raises:
-        InvalidInput: one has no seed in common with the first.
+        InvalidInput: one has no seed in common with the first, or the same seeds are other worlds in it; or what was
+            tried in one is not to assemble.
     """
+    drawing = batches[0][0].world.drawing
+    for name, (head, _) in zip(names, batches, strict=True):
+        if head.work:
+            raise InvalidInput(f"{name} holds trials of another kind: those that assemble are compared")
+        if head.world.drawing != drawing:
+            raise InvalidInput(f"{name} was carried out by another version, whose seeds were other worlds")
     first, *others = (_outcomes(rows) for _, rows in batches)
     return tuple(beside(name, first, other) for name, other in zip(names[1:], others, strict=True))
 

@@ -11,7 +11,7 @@ from handeye.files import read_whole
 from handeye.line_file import LineFile
 from handeye.plain_text import counted
 from handeye.planfile.plan import Plan
-from handeye.planfile.store import write_plan
+from handeye.planfile.store import plan_digest, read_plan, write_plan
 from handeye.program.senses import Sense
 from handeye.record import Record
 from handeye.trials.batch.row import Row
@@ -67,7 +67,7 @@ class BatchFolder:
                 it now.
         """
         self.path = path
-        _check(path)
+        _check(path, head)
         try:
             path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -95,18 +95,12 @@ class BatchFolder:
         self._file.close()
 
     def _begin(self, head: Head, plan: Plan) -> None:
-        if (self.path / TRIALS).stat().st_size == 0:
+        if not (self.path / PLAN).exists() or (self.path / TRIALS).stat().st_size == 0:
             write_plan(self.path / PLAN, plan)
+        if (self.path / TRIALS).stat().st_size == 0:
             self._file.append(msgspec.json.encode(head) + b"\n")
             return
-        begun, rows = read_batch(self.path)
-        differs = head.differs(begun)
-        if differs:
-            raise InvalidInput(
-                f"{self.path} holds {counted(len(rows), 'trial')} of another batch, which differs in "
-                f"{', '.join(differs)}; choose another folder"
-            )
-        self.rows = {row.trial: row for row in rows}
+        self.rows = {row.trial: row for row in _same_batch(self.path, head)}
 
 
 def read_batch(path: Path) -> tuple[Head, tuple[Row, ...]]:
@@ -121,6 +115,11 @@ def read_batch(path: Path) -> tuple[Head, tuple[Row, ...]]:
     first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]  # a line that was cut short has no end
     head = _decoded(first, Head, file, 1)
     rows = [_decoded(line, Row, file, number) for number, line in enumerate(lines, 2)]
+    for number, row in enumerate(rows, 2):
+        if row.seed != head.world.seed + row.trial:
+            raise InvalidInput(
+                f"{file}, line {number}, has the seed {row.seed}, which trial {row.trial} has not"
+            )
     return head, tuple(sorted({row.trial: row for row in rows}.values(), key=lambda row: row.trial))
 
 
@@ -133,9 +132,39 @@ def _decoded(line: bytes, kind: type[R], file: Path, number: int) -> R:
         ) from None
 
 
-def _check(path: Path) -> None:
-    """Raises InvalidInput if a folder may not be written, for what is in it."""
-    if not path.exists() or (path / TRIALS).exists():
+def read_plan_of(path: Path, head: Head) -> Plan:
+    """The plan of a batch, from its folder.
+
+    Raises:
+        InvalidInput: it is not there, or another one is.
+    """
+    plan = read_plan(path / PLAN)
+    if plan_digest(plan) != head.plan:
+        raise InvalidInput(f"{path / PLAN} is not the plan of the batch in {path}")
+    return plan
+
+
+def _same_batch(path: Path, head: Head) -> tuple[Row, ...]:
+    """The trials of a batch that a folder holds. Raises InvalidInput if it is another one."""
+    begun, rows = read_batch(path)
+    differs = head.differs(begun)
+    if differs:
+        raise InvalidInput(
+            f"{path} holds {counted(len(rows), 'trial')} of another batch, which differs in "
+            f"{', '.join(differs)}; choose another folder"
+        )
+    if (path / PLAN).exists():
+        read_plan_of(path, head)
+    return rows
+
+
+def _check(path: Path, head: Head) -> None:
+    """Raises InvalidInput if a folder may not be written, for what is in it; nothing there is touched."""
+    if not path.exists():
+        return
+    if (path / TRIALS).is_file() and (path / TRIALS).stat().st_size:
+        _same_batch(path, head)
+    if (path / TRIALS).exists():
         return
     if not path.is_dir():
         raise InvalidInput(f"{path} is not a folder")

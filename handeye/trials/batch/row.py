@@ -48,6 +48,11 @@ class Row(Record, frozen=True, kw_only=True):
     wall_s: float = 0.0
     cpu_s: float = 0.0
 
+    def __post_init__(self) -> None:
+        """Raises ValueError if there is no result, and nothing that says why."""
+        if self.result is None and self.ended in _LEFT_RESULT:
+            raise ValueError(f"a trial that counts as {self.ended!r} has left no result")
+
     @property
     def verdict(self) -> Verdict:
         """How it counts."""
@@ -70,9 +75,9 @@ class Row(Record, frozen=True, kw_only=True):
     def cause(self) -> str:
         """Cause of a failure, the same words for the same cause; empty if there was none."""
         if self.ended not in _LEFT_RESULT or self.result is None:
-            return self.raised or _BROKEN_OFF[self.ended]
+            return self.raised or _BROKEN_OFF.get(self.ended, "")
         if not self.result.completed:
-            return ERRORS[self.result.error] if self.result.error is not None else self.result.message
+            return ERRORS.get(self.result.error or 0, self.result.message)
         return ", ".join(name for name, check in self.result.referee.items() if check.refuses)
 
     @property
