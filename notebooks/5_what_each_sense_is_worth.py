@@ -212,5 +212,9 @@ print(f"{len(searched)} searches, further places: {wanted} predicted, {advanced}
 # chance. An evening's work for two processors; the cells above took seconds. `handeye trials predict --worst 100
 # --simulate` joins both: ten thousand worlds by arithmetic, and the hundred worst of them carried out.
 #
+# [What came of it](../docs/trials.md#what-they-are-worth): without force no pump of 60 is assembled, without vision 2,
+# without search 20. Touch and centring are missed where errors are twice as large: without touch 11 of 20 are
+# assembled, without centring 14, with all senses 20. Every failure was noticed.
+#
 # You have come to the end. [Force and search](4_force_and_search.ipynb) shows how the hand feels;
 # [trials](../docs/trials.md) how to count, and how sure a count is.
