@@ -10,6 +10,7 @@ from handeye.cli.batches import assembly_trials, compare_trials
 from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
 from handeye.cli.dismantling import dismantling_trials
+from handeye.cli.disturbing import disturbed_trials
 from handeye.cli.pallet_trials import pallet_trials
 from handeye.cli.predictions import predict_trials
 from handeye.cli.world_options import (
@@ -39,6 +40,7 @@ def register(app: App) -> None:
     trials = App(name="trials", help="Try in many worlds and count.")
     trials.command(assembly_trials, name="assembly")
     trials.command(dismantling_trials, name="dismantling")
+    trials.command(disturbed_trials, name="disturbed")
     trials.command(compare_trials, name="compare")
     trials.command(predict_trials, name="predict")
     trials.command(base_vision_trials, name="base")

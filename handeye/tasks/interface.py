@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
@@ -98,6 +98,19 @@ class Predicted:
     def used(self) -> Array:
         """Share of the room that is used: 1 is its end."""
         return self.off / self.room
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Disturbance:
+    """Something that somebody changes between what the arm did and its undoing."""
+
+    name: str
+    meaning: str
+    """A sentence."""
+    make: Callable[[SimulatedCell], None]
+    """Does it."""
+    after: int | None = None
+    """Number of the stage behind whose end it is done; None: the last."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -213,6 +226,14 @@ class Task(AnyTask):
                 such world.
         """
         raise InvalidInput(f"the task {quoted(self.name)} predicts nothing")
+
+    def disturbances(self) -> tuple[Disturbance, ...]:
+        """What can be changed before its work is undone; by default nothing."""
+        return ()
+
+    def bystanders(self, truth: Truth) -> Mapping[str, Array]:
+        """Where the parts are that the hand does not hold, m, each of shape (3,), by their names."""
+        return {}
 
     def exported(self, world: WorldSpec, truth: Truth, keyframe: str) -> ExportedScene:
         """The scene of a world as a truth of its cell has it, for other programs.

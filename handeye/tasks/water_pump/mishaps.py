@@ -78,6 +78,15 @@ class Scene:
         self.data.qvel[self.dofs(part)] = 0.0
         wake(self.data, self.dofs(part).start)
 
+    def stack(self) -> list[str]:
+        """The base, and the parts that stand on it."""
+        (x, y, z), parts = self.place("base"), ["base"]
+        for part in _STACK:
+            aside, high = self.place(part)[:2] - (x, y), self.place(part)[2] - z
+            if np.hypot(*aside) < UPON and high >= 0:
+                parts.append(part)
+        return parts
+
     def to_tray(self, part: str) -> Array:
         """The way of a part to its place on the tray, m, shape (3,)."""
         (x, y), tray = GONE[part], self.model.geom("tray").id
@@ -142,11 +151,9 @@ class TakenAway(Mishap):
     """Somebody takes the base away, and all that stands on it."""
 
     def act(self, scene: Scene, state: MishapState) -> bool:
-        way, middle = scene.to_tray("base"), scene.place("base").copy()
-        for part in ("base", *_STACK):
-            aside, high = scene.place(part)[:2] - middle[:2], scene.place(part)[2] - middle[2]
-            if np.hypot(*aside) < UPON and high >= 0:
-                scene.shift(part, way)
+        way = scene.to_tray("base")
+        for part in scene.stack():
+            scene.shift(part, way)
         return True
 
 

@@ -10,7 +10,7 @@ from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture, Program
 from handeye.program.senses import Sense
-from handeye.tasks.interface import ExportedScene, Eye, Period, Predicted, Sight, Task, Words
+from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Predicted, Sight, Task, Words
 from handeye.tasks.water_pump.base_trial import BaseTrial
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.gasket_trial import GasketTrial
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
+    from handeye.pose import Array
 
 PERIOD: Final = Period(
     year=1973,
@@ -98,6 +99,16 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.exported import exported
 
         return exported(PumpWorld.draw(world), truth, keyframe)
+
+    def disturbances(self) -> tuple[Disturbance, ...]:
+        from handeye.tasks.water_pump.disturbances import disturbances
+
+        return disturbances()
+
+    def bystanders(self, truth: Truth) -> Mapping[str, Array]:
+        from handeye.tasks.water_pump.disturbances import bystanders
+
+        return bystanders(truth)
 
     def judge(self, truth: Truth) -> Findings:
         from handeye.tasks.water_pump.referee import judge

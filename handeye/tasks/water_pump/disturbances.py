@@ -1,0 +1,146 @@
+"""Disturbances: what somebody changes in a pump behind the arm's back, before the arm is told to undo what it did.
+
+Nobody simulates the hand that does it. What is taken away lies on the tray under the floor from then on, where nothing
+meets it; what is moved is elsewhere, at rest; what is glued is welded. A hand that tightens a screw is a torque.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import Final
+
+import mujoco
+import numpy as np
+
+from handeye.cell.simulated import SimulatedCell
+from handeye.cell.sleep import wake
+from handeye.cell.truth import Truth
+from handeye.pose import Array, inverse, pose
+from handeye.tasks.interface import Disturbance
+from handeye.tasks.water_pump.mishaps import Scene
+from handeye.tasks.water_pump.scene.arm import ARM
+
+TIGHT: Final = 1.5
+"""N m with which a hand tightens a screw: five times what the driver has."""
+_TIGHTENING: Final = 0.5
+"""s for which it does."""
+FAR: Final = 0.005
+"""m by which somebody moves the base, away from a block, with all that stands on it."""
+THIN: Final = 0.6
+"""Thickness of a pin that somebody puts in the place of another, for one of the pin."""
+TOP_ON: Final = 7
+"""Number of the stage that puts the top on."""
+_FINGERS: Final = (f"{ARM}finger_a", f"{ARM}finger_b")
+_PARTS: Final = ("base", "gasket", "top", "pin0", "pin1", "driver")
+
+
+def disturbances() -> tuple[Disturbance, ...]:
+    """All of them: those of a whole pump, then those of one whose top has been put on."""
+    return (*_of_a_pump(), *_of_a_stack())
+
+
+def _of_a_pump() -> Iterator[Disturbance]:
+    yield Disturbance(
+        name="screw.tightened", meaning="A screw is tightened by hand, with 1.5 N m.", make=_tighten
+    )
+    for axis, way in (("x", (FAR, 0.0)), ("y", (0.0, -FAR))):
+        yield Disturbance(
+            name=f"pump.moved.{axis}",
+            meaning=f"The pump is moved by 5 mm along table {axis}, away from its block.",
+            make=_moved(way),
+        )
+    yield Disturbance(
+        name="driver.removed", meaning="The screwdriver is taken out of its rack.", make=_removed("driver")
+    )
+    yield Disturbance(name="magnet.dead", meaning="The magnet of the screwdriver is dead.", make=_demagnetize)
+    yield Disturbance(name="pin.removed", meaning="A pin is taken out of its holder.", make=_removed("pin0"))
+    yield Disturbance(
+        name="pin.swapped", meaning="A pin is swapped for one of .6 of its thickness.", make=_thinned("pin1")
+    )
+
+
+def _of_a_stack() -> Iterator[Disturbance]:
+    for name, meaning, make in (
+        ("gasket.glued", "The gasket is glued to the base.", _glued("gasket")),
+        ("top.glued", "The top is glued to the base.", _glued("top")),
+        ("top.removed", "The top is taken away.", _removed("top")),
+        ("gasket.removed", "The gasket is taken out from under the top.", _removed("gasket")),
+        ("stack.moved", "The base is moved by 5 mm along table x, with gasket and top.", _moved((FAR, 0.0))),
+    ):
+        yield Disturbance(name=name, meaning=meaning, make=make, after=TOP_ON)
+
+
+Make = Callable[[SimulatedCell], None]
+
+
+def _scene(cell: SimulatedCell) -> Scene:
+    return Scene(cell.truth.model, cell.truth.data)
+
+
+def _tighten(cell: SimulatedCell) -> None:
+    scene = _scene(cell)
+    dof = int(scene.model.joint("thread_turn0").dofadr[0])
+    scene.data.qfrc_applied[dof] = -TIGHT
+    wake(scene.data, dof)
+    cell.advance(_TIGHTENING)
+    scene.data.qfrc_applied[dof] = 0.0
+
+
+def _moved(way: tuple[float, float]) -> Make:
+    def make(cell: SimulatedCell) -> None:
+        scene = _scene(cell)
+        for part in scene.stack():
+            scene.shift(part, np.array([*way, 0.0]))
+
+    return make
+
+
+def _removed(part: str) -> Make:
+    def make(cell: SimulatedCell) -> None:
+        scene = _scene(cell)
+        scene.shift(part, scene.to_tray(part))
+
+    return make
+
+
+def _demagnetize(cell: SimulatedCell) -> None:
+    model = cell.truth.model
+    model.actuator_gainprm[model.actuator("magnet").id] = 0.0
+
+
+def _thinned(pin: str) -> Make:
+    def make(cell: SimulatedCell) -> None:
+        model = cell.truth.model
+        for geom in np.flatnonzero(model.geom_bodyid == model.body(pin).id):
+            thick, _, high = model.geom_size[geom]  # of a mesh: half of what encloses it
+            model.geom_type[geom] = mujoco.mjtGeom.mjGEOM_CYLINDER
+            model.geom_size[geom] = (THIN * thick, high, 0.0)
+
+    return make
+
+
+def _glued(layer: str) -> Make:
+    def make(cell: SimulatedCell) -> None:
+        model, data = cell.truth.model, cell.truth.data
+        weld, X_WB, X_WL = model.equality(f"merge_{layer}").id, _pose(data, "base"), _pose(data, layer)
+        X_BL = inverse(X_WB) @ X_WL
+        model.eq_data[weld, :3], model.eq_data[weld, 3:6] = 0.0, X_BL[:3, 3]
+        mujoco.mju_mat2Quat(model.eq_data[weld, 6:10], X_BL[:3, :3].ravel())
+        data.eq_active[weld] = 1
+
+    return make
+
+
+def _pose(data: mujoco.MjData, body: str) -> Array:
+    return pose(data.body(body).xmat.reshape(3, 3), data.body(body).xpos)
+
+
+# -- what comes of them -------------------------------------------------------------------------------
+
+
+def bystanders(truth: Truth) -> dict[str, Array]:
+    """Where the parts are that no finger touches, m: of those on the table or the belt, but for screws."""
+    model, data = truth.model, truth.data
+    bodies = model.geom_bodyid[data.contact.geom]
+    holding = np.isin(bodies, [model.body(name).id for name in _FINGERS])
+    touched = {*model.body_rootid[bodies[holding[:, ::-1]]].tolist()}
+    places = {name: data.body(name).xpos.copy() for name in _PARTS if model.body(name).id not in touched}
+    return {name: place for name, place in places.items() if place[2] > 0}

@@ -1,0 +1,146 @@
+"""Undoing what somebody has disturbed: does a guard stop the arm before anything comes to harm?"""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+from typing import Final
+
+import numpy as np
+
+from handeye.events import UndoFinished, UndoStarted
+from handeye.planfile.plan import Plan
+from handeye.program.causes import UndoResisted
+from handeye.record import Record
+from handeye.report.finishing import finished
+from handeye.report.result import Result
+from handeye.runs.advance import advance
+from handeye.runs.host_seconds import Meter
+from handeye.runs.programs import cell_of
+from handeye.runs.runner import Runner
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.stops import AfterStage
+from handeye.tasks import task
+from handeye.tasks.interface import Disturbance
+from handeye.trials.brakes import brakes_hold
+from handeye.trials.seeds import in_processes
+from handeye.variation import WorldSpec
+
+MOVED: Final = 2.0
+"""mm by which no part may be moved that the hand does not hold."""
+FORCE: Final = 60.0
+"""N that the hand may not feel."""
+
+
+class Disturbed(Record, frozen=True, kw_only=True):
+    """What undoing came to when something had been disturbed."""
+
+    name: str
+    built: bool
+    """There was something to disturb; without, nothing else of this counts."""
+    stopped: bool = False
+    """A guard stopped it, and the brakes are on."""
+    at: str = ""
+    """The statement that was being undone."""
+    line: str = ""
+    message: str = ""
+    """What the operator was told, or what the referee found wrong."""
+    moved: float = 0.0
+    """How far the part moved that moved most in one step without being held, mm."""
+    part: str = ""
+    """That part."""
+    felt: float = 0.0
+    """Greatest force that the hand felt, N."""
+
+    @property
+    def harmless(self) -> bool:
+        """It was stopped in time."""
+        return self.stopped and self.moved <= MOVED and self.felt <= FORCE
+
+
+class Disturbances(Record, frozen=True, kw_only=True):
+    """What undoing came to with each of some disturbances."""
+
+    n: int
+    """Of those that could be tried."""
+    harmless: int
+    disturbances: tuple[Disturbed, ...]
+
+
+def disturbances_of(tried: Sequence[Disturbed]) -> Disturbances:
+    """Trials in the order of the task."""
+    names = [each.name for each in task().disturbances()]
+    found = tuple(sorted(tried, key=lambda each: names.index(each.name)))
+    built = [each for each in found if each.built]
+    return Disturbances(n=len(built), harmless=sum(each.harmless for each in built), disturbances=found)
+
+
+def try_disturbances(
+    plan: Plan, world: WorldSpec, names: Sequence[str], *, camera: str, workers: int
+) -> Iterator[Disturbed]:
+    """Build what a plan builds in a world, disturb it, and have the arm undo it: once for each, as they end.
+
+    Args:
+        names: of disturbances of the task.
+    """
+    yield from in_processes(partial(disturbed, plan, world, camera), names, workers)
+
+
+def disturbed(plan: Plan, world: WorldSpec, camera: str, name: str) -> Disturbed:
+    """What undoing comes to with one disturbance."""
+    change = next(each for each in task().disturbances() if each.name == name)
+    runner = Runner(Checkpoint(setup=Setup(plan=plan, world=world, camera=camera, judged=True)))
+    if not _built(runner, plan, change):
+        return Disturbed(name=name, built=False)
+    change.make(cell_of(runner.system))
+    begun, moved, part = len(runner.events), 0.0, ""
+    runner.have_undone(0, halts=True)
+    while not runner.ended:
+        moved, part = max((moved, part), _moved(runner))
+    result = finished(runner, advance(runner), Meter(), judged=True)
+    undone = [event for event in runner.events[begun:] if isinstance(event, UndoStarted)]
+    return Disturbed(
+        name=name,
+        built=True,
+        stopped=runner.call is not None and brakes_hold(cell_of(runner.system)),
+        at=undone[-1].text if undone else "",
+        line=undone[-1].place if undone else "",
+        message=result.message if runner.call is not None else _wrong(result),
+        moved=round(moved, 3),
+        part=part,
+        felt=round(_felt(runner, begun), 2),
+    )
+
+
+def _built(runner: Runner, plan: Plan, change: Disturbance) -> bool:
+    """Carry the plan out as far as the disturbance needs it."""
+    stages = plan.program.stages
+    number = len(stages) if change.after is None else change.after
+    pause = advance(
+        runner, () if number == len(stages) else (AfterStage(stage=number - 1, name=stages[number - 1]),)
+    )
+    return runner.call is None and pause.kind in ("end", "break")
+
+
+def _wrong(result: Result) -> str:
+    """What the referee found wrong when all had been undone."""
+    wrong = "; ".join(check.told for check in result.referee.values() if check.refuses)
+    return wrong or "undone, and everything is back"
+
+
+def _felt(runner: Runner, begun: int) -> float:
+    """The greatest force that the hand has felt while it undid, N."""
+    met = [event.force for event in runner.events[begun:] if isinstance(event, UndoFinished)]
+    cause = None if runner.call is None else runner.call.cause
+    return max([*met, cause.force] if isinstance(cause, UndoResisted) else met, default=0.0)
+
+
+def _moved(runner: Runner) -> tuple[float, str]:
+    """Do a step; how far the part moved most, mm, that the hand holds neither before nor behind it."""
+    before = task().bystanders(runner.cell.truth)
+    runner.step()
+    after = task().bystanders(runner.cell.truth)
+    ways = [
+        (1000 * float(np.linalg.norm(after[part] - before[part])), part)
+        for part in before.keys() & after.keys()
+    ]
+    return max(ways, default=(0.0, ""))

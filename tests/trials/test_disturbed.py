@@ -1,0 +1,129 @@
+"""What somebody disturbs behind the arm's back stops the arm as it undoes, before harm; what does not is told."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Command
+from msgspec.structs import replace
+from short_runs import plan_of
+
+from handeye.cell.simulated import SimulatedCell
+from handeye.planfile.plan import Plan
+from handeye.tasks import task
+from handeye.tasks.water_pump.disturbances import FAR, THIN, bystanders
+from handeye.trials import disturbing
+from handeye.trials.disturbing import Disturbed, disturbances_of, disturbed
+from handeye.variation import WorldSpec
+
+TAKE = """
+        STAGE   "take the pin"
+        OPEN    1
+        MOVE    P1
+        CLOSE   .1
+        CHANGE  [0 0 1] 1.5
+"""
+"""Takes a pin out of its holder."""
+STOPPED = Disturbed(
+    name="top.removed", built=True, stopped=True, at="OPEN    2.8", line="327", message="it is gone"
+)
+
+
+def cell() -> SimulatedCell:
+    return task().cell(WorldSpec(seed=0), "ray")
+
+
+def made(name: str, there: SimulatedCell) -> None:
+    next(each for each in task().disturbances() if each.name == name).make(there)
+
+
+def place(there: SimulatedCell, body: str) -> np.ndarray:
+    return there.truth.data.body(body).xpos.copy()
+
+
+@pytest.mark.slow
+def test_a_pin_that_is_taken_out_of_the_hand_stops_the_arm() -> None:
+    found = disturbed(plan_of(TAKE), WorldSpec(seed=0), "ray", "pin.removed")
+    assert (found.stopped, found.harmless, found.at.split()[0]) == (True, True, "CLOSE")
+    assert "the fingers stand at 0.00 in" in found.message
+
+
+@pytest.mark.slow
+def test_what_nobody_notices_is_no_success() -> None:
+    found = disturbed(plan_of(TAKE), WorldSpec(seed=0), "ray", "driver.removed")
+    assert (found.built, found.stopped, found.harmless) == (True, False, False)
+    assert "screwdriver from its rack" in found.message
+
+
+@pytest.mark.slow
+def test_each_disturbance_does_what_it_says() -> None:
+    there = cell()
+    first = place(there, "base"), place(there, "pin0")
+    made("stack.moved", there)
+    made("pin.removed", there)
+    made("gasket.glued", there)
+    made("pin.swapped", there)
+    there.advance(1 / 60)
+    assert place(there, "base") - first[0] == pytest.approx([FAR, 0, 0], abs=2e-4)
+    assert place(there, "pin0")[2] < 0
+    model, data = there.truth.model, there.truth.data
+    assert data.eq_active[model.equality("merge_gasket").id]
+    thick, thin = (model.geom_size[model.body(pin).geomadr[0], 0] for pin in ("pin0", "pin1"))
+    assert thin == pytest.approx(THIN * thick)
+
+
+@pytest.mark.slow
+def test_bystanders_are_on_the_table_and_in_no_hand() -> None:
+    there = cell()
+    assert {*bystanders(there.truth)} == {"base", "gasket", "top", "pin0", "pin1", "driver"}
+    made("top.removed", there)
+    there.advance(1 / 60)
+    assert "top" not in bystanders(there.truth)
+
+
+def test_a_stop_in_time_is_one_before_anything_is_pushed_or_wrecked() -> None:
+    soft = replace(STOPPED, moved=1.9, felt=59.0)
+    assert soft.harmless
+    assert not replace(soft, moved=2.1).harmless
+    assert not replace(soft, felt=61.0).harmless
+    assert not replace(soft, stopped=False).harmless
+
+
+def test_what_could_not_be_tried_counts_nowhere() -> None:
+    found = disturbances_of([Disturbed(name="top.glued", built=False), STOPPED])
+    assert (found.n, found.harmless, [each.name for each in found.disturbances]) == (
+        1, 1, ["top.glued", "top.removed"],
+    )  # fmt: skip
+
+
+def test_the_command_tells_each_and_whether_all_were_stopped(
+    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def tried(plan: Plan, world: WorldSpec, names: list[str], **_: object) -> list[Disturbed]:
+        return [STOPPED, Disturbed(name="stack.moved", built=True, message="top (at most 3 mm)")][
+            : len(names)
+        ]
+
+    monkeypatch.setattr(disturbing, "try_disturbances", tried)
+    code, out, _ = command("trials", "disturbed")
+    assert (code, out.splitlines()) == (3, [
+        "top.removed      stopped in time, line 327, OPEN 2.8: it is gone; felt 0.0 N, moved 0.00 mm",
+        "stack.moved      NOT STOPPED: top (at most 3 mm); felt 0.0 N, moved 0.00 mm",
+    ])  # fmt: skip
+    assert command("trials", "disturbed", "--only", "top.removed")[0] == 0
+    code, out, _ = command("trials", "disturbed", "--only", "top.removed", "--json")
+    assert (code, '"harmless": 1' in out) == (0, True)
+
+
+def test_the_list_names_what_can_be_disturbed(command: Command) -> None:
+    code, out, _ = command("trials", "disturbed", "--list")
+    assert (code, [line.split()[0] for line in out.splitlines()]) == (
+        0,
+        [e.name for e in task().disturbances()],
+    )
+    code, out, err = command("trials", "disturbed", "--only", "top.remove")
+    assert (code, out, err) == (
+        2,
+        "",
+        "handeye: there is no disturbance `top.remove`; did you mean `top.removed`?\n",
+    )
