@@ -21,10 +21,8 @@ class Seconds:
 def told(total: int) -> list[str]:
     """What is told, where there is no terminal, of trials that take ten seconds each."""
     out, clock = io.StringIO(), Seconds()
-    with Tally(total, "runs", Console(file=out, width=80), clock) as tally:
-        for _ in range(total):
-            clock.now += 10
-            tally.one_more()
+    for _ in Tally(total, "runs", Console(file=out, width=80), clock).counting(range(total)):
+        clock.now += 10
     return out.getvalue().splitlines()
 
 

@@ -87,12 +87,10 @@ def _drawn(
     """Schedules, when the worlds that they begin in have been carried out."""
     from handeye.trials.chaos import trials
 
-    specs, runs = trials.worlds(seed, worlds), []
-    with Tally(len(specs), "worlds carried out") as tally:
-        for run in trials.sound_runs(plan, folder, specs, camera, workers):
-            runs.append(run)
-            tally.one_more()
-    runs.sort(key=lambda run: run.world.seed)
+    specs = trials.worlds(seed, worlds)
+    ended = trials.sound_runs(plan, folder, specs, camera, workers)
+    tally = Tally(len(specs), "worlds carried out")
+    runs = sorted(tally.counting(ended), key=lambda run: run.world.seed)
     return list(trials.schedules(seed, count, runs))
 
 
@@ -103,15 +101,10 @@ def _tried(
     from handeye.trials.chaos import trials
 
     outcomes: list[Outcome] = []
-    tally = Tally(len(drawn), "schedules")
+    ended = trials.try_all(drawn, plan, folder, camera, workers)
     try:
-        with tally:
-            for outcome in trials.try_all(drawn, plan, folder, camera, workers):
-                outcomes.append(outcome)
-                if not json:
-                    with tally.aside():
-                        _tell(outcome)
-                tally.one_more()
+        for outcome in Tally(len(drawn), "schedules").counting(ended, None if json else _tell):
+            outcomes.append(outcome)
     finally:
         found = trials.summed(outcomes)
         if json:

@@ -49,18 +49,11 @@ def disturbed_trials(
             say(f"{each.name:16} {each.meaning}")
         return 0
     tried: list[Disturbed] = []
-    tally = Tally(len(chosen), "disturbances")
-    names = [each.name for each in chosen]
+    names, plan = [each.name for each in chosen], compiled(default_script())
+    ended = try_disturbances(plan, world.spec, names, camera=camera, workers=workers)
     try:
-        with tally:
-            for found in try_disturbances(
-                compiled(default_script()), world.spec, names, camera=camera, workers=workers
-            ):
-                tried.append(found)
-                if not json:
-                    with tally.aside():
-                        say(_sentence(found))
-                tally.one_more()
+        for found in Tally(len(chosen), "disturbances").counting(ended, None if json else _tell):
+            tried.append(found)
     finally:
         figures = disturbances_of(tried)
         if json:
@@ -80,11 +73,11 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
     return [each for each in known if not only or each.name in only]
 
 
-def _sentence(found: "Disturbed") -> str:
+def _tell(found: "Disturbed") -> None:
     if not found.built:
-        return f"{found.name:16} not tried: the pump was not built"
+        say(f"{found.name:16} not tried: the pump was not built")
+        return
     how = "stopped in time" if found.harmless else "stopped" if found.stopped else "NOT STOPPED"
     where = f", line {found.line}, {' '.join(found.at.split())}" if found.stopped else ""
-    return (
-        f"{found.name:16} {how}{where}: {found.message}; felt {found.felt:.1f} N, moved {found.moved:.2f} mm"
-    )
+    met = f"felt {found.felt:.1f} N, moved {found.moved:.2f} mm"
+    say(f"{found.name:16} {how}{where}: {found.message}; {met}")

@@ -108,16 +108,11 @@ def _tried(
     """Carry the plan out with each fault, keep and tell each outcome as its run ends; the exit code."""
     from handeye.trials.faults import counted_outcomes, matrix_of, try_faults
 
-    tally = Tally(len(kinds), "faults")
     note(f"{len(kinds)} runs, {workers} at a time")
+    ended = try_faults(plan, world, kinds, stage=stage, camera=camera, workers=workers)
     try:
-        with tally:
-            for trial in try_faults(plan, world, kinds, stage=stage, camera=camera, workers=workers):
-                tried.keep(trial)
-                if not json:
-                    with tally.aside():
-                        say(_told(trial))
-                tally.one_more()
+        for trial in Tally(len(kinds), "faults").counting(ended, None if json else _tell):
+            tried.keep(trial)
     finally:
         matrix = matrix_of(tried)
         if json:
@@ -127,8 +122,8 @@ def _tried(
     return 3 if matrix.undetected else 0
 
 
-def _told(trial: "FaultTrial") -> str:
-    """A line on a run with a fault."""
+def _tell(trial: "FaultTrial") -> None:
+    """Tell of a run with a fault, in a line."""
     where = "" if trial.line is None else f"“{trial.stage}”, line {trial.line}: "
     number = "" if trial.error is None else f"error {trial.error}: "
-    return f"{trial.name:32}  {trial.outcome:9}  {where}{number}{trial.message}".rstrip()
+    say(f"{trial.name:32}  {trial.outcome:9}  {where}{number}{trial.message}".rstrip())

@@ -81,10 +81,9 @@ def insertion(
     conditions = _conditions(clearance, chamfer, sd, search)
     found: list[InsertionTrial] = []
     try:
-        with Tally(n * len(conditions), "insertions") as tally:
-            for trial in trials(conditions, n, seed=checked_seed(seed), workers=jobs):
-                found.append(trial)
-                tally.one_more()
+        ended = trials(conditions, n, seed=checked_seed(seed), workers=jobs)
+        for trial in Tally(n * len(conditions), "insertions").counting(ended):
+            found.append(trial)
     finally:  # what has ended when it is broken off, too
         if found:
             tried = Bench.of(conditions, found)

@@ -44,12 +44,9 @@ def pallet_trials(
         raise InvalidInput(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
     found: list[JobReport] = []
     try:
-        with Tally(n, "trials") as tally:
-            for trial in trials(
-                n, seed=checked_seed(seed), blocks=blocks, interrupt=interrupt, workers=workers
-            ):
-                found.append(trial)
-                tally.one_more()
+        ended = trials(n, seed=checked_seed(seed), blocks=blocks, interrupt=interrupt, workers=workers)
+        for trial in Tally(n, "trials").counting(ended):
+            found.append(trial)
     finally:  # what has ended when it is broken off, too
         if found:
             counted = figures(found, blocks, interrupt=interrupt)

@@ -1,15 +1,17 @@
 """How many of many trials have ended, and about how long the others will take, on standard error."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from types import TracebackType
-from typing import Final, Self
+from typing import Final, Self, TypeVar
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn
 
 from handeye.cli.common import notes, say
+
+T = TypeVar("T")
 
 LINES: Final = 20
 """Lines told of all trials together where there is no terminal, and one of the first."""
@@ -42,7 +44,17 @@ class Tally:
     ) -> None:
         self._bar.stop()
 
-    def one_more(self) -> None:
+    def counting(self, trials: Iterable[T], tell: Callable[[T], None] | None = None) -> Iterator[T]:
+        """Trials as they end; each is told, if `tell` tells it, and counted when it has been kept."""
+        with self:
+            for trial in trials:
+                yield trial
+                if tell is not None:
+                    with self._aside():
+                        tell(trial)
+                self._one_more()
+
+    def _one_more(self) -> None:
         """Count a trial that has ended."""
         self._ended += 1
         self._bar.update(self._task, completed=self._ended, description=self._told())
@@ -50,7 +62,7 @@ class Tally:
             say(self._told(), self._console)
 
     @contextmanager
-    def aside(self) -> Iterator[None]:
+    def _aside(self) -> Iterator[None]:
         """While something else is printed: a bar that is there is out of the way."""
         self._bar.stop()
         try:

@@ -72,6 +72,7 @@ Make = Callable[[SimulatedCell], None]
 
 
 def _scene(cell: SimulatedCell) -> Scene:
+    """The scene of a cell, for somebody's hand: no port leads to it."""
     return Scene(cell.truth.model, cell.truth.data)
 
 
