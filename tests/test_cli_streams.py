@@ -61,6 +61,7 @@ CHEAP = {
     "export glb": "export glb ✓ -o ✓.jpg",
     "trials assembly": "trials assembly --seeds ✓",
     "trials dismantling": "trials dismantling --to ✓",
+    "trials disturbed": "trials disturbed --seed ✓",
     "trials pallet": "trials pallet --n ✓",
     "trials compare": "trials compare ✓ ✓",
     "trials base": "trials base ✓",
