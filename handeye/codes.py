@@ -44,7 +44,7 @@ CODES: Final[dict[str, Code]] = {
         "what the hand holds would be below the table top", "OPEN 1\nMOVE P\nCLOSE\nCHANGE [0 0 -1] 1"
     ),
     "compared-without-hold": _warning(
-        "an INSPECT compares with a picture that was not taken with HOLD",
+        "INSPECT or MATCH compares with a picture that was not taken with HOLD",
         "LOOK BEFORE\nLOOK AFTER\nINSPECT BASE BEFORE AFTER",
     ),
     "count-begun-anew": _warning(

@@ -31,6 +31,7 @@ NO_TOUCH: Final = 25
 PART_NOT_SEEN: Final = 30
 FEATURES_NOT_SEEN: Final = 31
 GASKET_WRONG: Final = 32
+PART_ASTRAY: Final = 33
 SWITCH_WRONG: Final = 50
 GAP_WRONG: Final = 51
 FORCE_WRONG: Final = 52
@@ -54,6 +55,7 @@ ERRORS: Final[dict[int, str]] = {
     PART_NOT_SEEN: "the part is not seen in the picture",
     FEATURES_NOT_SEEN: "the holes of the part are not found in the picture",
     GASKET_WRONG: "the gasket is not on properly",
+    PART_ASTRAY: "the part does not stand as it stood in the earlier picture",
     SWITCH_WRONG: "a finger switch does not tell what its finger touches",
     GAP_WRONG: "the gap does not follow its drive: its potentiometer fails, or something holds the fingers",
     FORCE_WRONG: "the hand feels a force in free air: something touches it, the load is not as declared, "

@@ -212,6 +212,18 @@ class PartInspected(Event, frozen=True, kw_only=True):
     """Why it is not as it should be."""
 
 
+class PartMatched(Event, frozen=True, kw_only=True):
+    """Vision saw how far a part stands in one picture as in another."""
+
+    part: str
+    ok: bool
+    """It does."""
+    off: float
+    """By how much it has moved against what is around it, m."""
+    unlike: float
+    """Share of it, from 0 to 1, that looks otherwise."""
+
+
 class CameraStarted(Event, frozen=True, kw_only=True):
     """The camera's mechanism set about something: `lens`, `aim` or `focus`, which takes it this long (s).
 
@@ -310,9 +322,9 @@ AnyEvent = (
     RunStarted | FrictionMeasured | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted
     | GuardFaint | GuardTripped
     | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
-    | PictureTaken | PartSeen | PartInspected | CameraStarted | CameraBusy | OperatorCalled | OperatorAnswered
-    | ExperimentMade | PanicStopped | WentBack | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded
-    | RunFinished
+    | PictureTaken | PartSeen | PartInspected | PartMatched | CameraStarted | CameraBusy
+    | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack
+    | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded | RunFinished
 )  # fmt: skip
 
 

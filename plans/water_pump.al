@@ -351,7 +351,6 @@ DEFINE FEEL SPOT
 
 ; Does the pump still stand where it was put? Closed fingers come to its rim, .3 in away, and push it to its block.
 DEFINE NUDGE SPOT PUSH WAY
-        CHANGE  [0 0 1] 1
         MOVE    SPOT
         RESTORE Y1
         RESTORE X2
@@ -709,7 +708,17 @@ TOPPED: OPEN    2.2             ;for the screwdriver
         HEIGHT  BARE .33 .39
         SKIPN   9
         WAIT    "THE TOP DOES NOT LIE FLAT: ITS WAIST"
+        PARK
+        ASSIGN  TRIES 2
+        JUMP    WHOLE
+MOVED:  SOJG    TRIES WHOLE     ;by the push itself? Once more
+        WAIT    "THE PUMP HAS MOVED SINCE IT WAS FELT"
+WHOLE:  LOOK    WHOLE
         NUDGE   RIM1 [0 40 0] [0 1 0]
+        CHANGE  [0 0 1] 1
         NUDGE   RIM2 [-40 0 0] [-1 0 0]
         PARK
         LOOK    DONE HOLD
+        MATCH   PUMP WHOLE DONE ;does it stand as it did when it was felt?
+        SKIPN   33
+        JUMP    MOVED

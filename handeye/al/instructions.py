@@ -381,6 +381,13 @@ _TABLE = (
         ours=True,
     ),
     Instruction(
+        op="MATCH",
+        group=VISION,
+        help="compare two pictures and check that the part stands as it stood; error 33 when it does not",
+        operands=(_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE)),
+        ours=True,
+    ),
+    Instruction(
         op="REQUIRE",
         group=RUN,
         help="read a file of instructions, as if its lines stood here; its path is relative to this file",

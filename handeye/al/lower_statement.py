@@ -28,7 +28,7 @@ from handeye.program.flow_operations import (
 from handeye.program.motion_operations import Center, Change, Close, Height, Move, Open, Restore, Travel, Turn
 from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
-from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
+from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Match, Specific
 from handeye.record import Vector3
 from handeye.units import INCH, OUNCE_FORCE
 
@@ -220,4 +220,5 @@ _STEPS: Final[dict[str, Callable[[Operands], AnyOperation]]] = {
     "GENERAL": lambda o: General(part=o.name("part"), picture=o.name("picture")),
     "SPECIFIC": lambda o: Specific(part=o.name("part"), picture=o.name("picture")),
     "INSPECT": lambda o: Inspect(part=o.name("part"), before=o.name("before"), after=o.name("after")),
+    "MATCH": lambda o: Match(part=o.name("part"), before=o.name("before"), after=o.name("after")),
 }

@@ -28,9 +28,8 @@ SLEW: Final = 5 * DEGREE
 """rad/s of pan and of tilt, which turn together."""
 REFOCUS: Final = 0.0347
 """1/m in a second: rings are divided by the reciprocal of the distance."""
-DIGITISE: Final = 0.5
-"""s for a picture. With these rates the looks of a pump take the 90 s that the paper gives for all lens changes and
-focusing: 40 for the turret, 12 for 60 degrees, 36 for 1.25 1/m, 2 for pictures; split as in the layout study, 6."""
+"""With these rates the looks of a pump take the 90 s that the paper gives for all lens changes and focusing: 40 for the
+turret, 12 for 60 degrees, 36 for 1.25 1/m, 2 for pictures; split as in the layout study, 6."""
 
 
 class CameraState(Record, frozen=True, kw_only=True):
@@ -111,12 +110,12 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     def pots(self) -> tuple[float, float]:
         return self._pots
 
-    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
+    def digitise(self, *, hold_target: bool = False) -> Picture:
         view = self.true_view()
         light = self._raster.read(self._renderer.render(self._data, view), self._drifted())
         disc = blur_disc(self._lens, self._focus, self._sight(view))
         picture = self._vidicon.expose(light, disc=disc, hold_target=hold_target)
-        return self._lines.carried_picture(picture), DIGITISE
+        return self._lines.carried_picture(picture)
 
     def _drifted(self) -> Array:
         """Where the next picture lies, points: nothing moves between two pictures but this."""

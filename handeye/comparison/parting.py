@@ -78,7 +78,7 @@ def _decides(event: AnyEvent) -> Any:
             return event.number, event.occurred
         case happened.SearchAdvanced():
             return event.count
-        case happened.PartInspected():
+        case happened.PartInspected() | happened.PartMatched():
             return event.ok
         case happened.OperatorCalled():
             return event.message, event.error

@@ -97,6 +97,12 @@ REMEDIES: Final[dict[int, Remedy]] = {
         "LOOK BEFORE HOLD\nMOVE P\nLOOK AFTER HOLD\nINSPECT BASE BEFORE AFTER\nSKIPN 32 ;it is on properly\n"
         'WAIT "CHECK THE GASKET"\nPARK',
     ),
+    errors.PART_ASTRAY: Remedy(
+        "Somebody has moved the part since the earlier picture, or taken it away; or the arm stands elsewhere and "
+        "throws its shadow there: look again, or ask.",
+        "LOOK BEFORE\nMOVE P\nLOOK AFTER HOLD\nMATCH BASE BEFORE AFTER\nSKIPN 33 ;it stands as it stood\n"
+        'WAIT "SOMEBODY HAS MOVED THE BASE"\nPARK',
+    ),
     errors.SWITCH_WRONG: Remedy(
         "A switch that is closed while its finger stands off everything is stuck; so is one that stays open while the "
         "fingers press on something. Nothing counts that is felt by it: leave the error untested, or put it into "
@@ -137,7 +143,7 @@ ACTIONS: Final = "\n".join(
         *_MOTIONS, *(f"{guard}\n{motion}" for guard in ("STOP 9", "TORQUE 42", "TOUCH 3") for motion in _MOTIONS[:-1]),
         "SEARCH .1\nL: MOVE T\nRESTORE H\nAOJ L", "OPEN 1", "CLOSE .1 .3", "CENTER .1", "CHANGE Z 1\nTRAVEL .1 .9",
         "SAVE H\nHEIGHT H .1 .9",
-        "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V",
+        "LENS 25", "AIM BASE", "LOOK V HOLD", "GENERAL BASE V", "SPECIFIC BASE V", "INSPECT BASE V V", "MATCH BASE V V",
     )
 )  # fmt: skip
 """Every instruction that can raise an error, with whatever lets it raise more."""

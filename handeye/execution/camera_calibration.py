@@ -19,7 +19,7 @@ from handeye.errors import HandeyeError
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
-from handeye.ports.camera import TvCamera
+from handeye.ports.camera import DIGITISE, TvCamera
 from handeye.ports.workcell import Workcell
 from handeye.pose import hand
 from handeye.program.cause_text import error_sentence
@@ -117,12 +117,12 @@ def _sightings(drive: ArmDrive, look: CalibrationLook, place: Vector3, ready: fl
         return
     _go(drive, trajectory)
     drive.brake(max(0.0, ready - drive.cell.clock.now))
-    dark, seconds = camera.digitise()
+    dark = camera.digitise()
     drive.state.lamp = True
-    drive.brake(seconds)
-    lit, seconds = camera.digitise(hold_target=True)
+    drive.brake(DIGITISE)
+    lit = camera.digitise(hold_target=True)
     drive.state.lamp = False
-    drive.brake(seconds)
+    drive.brake(DIGITISE)
     if repeated(lit, dark):
         raise CalibrationFailed("the camera gives the same picture again, with the lamp lit as without it")
     spot = find_spot(dark, lit)

@@ -28,6 +28,7 @@ from handeye.vision.camera_model import View
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.grasp_line import GraspLine
 from handeye.vision.marks import Mark, marks
+from handeye.vision.part_match import PartMatch
 
 
 class Fault(Record, frozen=True, kw_only=True):
@@ -84,11 +85,16 @@ class Found:
     grasp: GraspLine | None = None
     """Of the first grasp of the part that was located."""
     inspection: GasketInspection | None = None
+    match: PartMatch | None = None
 
     def marks(self) -> list[Mark]:
         """The same as marks on the picture."""
         return marks(
-            general=self.general, specific=self.specific, grasp=self.grasp, inspection=self.inspection
+            general=self.general,
+            specific=self.specific,
+            grasp=self.grasp,
+            inspection=self.inspection,
+            match=self.match,
         )
 
 

@@ -6,15 +6,15 @@ from typing import Final
 import numpy as np
 
 from handeye import errors
-from handeye.events import CameraBusy, CameraStarted, PartInspected, PartSeen, PictureTaken
+from handeye.events import CameraBusy, CameraStarted, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
 from handeye.planning.first_grasp import first_grasp
-from handeye.ports.camera import Picture, TvCamera
+from handeye.ports.camera import DIGITISE, Picture, TvCamera
 from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
 from handeye.program.operation import Operation
-from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Specific
+from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Match, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import inspect as inspect_gasket
@@ -70,8 +70,8 @@ def _middle(X_WP: Pose, x: float, y: float) -> Array:
 def look(run: ExecutionContext, operation: Look) -> Fault | None:
     """Take a picture, once the camera's mechanism is ready."""
     _wait(run, "wait", run.state.camera_ready - run.time)
-    picture, seconds = _tv(run).digitise(hold_target=operation.hold_target)
-    _wait(run, "digitise", seconds)
+    _wait(run, "digitise", DIGITISE)
+    picture = _tv(run).digitise(hold_target=operation.hold_target)
     dead = _dead(run, operation.picture, picture)
     if dead is not None:
         return Fault(number=errors.PICTURE_WRONG, cause=dead)
@@ -177,13 +177,44 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     if before is None or after is None:
         return _no_picture(errors.GASKET_WRONG, operation.after if before else operation.before)
     part = run.world.parts[operation.part]
-    X_WP = run.world.part(operation.part)
-    pose = (float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP))
     with run.vision.running():
-        seen = inspect_gasket(before.picture, after.picture, after.view, part, pose)
+        seen = inspect_gasket(before.picture, after.picture, after.view, part, _pose(run, operation.part))
     run.state.found[operation.after] = Found(inspection=seen)
     run.emit(PartInspected(time=run.time, part=operation.part, ok=seen.ok, cause=seen.cause))
     return None if seen.ok else Fault(number=errors.GASKET_WRONG, cause=seen.cause)
+
+
+def match(run: ExecutionContext, operation: Match) -> Fault | None:
+    """See by two pictures whether a part still stands as it stood."""
+    if "vision" in run.without:
+        return None
+    before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
+    if before is None or after is None:
+        return _no_picture(errors.PART_ASTRAY, operation.after if before else operation.before)
+    from handeye.vision.matching import match as match_part  # takes OpenCV, without which plans are made
+
+    part = run.world.parts[operation.part]
+    with run.vision.running():
+        seen = match_part(before.picture, after.picture, after.view, part, _pose(run, operation.part))
+    if isinstance(seen, Failure):
+        return Fault(number=errors.PART_ASTRAY, cause=seen.cause)
+    run.state.found[operation.after] = Found(match=seen)
+    run.emit(
+        PartMatched(
+            time=run.time,
+            part=operation.part,
+            ok=seen.ok,
+            off=round(seen.shift, 6),
+            unlike=round(seen.unlike, 6),
+        )
+    )
+    return None if seen.ok else Fault(number=errors.PART_ASTRAY, cause=seen.cause)
+
+
+def _pose(run: ExecutionContext, part: str) -> tuple[float, float, float]:
+    """Where a part is believed to be: x, y (m) and yaw (rad)."""
+    X_WP = run.world.part(part)
+    return float(X_WP[0, 3]), float(X_WP[1, 3]), yaw(X_WP)
 
 
 def just_found(run: ExecutionContext) -> tuple[str, list[Mark]]:
@@ -201,4 +232,5 @@ VISION_ACTIONS: Final[dict[type[Operation], Action]] = {
     General: general,
     Specific: specific,
     Inspect: inspect,
+    Match: match,
 }

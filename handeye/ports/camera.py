@@ -20,6 +20,10 @@ LENSES: Final = (WIDE, CLOSE_UP)
 FIRST_LENS: Final = CLOSE_UP
 """The lens that is in place when the cell is switched on: as the last look of a run leaves it."""
 
+DIGITISE: Final = 0.5
+"""s for a picture. With this and the rates of the mechanism the looks of a pump take the 90 s that the paper gives for
+all lens changes and focusing; split as in the layout study, 6."""
+
 Picture = NDArray[np.uint8]
 """A digitised television picture: ROWS by COLUMNS of intensities 0..15."""
 
@@ -69,8 +73,8 @@ class TvCamera(ABC):
         """Pan and tilt as the potentiometers read them now (rad), noise included."""
 
     @abstractmethod
-    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
-        """Take a picture; the picture and the seconds it takes.
+    def digitise(self, *, hold_target: bool = False) -> Picture:
+        """The picture of this moment, to which the tube and its digitiser have been at work for DIGITISE.
 
         Args:
             hold_target: keep the vidicon target voltage (gain) of the previous picture, as a difference of

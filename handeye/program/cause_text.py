@@ -71,6 +71,8 @@ def cause_sentence(cause: Cause) -> str:
             return _not_found(cause)
         case c.NoGasket() | c.GasketWrong():
             return inspection_sentence(cause)
+        case c.PartAstray():
+            return match_sentence(cause.off, cause.unlike)
         case c.NoSearch():
             return "no search was set up"
         case c.PlacesTried():
@@ -98,6 +100,11 @@ def inspection_sentence(cause: c.InspectionCause | c.Recorded | None) -> str:
         case c.Recorded():
             return cause.words
     assert_never(cause)
+
+
+def match_sentence(off: float, unlike: float) -> str:
+    """What two pictures of a part tell, for people: how far it has moved (m), and what share of it looks otherwise."""
+    return f"moved by {_inches(off)} against what is around it; {100 * unlike:.0f} % of it looks otherwise"
 
 
 def _undo_stopped(cause: c.UndoCause) -> str:

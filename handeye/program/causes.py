@@ -254,6 +254,15 @@ class GasketWrong(CauseRecord, frozen=True, kw_only=True):
     faults: tuple[BaseHoleUnseen | GasketHoleUnseen | GasketHoleOff, ...]
 
 
+class PartAstray(CauseRecord, frozen=True, kw_only=True):
+    """The part does not stand in the later picture as in the earlier one."""
+
+    off: float
+    """By how much it has moved against what is around it, m."""
+    unlike: float
+    """Share of it, from 0 to 1, that looks otherwise."""
+
+
 # -- the program ------------------------------------------------------------------------------------
 
 
@@ -342,6 +351,6 @@ InspectionCause = NoGasket | GasketWrong
 Cause = (
     BeyondArm | JointBehind | HandAstray | HandStuck | GuardsUnmet | TravelOutside | HeightOutside | HeightUnknown
     | GapTooSmall | GapTooLarge | NothingBetween | SenseCause | NoPicture | NoGeneral | SightCause | InspectionCause
-    | NoSearch | PlacesTried | Looping | UndoCause | Recorded
+    | PartAstray | NoSearch | PlacesTried | Looping | UndoCause | Recorded
 )  # fmt: skip
 """All there are."""

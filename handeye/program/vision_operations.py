@@ -96,4 +96,21 @@ class Inspect(Operation, frozen=True, kw_only=True):
         return self.after
 
 
-VisionOperation = Lens | Aim | Look | General | Specific | Inspect
+class Match(Operation, frozen=True, kw_only=True):
+    """Compare two pictures of a part; error 33 if it does not stand in the later one as in the earlier."""
+
+    family: ClassVar = "sight"
+    raising: ClassVar = action(errors.PART_ASTRAY)
+    reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}
+
+    part: str
+    before: str
+    after: str
+
+    @property
+    def examines(self) -> str | None:
+        """The later of its pictures."""
+        return self.after
+
+
+VisionOperation = Lens | Aim | Look | General | Specific | Inspect | Match

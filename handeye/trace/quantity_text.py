@@ -24,6 +24,7 @@ _EVENTS: Final[Mapping[str, str]] = {
     "OperatorAnswered": "operator's answer",
     "OperatorCalled": "call of the operator",
     "PartInspected": "part inspected",
+    "PartMatched": "part matched",
     "PartSeen": "part seen",
     "PictureTaken": "picture taken",
     "PositionDefined": "position defined",

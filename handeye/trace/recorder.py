@@ -10,6 +10,7 @@ from handeye.errors import InvalidInput
 from handeye.events import (
     Event,
     PartInspected,
+    PartMatched,
     PartSeen,
     PictureTaken,
     RunStarted,
@@ -126,7 +127,7 @@ class Recorder:
             self._writing.frames(event.time, self._frames.poses(), self._frames.there(), anew=True)
         if isinstance(event, PictureTaken):
             self._writing.picture(event, self._looks.picture(event.picture))
-        if isinstance(event, PartSeen | PartInspected):
+        if isinstance(event, PartSeen | PartInspected | PartMatched):
             self._writing.found(event.time, *self._looks.found())
         self._writing.event(event)
 

@@ -10,7 +10,7 @@ from handeye import events as happened
 from handeye.events import Event
 from handeye.plain_text import counted, told_apart
 from handeye.ports.camera import Renderer
-from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence
+from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence, match_sentence
 from handeye.program.guards import GuardKind
 from handeye.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 
@@ -29,6 +29,7 @@ LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.PictureTaken: Log.INFO,
     happened.PartSeen: Log.INFO,
     happened.PartInspected: Log.INFO,
+    happened.PartMatched: Log.INFO,
     happened.OperatorCalled: Log.ERROR,
     happened.OperatorAnswered: Log.INFO,
     happened.ExperimentMade: Log.WARNING,
@@ -136,6 +137,8 @@ def sentence(event: Event, measures: Measures = INCHES) -> str:
             return _seen(event)
         case happened.PartInspected():
             return f"{event.part}: {inspection_sentence(event.cause)}"
+        case happened.PartMatched():
+            return f"{event.part}: {match_sentence(event.off, event.unlike)}"
         case happened.CameraStarted():
             return f"the camera {_CAMERA.get(event.action, event.action)}, in {event.seconds:.1f} s"
         case happened.CameraBusy():

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import msgspec
 
-from handeye.events import AnyEvent, ErrorRaised, PartInspected, PartSeen, PictureTaken
+from handeye.events import AnyEvent, ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.execution.state import ExecutionState, Found
 from handeye.program.program import Program
 from handeye.runs.programs import ProgramSystem
@@ -15,7 +15,7 @@ from handeye.see.facts.seen import Finding, SeenPicture
 from handeye.see.page.seen import figure
 from handeye.trace.steps import DoneStep, done_steps
 
-NEWS = PictureTaken | PartSeen | PartInspected | ErrorRaised
+NEWS = PictureTaken | PartSeen | PartInspected | PartMatched | ErrorRaised
 """Events after which there is another picture, or more on it."""
 
 

@@ -29,32 +29,44 @@ MARGIN: Final = FARTHEST + 2
 
 Levels = NDArray[np.float32]
 """Intensities between those of a picture, shape (256, 333)."""
+Points = NDArray[np.bool_]
+"""Which points of a picture, shape (256, 333)."""
 
 
 def aligned(picture: Picture, to: Picture) -> Levels:
     """A picture moved so that what has not changed lies as in the other; its border is drawn out."""
-    return _moved(picture.astype(np.float32), -shift(to, picture))
+    return moved(picture.astype(np.float32), -shift(to, picture))
 
 
-def shift(first: Picture, second: Picture) -> Array:
+def shift(first: Picture, second: Picture, where: Points | None = None) -> Array:
     """How far (columns, rows), shape (2,), the second of two pictures of one view lies from the first.
 
     First by whole points, by the agreement of most; then, from the slopes of what agrees, by parts of a point.
+
+    Args:
+        where: points of the first picture by which it is told; by default all.
     """
-    a, b = _smooth(first), _smooth(second)
+    a, b = smooth(first), smooth(second)
+    counts = np.ones(first.shape, dtype=np.bool_) if where is None else where
     reach = range(-FARTHEST, FARTHEST + 1)
-    rough = min(((u, v) for v in reach for u in reach), key=lambda uv: _disagreement(a, b, *uv))
+    rough = min(((u, v) for v in reach for u in reach), key=lambda uv: _disagreement(a, b, counts, *uv))
     found = np.array(rough, dtype=float)
     for _ in range(STEPS):
-        found = found + _step(a, _moved(b, -found))
+        found = found + _step(a, moved(b, -found), counts)
     return found
 
 
-def _smooth(picture: Picture) -> Levels:
+def changed(a: Levels, b: Levels) -> Points:
+    """Points around which two smoothed pictures differ by more than noise makes them differ."""
+    return np.asarray(cv2.blur(np.abs(b - a), (AREA, AREA)) > QUIET)
+
+
+def smooth(picture: Picture) -> Levels:
+    """The picture with most of its noise gone."""
     return cv2.GaussianBlur(picture.astype(np.float32), (0, 0), BLUR).astype(np.float32)
 
 
-def _disagreement(a: Levels, b: Levels, u: int, v: int) -> float:
+def _disagreement(a: Levels, b: Levels, counts: Points, u: int, v: int) -> float:
     """Mean difference when the second is moved back by whole points, with no more said by what has changed.
 
     Of every other point on every other line: the blur has spread each over its neighbours.
@@ -62,22 +74,23 @@ def _disagreement(a: Levels, b: Levels, u: int, v: int) -> float:
     rows, columns = a.shape
     here = a[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
     there = b[MARGIN + v : rows - MARGIN + v : 2, MARGIN + u : columns - MARGIN + u : 2]
-    return float(np.minimum(np.abs(there - here), CHANGED).mean())
+    these = counts[MARGIN : rows - MARGIN : 2, MARGIN : columns - MARGIN : 2]
+    return float(np.minimum(np.abs(there - here), CHANGED)[these].mean())
 
 
-def _step(a: Levels, b: Levels) -> Array:
+def _step(a: Levels, b: Levels, counts: Points) -> Array:
     """By how much the second still lies off, from the slopes of both where they agree, shape (2,)."""
     mean = (a + b) / 2
     inside = np.s_[MARGIN:-MARGIN, MARGIN:-MARGIN]
-    changed = (cv2.blur(np.abs(b - a), (AREA, AREA)) > QUIET).astype(np.uint8)
-    same = cv2.dilate(changed, np.ones((CLEAR, CLEAR), np.uint8))[inside] == 0
+    near = cv2.dilate(changed(a, b).astype(np.uint8), np.ones((CLEAR, CLEAR), np.uint8))
+    same = ((near == 0) & counts)[inside]
     slope = np.stack([np.gradient(mean, axis=axis)[inside][same] for axis in (1, 0)])
     off = (a - b)[inside][same]
-    moved, *_ = np.linalg.lstsq(slope @ slope.T, slope @ off, rcond=None)  # none, if nothing is the same
-    return np.asarray(moved, dtype=float)
+    step, *_ = np.linalg.lstsq(slope @ slope.T, slope @ off, rcond=None)  # none, if nothing is the same
+    return np.asarray(step, dtype=float)
 
 
-def _moved(picture: Levels, by: Array) -> Levels:
+def moved(picture: Levels, by: Array) -> Levels:
     """The picture with everything in it (columns, rows) farther."""
     matrix = np.array([[1.0, 0.0, by[0]], [0.0, 1.0, by[1]]])
     rows, columns = picture.shape

@@ -2,7 +2,8 @@
 
 The box of general location is white; holes have a red cross and a yellow box, with the line of centres between them.
 The line of the first grasp is blue: picture 10 of the paper has these two lines. Expected centres of a gasket are red
-crosses, found ones discs, green if it is right.
+crosses, found ones discs, green if it is right. The outline of a part that is looked at again is green if it stands as
+it stood, else red.
 """
 
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from typing import Final
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.grasp_line import GraspLine
+from handeye.vision.part_match import PartMatch
 
 Colour = tuple[int, int, int]
 """Red, green, blue, each 0 to 255."""
@@ -67,6 +69,7 @@ def marks(
     specific: SpecificLocation | None = None,
     grasp: GraspLine | None = None,
     inspection: GasketInspection | None = None,
+    match: PartMatch | None = None,
 ) -> list[Mark]:
     """The marks of what was found in a picture, in the order in which they are drawn."""
     drawn: list[Mark] = []
@@ -83,6 +86,8 @@ def marks(
         drawn += [mark for u, v in inspection.expected for mark in _cross(u, v)]
         colour = GREEN if inspection.ok else RED
         drawn += [Disc(centre=found, colour=colour) for found in inspection.found if found]
+    if match:
+        drawn.append(Loop(points=match.outline, colour=GREEN if match.ok else RED, width=BOLD))
     return drawn
 
 

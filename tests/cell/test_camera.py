@@ -12,7 +12,7 @@ from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
 from handeye.errors import InvalidInput
-from handeye.ports.camera import CLOSE_UP, COLUMNS, ROWS, WIDE, Renderer
+from handeye.ports.camera import CLOSE_UP, COLUMNS, DIGITISE, ROWS, WIDE, Renderer
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.vision.camera_model import View
@@ -52,7 +52,7 @@ def camera(world: PumpWorld | None = None, renderer: SceneRenderer | None = None
 
 @pytest.mark.row(50, nominal=1)
 def test_a_picture_has_256_lines_of_333_integers_from_0_to_15():
-    picture, _ = camera().digitise()
+    picture = camera().digitise()
     assert picture.shape == (256, 333)
     assert picture.dtype == np.uint8
     assert picture.max() <= 15
@@ -66,7 +66,6 @@ def test_the_mechanics_take_time_by_the_way_they_go():
     assert tv.aim(-0.2, 0.6) == pytest.approx(0.3 / SLEW)
     assert (tv.focus(1.6), tv.focus(1.6)) == (pytest.approx(1 / 1.6 / REFOCUS), 0.0)
     assert tv.focus(2.0) == pytest.approx((1 / 1.6 - 1 / 2.0) / REFOCUS)
-    assert tv.digitise()[1] == 0.5
 
 
 def test_all_looks_of_a_pump_as_drawn_take_ninety_seconds():
@@ -79,8 +78,8 @@ def test_all_looks_of_a_pump_as_drawn_take_ninety_seconds():
     seconds = 0.0
     for lens, at in ((WIDE, belt), (CLOSE_UP, belt), (CLOSE_UP, standard)):
         seconds += tv.lens(lens) + tv.aim(*DRAWING.aim(at, lens)) + tv.focus(math.dist(at, DRAWING.mount))
-        seconds += tv.digitise()[1]
-    assert seconds + tv.digitise(hold_target=True)[1] == pytest.approx(90.0, abs=0.5)
+        seconds += DIGITISE
+    assert seconds + DIGITISE == pytest.approx(90.0, abs=0.5)
 
 
 def test_a_new_lens_must_be_focused_again():
@@ -147,7 +146,7 @@ def test_noise_is_about_one_level():
 
 
 def test_equal_seeds_give_equal_pictures():
-    first, second = (camera(PumpWorld.sample(3)).digitise()[0] for _ in range(2))
+    first, second = (camera(PumpWorld.sample(3)).digitise() for _ in range(2))
     assert (first == second).all()
 
 

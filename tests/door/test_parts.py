@@ -182,7 +182,7 @@ def test_a_search_that_fails_fails_where_people_see_it() -> None:
 @pytest.mark.render
 def test_pictures_are_those_of_the_camera_that_is_given() -> None:
     cell = task().cell(WorldSpec(seed=0), parts_of(None, HalfDark).camera)
-    picture = cell.devices.camera.digitise()[0]
+    picture = cell.devices.camera.digitise()
     assert (picture[:, :150].mean() < 2, picture[:, 183:].mean() > 8) == (True, True)
     assert cell.renderer == Renderer(method="replaced", platform=f"{__name__}.HalfDark")
 

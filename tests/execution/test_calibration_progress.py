@@ -60,7 +60,7 @@ class Turret(FakeCamera):
     def lens(self, focal_length: float) -> float:
         return 50.0
 
-    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
+    def digitise(self, *, hold_target: bool = False) -> Picture:
         raise FirstPicture
 
 

@@ -1,11 +1,14 @@
 """Counts, searches, circles and calls of the operator, as the executor carries them out."""
 
+import numpy as np
 import pytest
 from fake_runs import fake_run
+from synthetic import part
 
-from handeye.errors import GASKET_WRONG, SEARCH_EXHAUSTED, WRONG_TRAVEL
-from handeye.events import SearchAdvanced
+from handeye.errors import GASKET_WRONG, PART_ASTRAY, SEARCH_EXHAUSTED, WRONG_TRAVEL
+from handeye.events import PartMatched, SearchAdvanced
 from handeye.execution import executor
+from handeye.ports.camera import COLUMNS, ROWS
 from handeye.program.causes import Looping
 from handeye.program.program import Hole, Part
 
@@ -36,6 +39,25 @@ def test_pictures_that_show_no_gasket_raise_an_error() -> None:
         parts={"PUMP": Part(at=(1.1, 0.7, 0.0, 0.0), holes=HOLES)},
     )
     assert run.go().errors == [GASKET_WRONG]
+
+
+def test_pictures_in_which_a_part_does_not_stand_alike_raise_an_error() -> None:
+    run = fake_run("AIM PUMP\nLOOK A\nLOOK B\nMATCH PUMP A B", parts={"PUMP": part()})
+    shape = (ROWS, COLUMNS)
+    run.cell.camera.pictures = [np.random.default_rng(k).integers(0, 16, shape, np.uint8) for k in range(2)]
+    assert run.go().errors == [PART_ASTRAY]
+    (matched,) = run.all(PartMatched)
+    assert (matched.part, matched.ok, matched.unlike > 0.5) == ("PUMP", False, True)
+
+
+def test_pictures_in_which_a_part_stands_alike_raise_none() -> None:
+    run = fake_run("AIM PUMP\nLOOK A\nLOOK B\nMATCH PUMP A B", parts={"PUMP": part()})
+    picture = np.random.default_rng(0).integers(0, 15, (ROWS, COLUMNS), np.uint8)
+    other = picture.copy()
+    other[0, 0] += 1  # what is the same to the last point is no live picture
+    run.cell.camera.pictures = [picture, other]
+    assert run.go().errors == []
+    assert [event.ok for event in run.all(PartMatched)] == [True]
 
 
 def test_a_circle_in_which_no_time_passes_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:

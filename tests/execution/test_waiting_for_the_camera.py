@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from fake_runs import FakeRun, fake_run
+from fakes import FakeCamera
 from synthetic import part
 
 from handeye.events import AnyEvent, CameraBusy, CameraStarted, PictureTaken
-from handeye.ports.camera import COLUMNS, ROWS
+from handeye.ports.camera import COLUMNS, DIGITISE, ROWS, Picture
 from handeye.report.summary import overlapped
 
 MECHANISM = 3.0
@@ -43,6 +44,21 @@ def test_what_the_arm_does_meanwhile_is_not_waited_for_again() -> None:
 def taken(run: FakeRun) -> float:
     """When the picture was there, s."""
     return next(event.time for event in run.events if isinstance(event, PictureTaken))
+
+
+def test_a_picture_shows_the_moment_in_which_it_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[float] = []
+    digitise = FakeCamera.digitise
+
+    def noting(camera: FakeCamera, *, hold_target: bool = False) -> Picture:
+        shown.append(run.cell.clock.now)
+        return digitise(camera, hold_target=hold_target)
+
+    monkeypatch.setattr(FakeCamera, "digitise", noting)
+    run = fake_run("LOOK A\nLOOK B")
+    run.go()
+    assert shown == [event.time for event in run.events if isinstance(event, PictureTaken)]
+    assert shown[1] - shown[0] == pytest.approx(DIGITISE)
 
 
 def test_no_picture_is_waited_for_once_the_camera_is_ready() -> None:

@@ -8,12 +8,13 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Found
 from handeye.execution.vision_actions import just_found
-from handeye.program.causes import NoGasket
+from handeye.program.causes import NoGasket, PartAstray
 from handeye.tasks.water_pump.park import PARK
 from handeye.vision.base import GeneralLocation, SeenHole, SpecificLocation
 from handeye.vision.blob import BoundingBox
 from handeye.vision.gasket import GasketInspection
 from handeye.vision.marks import BLUE, BOLD, GREEN, RED, WHITE, YELLOW, Disc, Line, Loop, marks
+from handeye.vision.part_match import PartMatch
 
 SCRIPT = """
         LENS    25
@@ -23,6 +24,7 @@ SCRIPT = """
         SPECIFIC BASE BEFORE
         LOOK    AFTER HOLD
         INSPECT BASE BEFORE AFTER
+        MATCH   BASE BEFORE AFTER
 """
 BOX = GeneralLocation(box=BoundingBox(10, 20, 30, 50), x=0.5, y=0.6, corners=(), beams=1, points=1)
 HOLES = SpecificLocation(
@@ -45,12 +47,19 @@ def gasket(*, right: bool) -> GasketInspection:
     return GasketInspection(cause=None if right else NoGasket(), expected=EXPECTED, found=found, shift=None)
 
 
+def matched(*, right: bool) -> PartMatch:
+    """A part that stands as it stood, or does not."""
+    cause = None if right else PartAstray(off=0.01, unlike=0.0)
+    return PartMatch(cause=cause, outline=((1.0, 2.0), (5.0, 2.0), (5.0, 9.0)), shift=0.0, unlike=0.0)
+
+
 @pytest.mark.parametrize(
     ("step", "picture", "found"),
     [
         (3, "BEFORE", Found(general=BOX)),
         (4, "BEFORE", Found(specific=HOLES)),
         (6, "AFTER", Found(inspection=gasket(right=True))),
+        (7, "AFTER", Found(match=matched(right=True))),
     ],
 )
 def test_the_marks_are_those_of_the_picture_that_the_step_looks_at(
@@ -90,3 +99,12 @@ def test_a_gasket_has_crosses_where_holes_should_be_and_discs_where_they_are(
     drawn = marks(inspection=gasket(right=right))
     assert [mark for mark in drawn if isinstance(mark, Disc)] == [Disc(centre=(21.0, 30.0), colour=colour)]
     assert len([mark for mark in drawn if isinstance(mark, Line)]) == 4
+
+
+@pytest.mark.parametrize(("right", "colour"), [(True, GREEN), (False, RED)])
+def test_a_part_that_is_looked_at_again_has_its_outline_drawn(
+    right: bool, colour: tuple[int, int, int]
+) -> None:
+    (outline,) = marks(match=matched(right=right))
+    assert isinstance(outline, Loop)
+    assert (outline.points, outline.colour) == (((1.0, 2.0), (5.0, 2.0), (5.0, 9.0)), colour)

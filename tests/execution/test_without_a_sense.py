@@ -22,7 +22,7 @@ from handeye.events import (
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import ACTIONS
 from handeye.program.senses import SENSES, Sense
-from handeye.program.vision_operations import General, Inspect, Specific
+from handeye.program.vision_operations import General, Inspect, Match, Specific
 from handeye.runs.advance import advance, ended
 from handeye.runs.checkpoint_file import decode, encode
 from handeye.runs.programs import context_of
@@ -132,6 +132,7 @@ def test_without_vision_a_part_lies_where_it_was_planned() -> None:
         General(part="BASE", picture="WIDE"),
         Specific(part="BASE", picture="WIDE"),
         Inspect(part="BASE", before="A", after="B"),
+        Match(part="BASE", before="A", after="B"),
     ):
         assert ACTIONS[type(operation)](run, operation) is None
     assert (said, run.state.world.measured) == ([], {})

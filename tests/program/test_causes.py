@@ -107,6 +107,10 @@ WORDS: list[tuple[c.Cause, str]] = [
         c.GasketWrong(faults=(c.BaseHoleUnseen(hole="second"),)),
         "the second hole of the base is not found in the picture before",
     ),
+    (
+        c.PartAstray(off=0.2 * INCH, unlike=0.034),
+        "moved by 0.20 in against what is around it; 3 % of it looks otherwise",
+    ),
     (c.NoSearch(), "no search was set up"),
     (c.PlacesTried(places=9), "9 places tried"),
     (c.PlacesTried(places=9, around="T1"), "9 places tried around T1"),

@@ -195,11 +195,11 @@ class FakeCamera(TvCamera):
     def pots(self) -> tuple[float, float]:
         return self._pots
 
-    def digitise(self, *, hold_target: bool = False) -> tuple[Picture, float]:
+    def digitise(self, *, hold_target: bool = False) -> Picture:
         self.actions.append(("digitise", hold_target))
         if self.pictures:
-            return self.pictures.pop(0), 0.5
-        return self._noise.integers(0, 2, (ROWS, COLUMNS), np.uint8), 0.5
+            return self.pictures.pop(0)
+        return self._noise.integers(0, 2, (ROWS, COLUMNS), np.uint8)
 
 
 class FakeAxes(Axes):

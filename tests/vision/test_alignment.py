@@ -28,6 +28,16 @@ def test_a_shift_is_found_to_a_twentieth_of_a_point_whatever_else_has_changed(
     assert shift(picture(1), picture(2, by, laid)) == pytest.approx(by, abs=0.05)
 
 
+def test_a_shift_is_told_by_the_points_that_are_named():
+    first, second = picture(1), picture(2, (1.0, 2.0))
+    second[:, 166:] = picture(3, (-2.0, 0.0))[:, 166:]
+    left = np.zeros(first.shape, np.bool_)
+    left[:, :150] = True
+    right = left[:, ::-1]
+    assert shift(first, second, left) == pytest.approx((1.0, 2.0), abs=0.1)
+    assert shift(first, second, right) == pytest.approx((-2.0, 0.0), abs=0.1)
+
+
 def test_aligned_pictures_differ_by_noise_and_by_what_has_changed():
     first, second = picture(1), picture(2, (2.0, -1.0), laid=True)
     off = np.abs(aligned(second, to=first) - first)

@@ -15,7 +15,12 @@ Need = tuple[str, Callable[[Part], bool]]
 _REGION: Final[Need] = ("`region`", lambda part: part.region is not None)
 _OUTLINE: Final[Need] = ("`outline`", lambda part: part.outline is not None)
 _HOLES: Final[Need] = ("two `holes`", lambda part: len(part.holes) >= 2)
-_NEEDS: Final = {"GENERAL": (_REGION, _OUTLINE), "SPECIFIC": (_HOLES,), "INSPECT": (_HOLES,)}
+_NEEDS: Final = {
+    "GENERAL": (_REGION, _OUTLINE),
+    "SPECIFIC": (_HOLES,),
+    "INSPECT": (_HOLES,),
+    "MATCH": (_OUTLINE,),
+}
 
 
 def check_sights(words: ByWord, taught: Taught) -> Iterator[Diagnostic]:
@@ -50,8 +55,8 @@ def _unlike(words: ByWord) -> Iterator[Diagnostic]:
         name, hold = look.operands
         assert isinstance(name, Name)
         looks.setdefault(name.text, []).append((name, hold is not None))
-    for inspect in words.get("INSPECT", ()):
-        _, before, after = inspect.operands
+    for comparison in (*words.get("INSPECT", ()), *words.get("MATCH", ())):
+        _, before, after = comparison.operands
         assert isinstance(before, Name)
         assert isinstance(after, Name)
         taken = looks.get(after.text, [])

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from google.protobuf.message import DecodeError
 
 from handeye.errors import InvalidInput
-from handeye.events import ErrorRaised, PartInspected, PartSeen, PictureTaken
+from handeye.events import ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.ports.camera import Picture
 from handeye.see.recorded import Recorded
 from handeye.trace.annotations import read_annotations
@@ -14,7 +14,7 @@ from handeye.trace.channels import ANNOTATIONS, nanoseconds
 from handeye.trace.steps import DoneStep, done_steps
 from handeye.vision.marks import Mark
 
-Finding = PartSeen | PartInspected | ErrorRaised
+Finding = PartSeen | PartInspected | PartMatched | ErrorRaised
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -20,6 +20,7 @@ SENSED: Final = (
     happened.OperatorCalled,
     happened.PanicStopped,
     happened.PartInspected,
+    happened.PartMatched,
     happened.PartSeen,
     happened.PictureTaken,
     happened.PositionDefined,

@@ -87,14 +87,14 @@ def _inspected(
     """Whether the gasket of each case is accepted, all compared with one picture before."""
     from handeye.vision.gasket import inspect
 
-    before, _ = still.camera.digitise()
+    before = still.camera.digitise()
     stand = still.pose("gasket")
     X_WP = planar(*base) @ planar(0.0, 0.0, base_top(), 0.0)
     accepted = {}
     for case, put in _CASES.items():
         X_WG = put(X_WP, rng)
         still.put("gasket", stand if X_WG is None else X_WG)
-        after, _ = still.camera.digitise(hold_target=True)
+        after = still.camera.digitise(hold_target=True)
         accepted[case] = inspect(before, after, view, part, (part.at[0], part.at[1], part.at[3])).ok
     still.put("gasket", stand)
     return accepted

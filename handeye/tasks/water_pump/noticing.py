@@ -50,6 +50,7 @@ _TOP_LOST: Final = "NO TOP UNDER THE FINGERS: IT LIES END FOR END, OR IS LOST"
 UNSEEN: Final = ("NO BASE IS SEEN ON THE BELT", "THE HOLES OF THE BASE ARE NOT SEEN")
 """The careful program has looked again, and calls the operator; that of 1973 stops by an error."""
 _ASTRAY_AT_LAST: Final = "THE PUMP IS NOT WHERE IT WAS PUT"
+_MOVED_AT_LAST: Final = "THE PUMP HAS MOVED SINCE IT WAS FELT"
 _NOT_HELD: Final = "THE BASE IS NOT BETWEEN THE FINGERS"
 THICKNESS: Final = "NO GASKET LIES ON THE BASE, OR TWO, OR ONE OF ANOTHER THICKNESS"
 OFF: Final = ("THE GASKET IS NOT ON PROPERLY", "THE GASKET CANNOT BE TAKEN UP AGAIN")
@@ -151,7 +152,7 @@ EXPECTED: Final[dict[str, Expected]] = {
     "base.far": Expected(errors=(PART_NOT_SEEN, NO_SOLUTION, JOINT_LIMIT), calls=UNSEEN),
     "base.moved": Expected(
         errors=(SEARCH_EXHAUSTED, NOTHING_HELD),
-        calls=(_NOT_HELD, _ASTRAY_AT_LAST),
+        calls=(_NOT_HELD, _ASTRAY_AT_LAST, _MOVED_AT_LAST),
         stages=(_GRASP,),
         harmless="The hand feels for the base around where it was seen.",
     ),

@@ -42,4 +42,4 @@ def _of_world(still: StillPump, number: int) -> Iterator[Sight]:
 def _seen(still: StillPump, lens: float, point: Sequence[float]) -> tuple[Picture, View]:
     x, y, z = map(float, point)
     view = look(still.camera, still.true_camera, lens, (x, y, z))
-    return still.camera.digitise()[0], view
+    return still.camera.digitise(), view

@@ -81,13 +81,13 @@ def locate(
     """Both stages, with the pictures they used."""
     x, y, z, _ = part.at
     view = look(camera, known, WIDE, (x, y, z))
-    picture, _ = camera.digitise()
+    picture = camera.digitise()
     general = locate_general(picture, view, part)
     if isinstance(general, Failure):
         return general, [(picture, view, None)]
     pictures: list[tuple[Picture, View, GeneralLocation | None]] = [(picture, view, general)]
     middle = np.mean(general.corners, axis=0)
     view = look(camera, known, CLOSE_UP, (float(middle[0]), float(middle[1]), float(middle[2])))
-    picture, _ = camera.digitise()
+    picture = camera.digitise()
     pictures.append((picture, view, None))
     return locate_specific(picture, view, part, general), pictures

@@ -80,7 +80,7 @@ def test_a_forgotten_refocus_fails_with_a_clear_message(seed: int):
     general = pictures[0][2]
     view = pictures[1][1]
     still.camera.focus(math.inf)
-    picture, _ = still.camera.digitise()
+    picture = still.camera.digitise()
     failure = locate_specific(picture, view, PART, general)
     assert isinstance(failure, Failure)
     assert "is the picture in focus" in cause_sentence(failure.cause)

@@ -1,0 +1,81 @@
+"""Does a part stand in a picture as it stood in an earlier one?
+
+Nothing is asked of how the part looks: what was seen then is what should be seen now. A vidicon does not put every
+picture in quite the same place; so the part is compared with what is around it. How far it has moved against that
+follows to parts of a point; whatever else has become of it shows as points that have changed. An addition of ours.
+"""
+
+from typing import Final
+
+import cv2
+import numpy as np
+
+from handeye.errors import InvalidInput
+from handeye.ports.camera import COLUMNS, ROWS, Picture
+from handeye.program.causes import OutsidePicture, PartAstray
+from handeye.program.program import Part
+from handeye.units import INCH
+from handeye.vision.alignment import Points, changed, moved, shift, smooth
+from handeye.vision.base import Failure
+from handeye.vision.camera_model import View
+from handeye.vision.outline import silhouettes
+from handeye.vision.part_match import PartMatch
+
+MOVED: Final = 0.03 * INCH
+"""m that a part may seem to have moved. Two pictures of a pump at rest tell of .1 mm; a base that is .05 in off its
+place is wrong (reference test 59)."""
+UNLIKE: Final = 0.02
+"""Share of the part's points that may have changed. Of a pump at rest none do; of one that was taken away, half."""
+BESIDE: Final = 12
+"""Points beside the part that tell neither of it nor of what is around it: the mount stands beside what its
+potentiometers tell, and a part throws a shadow."""
+
+
+def match(
+    before: Picture, after: Picture, view: View, part: Part, pose: tuple[float, float, float]
+) -> PartMatch | Failure:
+    """Compare two pictures of a part at `pose` (x, y m, yaw rad).
+
+    Both must be taken with one aim and one target voltage, and with the arm in one place.
+
+    Raises:
+        InvalidInput: the program does not give the outline of the part.
+    """
+    if part.outline is None:
+        raise InvalidInput(
+            "pictures of a part can be matched only by its outline; the program does not give it"
+        )
+    x, y, yaw = pose
+    (corners,) = silhouettes(view, part, (x, y), np.array([yaw - part.at[3]]))
+    hull = cv2.convexHull(corners.astype(np.float32))[:, 0]
+    if not np.all((hull >= 0) & (hull <= (COLUMNS - 1, ROWS - 1))):
+        return Failure(cause=OutsidePicture())
+    its, around = _points(hull)
+    background = shift(before, after, around)
+    own = shift(before, after, its)
+    off = _on_face(view, part, (x, y), own - background)
+    differs = changed(smooth(before), moved(smooth(after), -own))
+    unlike = float(differs[its].mean())
+    wrong = off > MOVED or unlike > UNLIKE
+    return PartMatch(
+        cause=PartAstray(off=round(off, 6), unlike=round(unlike, 6)) if wrong else None,
+        outline=tuple((float(u), float(v)) for u, v in hull + background),
+        shift=off,
+        unlike=unlike,
+    )
+
+
+def _points(hull: np.ndarray) -> tuple[Points, Points]:
+    """The points of a part with this hull, shape (n, 2), and those around it."""
+    drawn = np.zeros((ROWS, COLUMNS), np.uint8)
+    cv2.fillConvexPoly(drawn, np.rint(hull).astype(np.int32), 1)
+    wide = cv2.dilate(drawn, np.ones((2 * BESIDE + 1, 2 * BESIDE + 1), np.uint8))
+    return drawn > 0, wide == 0
+
+
+def _on_face(view: View, part: Part, place: tuple[float, float], points: np.ndarray) -> float:
+    """The length of a shift in the picture (columns, rows) on the plane of the part's face, m."""
+    z = part.at[2] + part.face
+    there = view.project(np.array([[*place, z]]))[0]
+    first, second = view.back_project(np.array([there, there + points]), z)
+    return float(np.hypot(*(second - first)[:2]))
