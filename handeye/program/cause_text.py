@@ -6,7 +6,7 @@ from handeye.errors import ERRORS
 from handeye.plain_text import told_apart
 from handeye.program import causes as c
 from handeye.program.causes import Cause
-from handeye.program.doubt_text import doubt_sentence
+from handeye.program.doubt_text import doubt_sentence, touching_fingers
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import sentence as reason_sentence
 from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
@@ -80,8 +80,9 @@ def cause_sentence(cause: Cause) -> str:
         case c.Looping():
             return f"the program loops at line {cause.place}, and nothing moves"
         case (
-            c.UndoResisted() | c.HoldOff() | c.ScrewFast() | c.ScrewLost() | c.BackingOut() | c.UndoUnknown()
-        ):
+            c.UndoResisted() | c.HoldOff() | c.MetEarly() | c.ScrewFast() | c.ScrewLost() | c.BackingOut()
+            | c.UndoUnknown()
+        ):  # fmt: skip
             return _undo_stopped(cause)
         case c.Recorded():
             return cause.words
@@ -118,6 +119,8 @@ def _undo_stopped(cause: c.UndoCause) -> str:
             gap, kept = _apart(cause.gap, cause.kept)
             held = "held something at" if cause.holding else "stood at"
             return f"the fingers stand at {gap} in; when the step was executed they {held} {kept} in"
+        case c.MetEarly():
+            return _met_early(cause)
         case c.ScrewFast():
             torque = f"{cause.torque / OUNCE_INCH:.0f} oz in"
             return (
@@ -131,6 +134,16 @@ def _undo_stopped(cause: c.UndoCause) -> str:
         case c.UndoUnknown():
             return "what the step has left for undoing it cannot be used"
     assert_never(cause)
+
+
+def _met_early(cause: c.MetEarly) -> str:
+    gap, kept = _apart(cause.gap, cause.kept)
+    then = "held something" if cause.holding else "stood"
+    touching = f"{touching_fingers(cause.fingers)} something at {gap} in already"
+    told = f"{touching}; when the step was executed the fingers {then} at {kept} in"
+    if all(cause.fingers) or not cause.holding:
+        return told
+    return f"{told}: it lies {_inches((cause.gap - cause.kept) / 2)} off the middle of the hand"
 
 
 def _not_found(cause: c.SightCause) -> str:

@@ -305,6 +305,18 @@ class HoldOff(CauseRecord, frozen=True, kw_only=True):
     """They held something then."""
 
 
+class MetEarly(CauseRecord, frozen=True, kw_only=True):
+    """Fingers that closed met something at a wider gap (m) than when the step was executed."""
+
+    fingers: tuple[bool, bool]
+    """Those that touch it, as `Sensed.touch`."""
+    gap: float
+    kept: float
+    """As it was then."""
+    holding: bool
+    """They held something then."""
+
+
 class ScrewFast(CauseRecord, frozen=True, kw_only=True):
     """The driver turned left on a screw, and it did not come out."""
 
@@ -344,7 +356,7 @@ SenseCause = (
     | PictureRepeated | PictureBlank
 )  # fmt: skip
 """Causes for which a sense is not believed."""
-UndoCause = UndoResisted | HoldOff | ScrewFast | ScrewLost | BackingOut | UndoUnknown
+UndoCause = UndoResisted | HoldOff | MetEarly | ScrewFast | ScrewLost | BackingOut | UndoUnknown
 """Causes for which the arm does not go on undoing what it did."""
 InspectionCause = NoGasket | GasketWrong
 """Causes for which a part does not pass its inspection."""

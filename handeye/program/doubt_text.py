@@ -37,12 +37,22 @@ def doubt_sentence(cause: c.SenseCause) -> str:
     assert_never(cause)
 
 
+def touching_fingers(fingers: tuple[bool, bool]) -> str:
+    """Some fingers, with the verb that they touch."""
+    named = _named(fingers)
+    return f"the {named[0]} finger touches" if len(named) == 1 else "both fingers touch"
+
+
 def _switches(fingers: tuple[bool, bool]) -> str:
     """The switches of some fingers, with their verb."""
-    named = [finger for finger, meant in zip(_FINGERS, fingers, strict=True) if meant]
+    named = _named(fingers)
     if len(named) == 1:
         return f"the switch of the {named[0]} finger is"
     return "the switches of both fingers are"
+
+
+def _named(fingers: tuple[bool, bool]) -> list[str]:
+    return [finger for finger, meant in zip(_FINGERS, fingers, strict=True) if meant]
 
 
 def _in_air(cause: c.ForceInAir) -> str:

@@ -12,7 +12,7 @@ from short_runs import begin
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.execution.undo.resistance import ALLOWED, allowed
-from handeye.program.causes import HoldOff, UndoResisted, UndoUnknown
+from handeye.program.causes import HoldOff, MetEarly, UndoResisted, UndoUnknown
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -42,6 +42,22 @@ ROUND:  MOVE    T1
 CLOSED = 4
 """Its step that grasps the pin."""
 DROP = f"{TAKE}        OPEN    1\n"
+HOLD = """
+        STAGE   "hold the top on its stand"
+        OPEN    3.4
+        MOVE    TOPUP
+        STOP    [0 0 -25]
+        CHANGE  [0 0 -1] .8 .5
+        CHANGE  [0 0 1] .15
+        CENTER  2
+        CLOSE   2 2.4
+        STAGE   "let go of it"
+        OPEN    3.4
+        CHANGE  [0 0 1] 1
+"""
+"""Takes hold of the top where it stands, and lets go of it: its last stage is undone by holding it again."""
+HELD = 6
+"""Steps of its first stage."""
 
 
 @cache
@@ -151,6 +167,36 @@ def test_what_stands_in_the_way_stops_the_arm_by_its_force() -> None:
     cause = stopped_by(run).cause
     assert isinstance(cause, UndoResisted)
     assert ALLOWED < cause.force < 60.0
+
+
+def moved_top(way: float) -> Callable[[Runner], None]:
+    """Somebody moves the top along the line of the fingers, m, which lies along table y."""
+
+    def move(runner: Runner) -> None:
+        data, model = runner.cell.truth.data, runner.cell.truth.model
+        data.qpos[model.jnt_qposadr[model.body("top").jntadr[0]] + 1] += way
+
+    return move
+
+
+@pytest.mark.parametrize("way", [0.004, -0.004])
+def test_a_thing_that_was_moved_across_the_fingers_stops_them_as_the_first_one_touches_it(way: float) -> None:
+    run = undone(done(HOLD), left=HELD, meddle=moved_top(way))
+    cause = stopped_by(run).cause
+    assert isinstance(cause, MetEarly)
+    assert (cause.fingers, cause.holding) == ((way > 0, way < 0), True)
+    assert (cause.gap - cause.kept) / 2 == pytest.approx(abs(way), abs=1e-3)
+    assert strayed(run, "top") == pytest.approx(strayed(Runner(done(HOLD)), "top") + 4.0, abs=0.5)
+
+
+def test_fingers_of_a_program_that_does_without_touch_close_on_it() -> None:
+    held = done(HOLD)
+    blind = replace(held, setup=replace(held.setup, without=("touch",)))
+    assert undone(blind, left=HELD, meddle=moved_top(0.004)).call is None
+
+
+def test_a_thing_that_was_hardly_moved_is_taken_again() -> None:
+    assert undone(done(HOLD), left=HELD, meddle=moved_top(0.001)).call is None
 
 
 def test_a_way_that_cannot_be_used_stops_the_arm_and_breaks_nothing() -> None:

@@ -128,6 +128,20 @@ WORDS: list[tuple[c.Cause, str]] = [
         "the fingers stand at 0.00 in; when the step was executed they stood at 1.00 in",
     ),
     (
+        c.MetEarly(fingers=(True, False), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
+        "the +y finger touches something at 1.80 in already; when the step was executed the fingers held something at "
+        "1.40 in: it lies 0.20 in off the middle of the hand",
+    ),
+    (
+        c.MetEarly(fingers=(True, True), gap=1.8 * INCH, kept=1.4 * INCH, holding=True),
+        "both fingers touch something at 1.80 in already; when the step was executed the fingers held something at "
+        "1.40 in",
+    ),
+    (
+        c.MetEarly(fingers=(False, True), gap=0.5 * INCH, kept=0.0, holding=False),
+        "the -y finger touches something at 0.50 in already; when the step was executed the fingers stood at 0.00 in",
+    ),
+    (
         c.ScrewFast(torque=0.5, risen=0.0),
         "the screw does not come out: it has risen 0.00 in, the driver shows 71 oz in",
     ),

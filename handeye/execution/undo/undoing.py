@@ -16,6 +16,7 @@ from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import ExecutionState, vector
 from handeye.execution.undo.done import Done, Undoing
 from handeye.execution.undo.loops import loop_entry, touch_entry, without_rounds
+from handeye.execution.undo.meeting import Meeting
 from handeye.execution.undo.memory import remember
 from handeye.execution.undo.resistance import Resistance, allowed
 from handeye.execution.undo.retracing import retracing
@@ -27,6 +28,7 @@ from handeye.program.causes import BackingOut, Cause, HoldOff, ScrewFast, ScrewL
 from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation
+from handeye.touch.guards import FirstOf, Monitor
 from handeye.touch.hold import SAME_HOLD, SKEW, as_before
 
 STANDS: Final = 0.5
@@ -184,12 +186,19 @@ def _take_again(run: ExecutionContext, done: Done) -> Stopped | None:
 
 
 def _fingers_back(run: ExecutionContext, done: Done) -> Stopped | None:
-    stopped = _go(run, replace(done, force=_under(run, done)), _way(run, done))
+    stopped = _go(run, replace(done, force=_under(run, done)), _way(run, done), _meeting(run, done))
     if stopped is not None:
         return stopped
     _press(run, done.fingers)
     off = SKEW if done.grasping else SAME_HOLD
     return _off_hold(run, done.gap[0], off, off, holding=done.grasping)
+
+
+def _meeting(run: ExecutionContext, done: Done) -> Meeting | None:
+    """What sees that fingers meet nothing before they are where they were; None: nothing tells that they touch."""
+    if "touch" in run.without:
+        return None
+    return Meeting(gap=lambda: run.drive.sensed.gap, kept=done.gap[0], holding=done.grasping)
 
 
 def _under(run: ExecutionContext, done: Done) -> float:
@@ -263,7 +272,7 @@ program remembers is as it was."""
 # -- moving -------------------------------------------------------------------------------------------
 
 
-def _go(run: ExecutionContext, done: Done, way: Way) -> Stopped | None:
+def _go(run: ExecutionContext, done: Done, way: Way, meeting: Meeting | None = None) -> Stopped | None:
     """Go a way back, guarded; where that is broken off, what is left of it stays to be undone."""
     drive = run.drive
     back = retracing(run.arm, drive.state.q, drive.state.gap, way, slowly=done.force > 0)
@@ -274,9 +283,10 @@ def _go(run: ExecutionContext, done: Done, way: Way) -> Stopped | None:
         come, drive.state.gap = number, float(back.gap[number])
 
     along = directions(back.samples, run.arm, drive.state.q)
-    guard = Resistance(limit=allowed(done.force))
+    resistance = Resistance(limit=allowed(done.force))
+    guard: Monitor = resistance if meeting is None else FirstOf(monitors=(resistance, meeting))
     outcome = drive.follow(back.samples, guard, along, beside)
-    stopped = _met(run, outcome)
+    stopped = _met(run, outcome, meeting)
     if stopped is not None and come >= 0:
         left = slice(0, int(back.left[come]) + 1)
         rest = packed(Way(q=way.q[left], gap=way.gap[left]))
@@ -298,15 +308,17 @@ def _lift(run: ExecutionContext, entry: int) -> Stopped | None:
     return _met(run, run.drive.follow(samples, Resistance(limit=allowed(0.0)), along))
 
 
-def _met(run: ExecutionContext, outcome: Outcome) -> Stopped | None:
+def _met(run: ExecutionContext, outcome: Outcome, meeting: Meeting | None = None) -> Stopped | None:
     """What a motion met that ends the undo."""
     if outcome.error is not None:
         return Stopped(error=outcome.error, cause=outcome.cause)
     if outcome.trip is None:
         return None
-    force, limit = round(outcome.trip.value, 6), round(outcome.trip.limit, 6)
-    run.emit(GuardTripped(time=run.time, guard=outcome.trip.guard, value=force, limit=limit))
-    return Stopped(cause=UndoResisted(force=force, limit=limit))
+    value, limit = round(outcome.trip.value, 6), round(outcome.trip.limit, 6)
+    run.emit(GuardTripped(time=run.time, guard=outcome.trip.guard, value=value, limit=limit))
+    if meeting is not None and outcome.trip.guard is GuardKind.TOUCH:
+        return Stopped(cause=meeting.cause(outcome.trip))
+    return Stopped(cause=UndoResisted(force=value, limit=limit))
 
 
 def _joints_behind(run: ExecutionContext, index: int) -> Array | None:
