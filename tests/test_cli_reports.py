@@ -174,7 +174,7 @@ def test_the_demo_is_a_page_of_twelve_stages_made_without_opengl(
     assert page.all("h1")[0].text == "The pump is assembled."
     assert [image.attributes["alt"] for image in page.all("header")[0].all("img")] == ["The end of the run"]
     assert len(page.one("stages").all("a")) == 12
-    assert len(page.one("seen").all("figure")) == 5
+    assert len(page.one("seen").all("figure")) == 6
     assert "This trace is thinned" in page.one("felt").text
     assert "No photograph: OpenGL does not work on this machine." in page.one("run").text
 

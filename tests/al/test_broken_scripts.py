@@ -103,7 +103,7 @@ MISTAKES = {
     "d18": ("touch-while-closed", 9, "a touch should end this motion, but the fingers are closed"),
     "d19": ("unknown-position", 10, "`FOUND` is a saved difference, not a position"),
     "d20": ("compared-without-hold", 15, "picture `AFTER` is taken at a target voltage of its own"),
-    "d21": ("part-not-described", 5, "`GENERAL` cannot find `PUMP` without its `region` and `outline`"),
+    "d21": ("part-not-described", 5, "`GENERAL` cannot find `PUMP` without its `region`"),
     "d22": ("macro-ends-early", 2, "macro `SETDOWN` ends with `STOP`, and its motion is outside"),
     "d23": ("unreadable-file", 1, "`water_pump.toml` is a taught file"),
     "d24": ("unreachable-position", 3, "RIM is 11.23 in beyond the reach of the Stanford arm"),

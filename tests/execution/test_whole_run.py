@@ -26,15 +26,20 @@ from handeye.events import (
     GuardTripped,
     OperatorCalled,
     PartInspected,
+    PartMatched,
     PartSeen,
     StepFinished,
     StepStarted,
 )
+from handeye.fault_options import by_number, faults
+from handeye.runs.advance import advance
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS
 from handeye.runs.runner import Runner
+from handeye.tasks import task
 from handeye.tasks.water_pump.referee import judge
 from handeye.trace.account import account
+from handeye.trials.chaos.sound_run import with_faults
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]
 
@@ -145,6 +150,22 @@ def test_time_never_goes_back(whole: Whole) -> None:
 def test_every_step_that_began_has_ended(whole: Whole) -> None:
     events = list(whole.events)
     assert count(events, StepStarted) == count(events, StepFinished) > 200
+
+
+@pytest.mark.parametrize("fault", ["base.removed", "base.moved.x=0.5in", "base.moved.y=-0.812in"])
+def test_a_pump_that_somebody_moves_behind_the_last_touch_is_not_done(folder: Path, fault: str) -> None:
+    """Chaos, seed 84001: the arm has parked, and only the last picture is to come."""
+    setup = whole_in(folder).runner.setup
+    before = CheckpointStore(folder / CHECKPOINTS).for_stage(setup, STAGES.index("inspect the pump"))
+    assert before is not None
+    runner = Runner(before)
+    while runner.next is None or not runner.next.text.startswith("LOOK    DONE"):
+        runner.step()
+    given = faults(task().faults(setup.world.seed), [f"{fault}@{len(STAGES)}"], by_number)
+    moved = Runner(with_faults(runner.checkpoint(), given))
+    paused = advance(moved)
+    matches = [event.ok for event in moved.events if isinstance(event, PartMatched)]
+    assert (paused.kind, matches) == ("operator", [False])
 
 
 # -- the walk in docs/stepping.md, which docs/make_walk.py makes anew --------------------------------

@@ -64,7 +64,7 @@ def test_ways_out_of_a_stage_are_named_after_where_they_lead() -> None:
 
 def test_every_step_and_every_way_of_the_pump_is_drawn_once(pump: Plan, placed: Layout) -> None:
     graph = flow(pump)
-    assert [box.node.step for box in placed.boxes] == list(range(1000))
+    assert [box.node.step for box in placed.boxes] == list(range(1008))
     assert {route.edge for route in placed.routes} == set(graph.edges)
     assert len(placed.routes) == len(graph.edges)
 
