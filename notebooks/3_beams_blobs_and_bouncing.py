@@ -24,20 +24,20 @@ import matplotlib.pyplot as plt
 import handeye
 
 # %% [markdown]
-# ## Five pictures
+# ## Six pictures
 #
 # The camera is a television camera. Its pictures have 256 lines of 333 points and sixteen levels of grey, with noise;
-# no two are alike. A whole assembly takes five of them: the belt from afar, the base from near by, the base in its
-# standard position without and with its gasket, and the pump that it has become.
+# no two are alike. A whole assembly takes six of them: the belt from afar, the base from near by, the base in its
+# standard position without and with its gasket, and the pump that it has become, before and after its last push.
 
 # %%
 trace = handeye.open(handeye.demo)
 pictures = {taken.name: taken.picture for taken in trace.pictures}
 figure, axes = plt.subplots(2, 3, figsize=(8.4, 4.6), dpi=70, layout="constrained")
 shown = [
-    axis.imshow(picture, cmap="gray") for axis, picture in zip(axes.flat[:5], pictures.values(), strict=True)
+    axis.imshow(picture, cmap="gray") for axis, picture in zip(axes.flat, pictures.values(), strict=True)
 ]
-named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat[:5], pictures, strict=True)]
+named = [axis.set_title(name, fontsize=8) for axis, name in zip(axes.flat, pictures, strict=True)]
 hidden = [axis.axis("off") for axis in axes.flat]
 
 # %% [markdown]
@@ -155,7 +155,8 @@ before, after = pictures["BEFORE"], pictures["AFTER"]
 figure, axis = plt.subplots(figsize=(5.2, 4), dpi=80, layout="constrained")
 axis.imshow(before.astype(float) - after, cmap="gray", vmin=-4, vmax=12)
 axis.axis("off")
-print(*(said for said in events["said"] if said.startswith("PUMP")))
+sentences = zip(events["event"], events["said"], strict=True)
+print(*(said for event, said in sentences if event == "PartInspected"))
 
 # %% [markdown]
 # The next notebook, [4. Force and search](4_force_and_search.ipynb), goes on where seeing ends.
