@@ -49,6 +49,7 @@ _COUNTER = Operand(name="counter", takes=(Name,), refers=Refers.COUNTER)
 _LABEL = name_of("label", Refers.LABEL)
 _PICTURE = name_of("picture", Refers.PICTURE)
 _PART = name_of("part", Refers.PART)
+_COMPARED = (_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE))
 _ALL = ("MOVE", "CHANGE", "TURN", "PARK")
 
 MOTIONS, MODIFIERS, HAND_WORDS, FLOW = "Motions", "Modifiers", "Hand", "Flow"
@@ -377,14 +378,14 @@ _TABLE = (
         op="INSPECT",
         group=VISION,
         help="compare two pictures and check that the part lies where it should; error 32 when it does not",
-        operands=(_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE)),
+        operands=_COMPARED,
         ours=True,
     ),
     Instruction(
         op="MATCH",
         group=VISION,
         help="compare two pictures and check that the part stands as it stood; error 33 when it does not",
-        operands=(_PART, name_of("before", Refers.PICTURE), name_of("after", Refers.PICTURE)),
+        operands=_COMPARED,
         ours=True,
     ),
     Instruction(

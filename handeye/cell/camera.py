@@ -27,9 +27,9 @@ TURRET: Final = 20.0
 SLEW: Final = 5 * DEGREE
 """rad/s of pan and of tilt, which turn together."""
 REFOCUS: Final = 0.0347
-"""1/m in a second: rings are divided by the reciprocal of the distance."""
-"""With these rates the looks of a pump take the 90 s that the paper gives for all lens changes and focusing: 40 for the
-turret, 12 for 60 degrees, 36 for 1.25 1/m, 2 for pictures; split as in the layout study, 6."""
+"""1/m in a second: rings are divided by the reciprocal of the distance. With these rates the looks of a pump take
+the 90 s that the paper gives for all lens changes and focusing: 40 for the turret, 12 for 60 degrees, 36 for 1.25 1/m,
+2 for four pictures; split as in the layout study, 6."""
 
 
 class CameraState(Record, frozen=True, kw_only=True):

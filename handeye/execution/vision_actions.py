@@ -14,7 +14,7 @@ from handeye.ports.camera import DIGITISE, Picture, TvCamera
 from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
 from handeye.program.operation import Operation
-from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Match, Specific
+from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 from handeye.vision.gasket import inspect as inspect_gasket
@@ -173,9 +173,10 @@ def inspect(run: ExecutionContext, operation: Inspect) -> Fault | None:
     """Difference two pictures and see whether a part lies where it should."""
     if "vision" in run.without:
         return None
-    before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
-    if before is None or after is None:
-        return _no_picture(errors.GASKET_WRONG, operation.after if before else operation.before)
+    shots = _compared(run, operation, errors.GASKET_WRONG)
+    if isinstance(shots, Fault):
+        return shots
+    before, after = shots
     part = run.world.parts[operation.part]
     with run.vision.running():
         seen = inspect_gasket(before.picture, after.picture, after.view, part, _pose(run, operation.part))
@@ -188,11 +189,12 @@ def match(run: ExecutionContext, operation: Match) -> Fault | None:
     """See by two pictures whether a part still stands as it stood."""
     if "vision" in run.without:
         return None
-    before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
-    if before is None or after is None:
-        return _no_picture(errors.PART_ASTRAY, operation.after if before else operation.before)
+    shots = _compared(run, operation, errors.PART_ASTRAY)
+    if isinstance(shots, Fault):
+        return shots
     from handeye.vision.matching import match as match_part  # takes OpenCV, without which plans are made
 
+    before, after = shots
     part = run.world.parts[operation.part]
     with run.vision.running():
         seen = match_part(before.picture, after.picture, after.view, part, _pose(run, operation.part))
@@ -209,6 +211,14 @@ def match(run: ExecutionContext, operation: Match) -> Fault | None:
         )
     )
     return None if seen.ok else Fault(number=errors.PART_ASTRAY, cause=seen.cause)
+
+
+def _compared(run: ExecutionContext, operation: Comparison, number: int) -> tuple[Shot, Shot] | Fault:
+    """The pictures that are to be compared, the earlier first; an error of that number if one was not taken."""
+    before, after = run.state.shots.get(operation.before), run.state.shots.get(operation.after)
+    if before is None or after is None:
+        return _no_picture(number, operation.after if before else operation.before)
+    return before, after
 
 
 def _pose(run: ExecutionContext, part: str) -> tuple[float, float, float]:

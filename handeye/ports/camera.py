@@ -21,8 +21,7 @@ FIRST_LENS: Final = CLOSE_UP
 """The lens that is in place when the cell is switched on: as the last look of a run leaves it."""
 
 DIGITISE: Final = 0.5
-"""s for a picture. With this and the rates of the mechanism the looks of a pump take the 90 s that the paper gives for
-all lens changes and focusing; split as in the layout study, 6."""
+"""s for a picture: the layout study, 6."""
 
 Picture = NDArray[np.uint8]
 """A digitised television picture: ROWS by COLUMNS of intensities 0..15."""

@@ -79,38 +79,32 @@ class Specific(Operation, frozen=True, kw_only=True):
         return self.picture
 
 
-class Inspect(Operation, frozen=True, kw_only=True):
+class Comparison(Operation, frozen=True, kw_only=True):
+    """Base of what compares two pictures of a part."""
+
+    family: ClassVar = "sight"
+    reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}
+
+    part: str
+    before: str
+    after: str
+
+    @property
+    def examines(self) -> str | None:
+        """The later of its pictures."""
+        return self.after
+
+
+class Inspect(Comparison, frozen=True, kw_only=True):
     """Difference pictures of a part before and after its gasket was put on; error 32 if that lies wrong."""
 
-    family: ClassVar = "sight"
     raising: ClassVar = action(errors.GASKET_WRONG)
-    reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}
-
-    part: str
-    before: str
-    after: str
-
-    @property
-    def examines(self) -> str | None:
-        """The later of its pictures."""
-        return self.after
 
 
-class Match(Operation, frozen=True, kw_only=True):
+class Match(Comparison, frozen=True, kw_only=True):
     """Compare two pictures of a part; error 33 if it does not stand in the later one as in the earlier."""
 
-    family: ClassVar = "sight"
     raising: ClassVar = action(errors.PART_ASTRAY)
-    reading: ClassVar = {"part": ("part",), "picture": ("before", "after")}
-
-    part: str
-    before: str
-    after: str
-
-    @property
-    def examines(self) -> str | None:
-        """The later of its pictures."""
-        return self.after
 
 
 VisionOperation = Lens | Aim | Look | General | Specific | Inspect | Match

@@ -22,6 +22,11 @@ LONGEST: Final = 1.0
 """m, focal lengths of any lens."""
 
 
+def in_picture(points: Array) -> bool:
+    """True if all points (u, v), shape (n, 2), lie in the picture."""
+    return bool(np.all((points >= 0) & (points <= (COLUMNS - 1, ROWS - 1))))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LensModel:
     """One lens of the turret."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.errors import InvalidInput
-from handeye.ports.camera import COLUMNS, ROWS, Picture
+from handeye.ports.camera import Picture
 from handeye.pose import Array
 from handeye.program.causes import (
     BaseHoleUnseen,
@@ -27,7 +27,7 @@ from handeye.program.causes import (
 )
 from handeye.program.program import Hole, Part
 from handeye.units import INCH
-from handeye.vision.camera_model import View
+from handeye.vision.camera_model import View, in_picture
 from handeye.vision.characteriser import characterise, fit_circle, rim
 from handeye.vision.holes import hole_places
 from handeye.vision.scan import Scan
@@ -100,7 +100,7 @@ def inspect(
     outside = tuple(
         BaseHoleUnseen(hole=name)
         for name, (place, hole) in zip(_NAMES, pairs, strict=True)
-        if not _in_picture(_ring(view, place, hole))
+        if not in_picture(_ring(view, place, hole))
     )
     if outside:
         return GasketInspection(
@@ -204,11 +204,6 @@ def _ring(view: View, place: Array, hole: Hole) -> Array:
     angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(24)])
     return view.project(place + ring * (hole.diameter / 2 + BESIDE))
-
-
-def _in_picture(points: Array) -> bool:
-    """True if points (u, v) lie in the picture."""
-    return bool(np.all((points >= 0) & (points <= (COLUMNS - 1, ROWS - 1))))
 
 
 def _centre(

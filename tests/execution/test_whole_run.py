@@ -154,7 +154,7 @@ def test_every_step_that_began_has_ended(whole: Whole) -> None:
 
 @pytest.mark.parametrize("fault", ["base.removed", "base.moved.x=0.5in", "base.moved.y=-0.812in"])
 def test_a_pump_that_somebody_moves_behind_the_last_touch_is_not_done(folder: Path, fault: str) -> None:
-    """Chaos, seed 84001: the arm has parked, and only the last picture is to come."""
+    """What chaos found: the arm has parked, and only the last picture is to come, in half a second."""
     setup = whole_in(folder).runner.setup
     before = CheckpointStore(folder / CHECKPOINTS).for_stage(setup, STAGES.index("inspect the pump"))
     assert before is not None
