@@ -12,6 +12,7 @@ from short_runs import begin
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.execution.undo.resistance import ALLOWED, allowed
+from handeye.execution.undo.standing import FALLEN
 from handeye.program.causes import HoldOff, MetEarly, UndoResisted, UndoUnknown
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
@@ -167,6 +168,27 @@ def test_what_stands_in_the_way_stops_the_arm_by_its_force() -> None:
     cause = stopped_by(run).cause
     assert isinstance(cause, UndoResisted)
     assert ALLOWED < cause.force < 60.0
+
+
+def slipped_pin(way: float) -> Callable[[Runner], None]:
+    """The pin slips down in the fingers, m."""
+
+    def slip(runner: Runner) -> None:
+        data, model = runner.cell.truth.data, runner.cell.truth.model
+        data.qpos[model.jnt_qposadr[model.body("pin0").jntadr[0]] + 2] -= way
+
+    return slip
+
+
+def test_a_thing_that_came_lower_in_the_hand_is_let_go_where_it_stands() -> None:
+    run = undone(done(), meddle=slipped_pin(0.5 * FALLEN))
+    assert run.call is None
+    assert strayed(run, "pin0") < 0.3
+
+
+def test_a_hand_that_is_farther_above_the_place_than_a_thing_can_have_fallen_is_stopped() -> None:
+    cause = stopped_by(undone(done(), meddle=slipped_pin(1.2 * FALLEN))).cause
+    assert isinstance(cause, UndoResisted)
 
 
 def moved_top(way: float) -> Callable[[Runner], None]:

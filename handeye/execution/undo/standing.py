@@ -1,0 +1,45 @@
+"""What the hand brings back may stand on its support before the way back ends.
+
+Something that was let go above its support, stuck on pins, falls; the hand takes it again where it let go of it, lower
+in its fingers. Brought back to where it was grasped, it stands while the hand is still as far above as it had fallen.
+There the hand lets go of it.
+"""
+
+from typing import Final
+
+import numpy as np
+
+from handeye.arm.kinematics import forward
+from handeye.execution.context import ExecutionContext
+from handeye.execution.undo.way import Way
+from handeye.program.motion_operations import Center, Close
+from handeye.units import INCH
+
+FALLEN: Final = 0.31 * INCH
+"""m that it may have fallen. Fingers reach .25 in through the gasket that they hold, and it is .06 in thick: had it
+fallen farther, they would not hold it again."""
+
+
+def stands(run: ExecutionContext, way: Way) -> bool:
+    """Does what resists tell that it stands? The way leads to where it was grasped, and the hand is nearly there."""
+    if not run.state.grasping or not _grasped_before(run):
+        return False
+    ahead = forward(run.arm, run.drive.state.q)[:3, 3] - forward(run.arm, way.q[0])[:3, 3]
+    return float(np.linalg.norm(ahead)) <= FALLEN
+
+
+def where_it_stands(run: ExecutionContext, way: Way) -> Way:
+    """The way of a grasp, gone where the arm is."""
+    return Way(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
+
+
+def _grasped_before(run: ExecutionContext) -> bool:
+    """Nothing moved but the fingers between the step in which they took hold and the last one."""
+    for done in reversed(run.state.done[:-1]):
+        if not done.way:
+            continue
+        if not isinstance(run.plan.program.steps[done.step].operation, Center | Close):
+            return False
+        if not done.grasping:
+            return True
+    return False
