@@ -40,6 +40,8 @@ ROUND:  MOVE    T1
         CHANGE  [0 0 1] 1
 """
 """Takes a pin out of its holder and goes down with it three times."""
+GRASP = (2, 4)
+"""Its steps in which fingers move on the pin."""
 CLOSED = 4
 """Its step that grasps the pin."""
 DROP = f"{TAKE}        OPEN    1\n"
@@ -183,6 +185,15 @@ def slipped_pin(way: float) -> Callable[[Runner], None]:
 def test_a_thing_that_came_lower_in_the_hand_is_let_go_where_it_stands() -> None:
     run = undone(done(), meddle=slipped_pin(0.5 * FALLEN))
     assert run.call is None
+    assert strayed(run, "pin0") < 0.3
+    felt = [event.force for event in run.events if isinstance(event, UndoFinished) and event.step in GRASP]
+    assert max(felt) < 0.2 * ALLOWED  # it is not pressed on
+
+
+def test_it_is_let_go_there_too_when_undoing_goes_on_later() -> None:
+    stands = undone(done(), left=CLOSED + 1, meddle=slipped_pin(0.5 * FALLEN))
+    run = undone(stands.checkpoint())
+    assert (stands.call, run.call) == (None, None)
     assert strayed(run, "pin0") < 0.3
 
 

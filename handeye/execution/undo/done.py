@@ -51,5 +51,3 @@ class Undoing(Record, frozen=True, kw_only=True):
     """The index of the step that took the screw on the bit: undone, it leaves it where it was."""
     held: float | None = None
     """Finger gap with which the hand took what it holds, or held it when undoing began, m; None: it held nothing."""
-    stands: bool = False
-    """What it holds stood on its support before the hand was back where it had grasped it."""

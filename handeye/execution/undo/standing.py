@@ -28,8 +28,8 @@ def stands(run: ExecutionContext, way: Way) -> bool:
     return float(np.linalg.norm(ahead)) <= FALLEN
 
 
-def where_it_stands(run: ExecutionContext, way: Way) -> Way:
-    """The way of a grasp, gone where the arm is."""
+def where_the_hand_is(run: ExecutionContext, way: Way) -> Way:
+    """The way of a grasp, gone where the arm is now: it may have stopped above, where what it brought back stood."""
     return Way(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
 
 

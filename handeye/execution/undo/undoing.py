@@ -20,7 +20,7 @@ from handeye.execution.undo.meeting import Meeting
 from handeye.execution.undo.memory import remember
 from handeye.execution.undo.resistance import Resistance, allowed
 from handeye.execution.undo.retracing import retracing
-from handeye.execution.undo.standing import stands, where_it_stands
+from handeye.execution.undo.standing import stands, where_the_hand_is
 from handeye.execution.undo.unscrewing import LOWER, lower, taken_by, unscrew
 from handeye.execution.undo.way import Way, packed, unpacked
 from handeye.planning.motions import Unreachable, directions, move_trajectory
@@ -164,11 +164,8 @@ def _retrace(run: ExecutionContext, done: Done) -> Stopped | None:
     """Go the way of a step back, with what the hand holds."""
     way = _way(run, done)
     stopped = _go(run, done, Way(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
-    if stopped is None or not isinstance(stopped.cause, UndoResisted) or not stands(run, way):
-        return stopped
-    assert run.state.undoing is not None
-    run.state.undoing = replace(run.state.undoing, stands=True)
-    return None
+    resisted = stopped is not None and isinstance(stopped.cause, UndoResisted)
+    return None if resisted and stands(run, way) else stopped
 
 
 def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
@@ -176,12 +173,8 @@ def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
     off = _lost(run, done.gap[1])
     if off is not None:
         return off
-    undoing = run.state.undoing
-    assert undoing is not None
-    if undoing.stands:
-        done = replace(done, way=packed(where_it_stands(run, _way(run, done))))
+    done = replace(done, way=packed(where_the_hand_is(run, _way(run, done))))
     if not done.grasping:
-        run.state.undoing = replace(undoing, stands=False)
         return _fingers_back(run, done)
     stopped = _retrace(run, done)
     if stopped is None:
