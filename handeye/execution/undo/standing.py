@@ -5,14 +5,15 @@ in its fingers. Brought back to where it was grasped, it stands while the hand i
 There the hand lets go of it.
 """
 
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 
 from handeye.arm.kinematics import forward
 from handeye.execution.context import ExecutionContext
+from handeye.execution.undo.done import Done
 from handeye.execution.undo.way import Way
-from handeye.program.motion_operations import Center, Close
 from handeye.units import INCH
 
 FALLEN: Final = 0.31 * INCH
@@ -20,9 +21,13 @@ FALLEN: Final = 0.31 * INCH
 fallen farther, they would not hold it again."""
 
 
-def stands(run: ExecutionContext, way: Way) -> bool:
-    """Does what resists tell that it stands? The way leads to where it was grasped, and the hand is nearly there."""
-    if not run.state.grasping or not _grasped_before(run):
+def stands(run: ExecutionContext, way: Way, grasps: Callable[[Done], bool]) -> bool:
+    """Does what resists tell that it stands? The way leads to where it was grasped, and the hand is nearly there.
+
+    Args:
+        grasps: a step is one in which fingers take hold, or hold more firmly.
+    """
+    if not run.state.grasping or not _grasped_before(run, grasps):
         return False
     ahead = forward(run.arm, run.drive.state.q)[:3, 3] - forward(run.arm, way.q[0])[:3, 3]
     return float(np.linalg.norm(ahead)) <= FALLEN
@@ -33,12 +38,12 @@ def where_the_hand_is(run: ExecutionContext, way: Way) -> Way:
     return Way(q=way.q + (run.drive.state.q - way.q[-1]), gap=way.gap)
 
 
-def _grasped_before(run: ExecutionContext) -> bool:
+def _grasped_before(run: ExecutionContext, grasps: Callable[[Done], bool]) -> bool:
     """Nothing moved but the fingers between the step in which they took hold and the last one."""
     for done in reversed(run.state.done[:-1]):
         if not done.way:
             continue
-        if not isinstance(run.plan.program.steps[done.step].operation, Center | Close):
+        if not grasps(done):
             return False
         if not done.grasping:
             return True

@@ -165,7 +165,7 @@ def _retrace(run: ExecutionContext, done: Done) -> Stopped | None:
     way = _way(run, done)
     stopped = _go(run, done, Way(q=way.q, gap=np.full(len(way), run.drive.state.gap)))
     resisted = stopped is not None and isinstance(stopped.cause, UndoResisted)
-    return None if resisted and stands(run, way) else stopped
+    return None if resisted and stands(run, way, lambda earlier: _grasps(run, earlier)) else stopped
 
 
 def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
@@ -273,6 +273,10 @@ _UNDOING: Final[dict[type[Operation], Callable[[ExecutionContext, Done], Stopped
 }
 """How operations are undone. Other motions go the same set-points the other way; where nothing moved, only what the
 program remembers is as it was."""
+
+
+def _grasps(run: ExecutionContext, done: Done) -> bool:
+    return _UNDOING.get(type(run.plan.program.steps[done.step].operation)) is _let_go
 
 
 # -- moving -------------------------------------------------------------------------------------------
