@@ -68,8 +68,9 @@ run
 # Between them is the timing table, beside the one that was printed in 1973. *Manipulation* is what the arm does; the
 # rest of the working phase it waits for the television camera, whose lens turret, pan, tilt and focus are slow
 # motors. The program of today lets the mechanism work while the arm moves, where it can; the paper of 1973 says that
-# this could be done. So the camera now costs less than it did then. The arm is slower than that of 1973: the minute
-# and a half that is lost is all in manipulation.
+# this could be done. So the camera now costs less than it did then. The nearly three minutes that are lost are all in
+# manipulation: the arm is slower than that of 1973, and the program feels more. The last stage, in which it inspects
+# the pump, is one that the program of 1973 does not have, and takes the arm 48 s.
 #
 # ## Look at it
 #
