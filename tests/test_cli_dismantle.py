@@ -1,6 +1,7 @@
 """`handeye dismantle` has the arm undo a run, and tells what came of it."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -76,6 +77,7 @@ def test_as_json_the_referee_tells_how_far_each_part_is_from_where_it_was(
     code, out, _ = command("dismantle", str(taken), "--json")
     told = json.loads(out)
     assert (code, told["apart"], told["assembled"], told["completed"]) == (0, True, None, True)
+    assert told["message"] == "what the arm was to undo is undone"
     assert told["referee"]["pins"]["value"] < 0.5
     assert {stage["status"] for stage in told["stages"]} == {"undone"}
 
@@ -91,6 +93,52 @@ def test_a_guard_stops_it_with_exit_code_1_and_says_why(command: Command, droppe
     code, out, _ = command("dismantle", str(dropped))
     assert code == 1
     assert "the fingers stand at" in " ".join(out.split())
+
+
+@pytest.mark.parametrize("inner", ["", "apart", "checkpoints/apart"])
+def test_it_is_not_kept_in_the_folder_of_the_run(command: Command, taken: Path, inner: str) -> None:
+    before = files(taken)
+    out = str(taken / inner)
+    code, _, err = command("dismantle", str(taken), "--out", out, "--overwrite")
+    assert (code, err) == (
+        2,
+        f"handeye: --out {out}: {taken} stays as it is; keep its dismantling in another folder\n",
+    )
+    assert files(taken) == before
+
+
+def test_what_a_killed_run_did_since_its_last_checkpoint_is_undone_too(command: Command, taken: Path) -> None:
+    shutil.copytree(taken, "killed")
+    last = max(Path("killed/checkpoints").glob("0*.checkpoint"))
+    last.unlink()
+    events = Path("killed/events.jsonl")
+    events.write_bytes(events.read_bytes()[:-5])
+    code, out, err = command("dismantle", "killed", "--json")
+    assert "carrying out again 1 step that no checkpoint of killed holds" in err
+    assert (code, json.loads(out)["apart"]) == (0, True)
+    undone = [stage["status"] for stage in json.loads(out)["stages"]]
+    assert undone == ["undone", "undone"]
+
+
+def test_what_is_not_carried_out_again_as_it_was_is_not_undone(command: Command, taken: Path) -> None:
+    shutil.copytree(taken, "other")
+    max(Path("other/checkpoints").glob("0*.checkpoint")).unlink()
+    events = Path("other/events.jsonl")
+    told = events.read_text("utf-8")
+    last = told.rindex('"gap":0.0') + len('"gap":0.')
+    events.write_text(f"{told[:last]}9{told[last + 1 :]}", encoding="utf-8")
+    code, _, err = command("dismantle", "other")
+    assert code == 2
+    assert "other did since its newest checkpoint comes out otherwise here" in err
+
+
+def test_an_event_list_that_is_not_of_the_run_is_left_out(command: Command, taken: Path) -> None:
+    shutil.copytree(taken, "other")
+    events = Path("other/events.jsonl")
+    events.write_text(events.read_text("utf-8").replace('"gap":0.0', '"gap":0.9'), encoding="utf-8")
+    code, _, err = command("dismantle", "other")
+    assert code == 0
+    assert "left out: other/events.jsonl, which is not of the run in the checkpoints of other" in err
 
 
 def test_it_is_resumed_where_it_was_broken_off(command: Command, taken: Path) -> None:

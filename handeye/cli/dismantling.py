@@ -11,7 +11,9 @@ from handeye.cli.batches import kept_batch, progress
 from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.runs import Overwrite
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
+from handeye.errors import InvalidInput
 from handeye.host_time import HostTimer
+from handeye.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
@@ -60,27 +62,49 @@ def dismantle(
     from handeye.runs.systems import listing_of
     from handeye.runs.undo_orders import to_be_undone
 
+    _check_apart(path, out)
     kept = _newest(path)
     stage = None if to is None else stage_number(to, listing_of(kept.setup))
     start = to_be_undone(kept, str(path), stage)
     return work(Job(start=start, out=out, overwrite=overwrite, json=json, referee=True, on_stop="abort"))
 
 
+def _check_apart(path: Path, out: Path | None) -> None:
+    """Raises InvalidInput if the dismantling would be kept in the folder of the run, which stays as it is."""
+    from handeye.runs.folder import CHECKPOINTS
+
+    run = path.parent.parent if path.parent.name == CHECKPOINTS else path
+    if out is not None and run.is_dir() and run.resolve() in (out.resolve(), *out.resolve().parents):
+        raise InvalidInput(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
+
+
 def _newest(path: Path) -> "Checkpoint":
-    """The checkpoint in a file, or the newest sound one of a run's folder; what is left out is told.
+    """The checkpoint in a file, or a run's folder as the run has left it; what is left out is told.
 
     Raises:
         InvalidInput: there is none.
     """
+    from handeye.runs.catching_up import caught_up, done_since
     from handeye.runs.checkpoint_file import read_checkpoint
-    from handeye.runs.folder import open_again
+    from handeye.runs.folder import EVENTS, open_again
+    from handeye.trace.eventlist import effective, read_events
 
     if not path.is_dir():
         return read_checkpoint(path)
     _, start, faults = open_again(path)
     for fault in faults:
         note(f"left out: {fault}")
-    return start
+    try:
+        events = effective(read_events(path / EVENTS, growing=True))
+    except InvalidInput as fault:
+        note(f"left out: {fault}")
+        return start
+    more = done_since(start, events)
+    if more is None:
+        note(f"left out: {path / EVENTS}, which is not of the run in the checkpoints of {path}")
+    elif more:
+        note(f"carrying out again {counted(more, 'step')} that no checkpoint of {path} holds")
+    return caught_up(start, events, str(path))
 
 
 def dismantling_trials(

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from handeye.comparison.place import Place, place_of
+from handeye.events import UndoStarted
 from handeye.inspection.alignment import Pair, aligned
 from handeye.program.program import Step
 from handeye.see.recorded import Recorded
@@ -76,6 +77,8 @@ class TwoRuns:
 def _turns(run: Recorded, numbers: Mapping[int, int]) -> Iterator[CarriedOut]:
     before: Counter[int] = Counter()
     for done in done_steps(run.trace.events):
+        if isinstance(done.started, UndoStarted):
+            continue  # the arm took a step back, and carried none out
         number = numbers[done.started.step]
         yield CarriedOut(run, (number, before[number]), done)
         before[number] += 1

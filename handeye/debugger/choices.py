@@ -27,7 +27,7 @@ def _of_stages(runner: Runner) -> Mapping[Choice, str]:
     first = next(step.place for step in steps if step.stage == runner.stage)
     where = "to the end of the program" if onward is None else f"continue at line {steps[onward].place}"
     return {
-        "proceed": f"proceed: {where}",
+        "proceed": "proceed: go on undoing" if undoing(runner) else f"proceed: {where}",
         "retry": f"retry the stage from line {first}, with the world as it is now",
         "skip": "skip the rest of the stage",
     }

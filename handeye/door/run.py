@@ -316,7 +316,7 @@ class Run:
 
     @property
     def completed(self) -> bool:
-        """The program has come to its end."""
+        """The program has come to its end, or the arm to the end of what it was to undo."""
         return self.result.completed
 
     @property

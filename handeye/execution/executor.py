@@ -27,7 +27,7 @@ from handeye.execution.motion_actions import MOTION_ACTIONS
 from handeye.execution.state import ExecutionState, Fault, vector
 from handeye.execution.undo.done import Undoing
 from handeye.execution.undo.noting import before, noted
-from handeye.execution.undo.undoing import order, undo_last
+from handeye.execution.undo.undoing import end, order, undo_last
 from handeye.execution.vision_actions import VISION_ACTIONS
 from handeye.program.causes import Cause, Looping
 from handeye.program.operation import Operation
@@ -60,6 +60,7 @@ class Executor:
         assert here is not None
         step = run.plan.program.steps[here]
         enters = self.state.stage is None
+        self.state.held = None
         self._enter(step.stage)
         found = before(run)
         run.emit(StepStarted(time=run.time, step=here, file=step.file, line=step.line, text=step.text))
@@ -74,6 +75,8 @@ class Executor:
             self._stop(error=self.state.pending.number, cause=self.state.pending.cause)
         else:
             self._watch_for_circles()
+        if self.state.stopped is not None:
+            self.state.done[-1] = replace(self.state.done[-1], called=True)
         self._leave()
 
     def answer(self, choice: Choice) -> None:
@@ -90,7 +93,7 @@ class Executor:
             0,
         )
         if choice != "proceed":
-            self.state.undoing = None
+            end(self.state)
             self.state.unwound.clear()
         run.emit(OperatorAnswered(time=run.time, choice=choice, step=self.state.at))
         self._leave("skipped" if choice == "skip" else "done")
@@ -197,8 +200,6 @@ class Executor:
         run.emit(self.state.stopped)
         self.state.at, self.state.onward = None, self.state.at
         self.state.pending = None
-        if self.state.done:
-            self.state.done[-1] = replace(self.state.done[-1], called=True)
 
     def _watch_for_circles(self) -> None:
         run = self.run

@@ -192,6 +192,11 @@ class ExecutionState(SystemState, kw_only=True):
     """Steps that were executed and not undone by the arm, in order."""
     undoing: Undoing | None = None
     """The arm undoes what it did; None: the program goes on."""
+    lets_go: Natural | None = None
+    """The index of the executed step that took the screw which the arm has turned out: undone, it leaves it there."""
+    held: float | None = None
+    """Finger gap with which the arm, undoing, took what it holds or held it when it began to undo, m; None: it holds
+    nothing, or the program has gone on since."""
     unwound: dict[int, int] = msgspec.field(default_factory=dict)
     """How often each step of the stage under way has had it undone; undoing does not take that back."""
     drive: DriveState

@@ -16,7 +16,7 @@ def pause_sentence(pause: Pause) -> str:
     if pause.kind == "panic":
         return f"stopped by the panic button{' on the way back' if pause.back else ''}; the brakes are set"
     if pause.kind == "end":
-        return "the program came to its end"
+        return "what the arm was to undo is undone" if pause.undone else "the program came to its end"
     return call_sentence(pause.message, pause.error, pause.cause)
 
 

@@ -125,7 +125,7 @@ class Result(Record, frozen=True, kw_only=True):
     assembled: bool | None
     """The referee's word; None if nobody was asked."""
     completed: bool
-    """The program's."""
+    """The program came to its end, or the arm to the end of what it was to undo."""
     paused: bool
     """The run stands before its end: that was asked for, or it was interrupted, or is under way."""
     stopped_at: str | None

@@ -28,6 +28,8 @@ class Pause(Record, frozen=True, kw_only=True):
     """Cause of that error, or of a call for none."""
     message: str = ""
     """The program's own words to the operator, or those of the cell that cannot go on."""
+    undone: bool = False
+    """It ended where the arm has undone what it was to undo."""
     back: bool = False
     """The panic button was hit on the way back in time."""
 
@@ -99,7 +101,7 @@ def ended(runner: Runner, done: int = 0) -> Pause:
     call = runner.call
     if call is not None:
         return Pause(kind="operator", done=done, error=call.error, cause=call.cause, message=call.message)
-    return Pause(kind="end", done=done)
+    return Pause(kind="end", done=done, undone=runner.undone)
 
 
 def keep(runner: Runner, snapshot: Snapshot) -> None:

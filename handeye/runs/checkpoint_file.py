@@ -29,7 +29,7 @@ from handeye.variation import WorldSpec
 from handeye.versions import versions
 
 MAGIC: Final = "handeye-checkpoint"
-VERSION: Final = 3
+VERSION: Final = 4
 ENDING: Final = ".checkpoint"
 CHECKPOINT: Final = Kind("checkpoint", f"{MAGIC} ".encode())
 LARGEST: Final = 1 << 28

@@ -8,6 +8,7 @@ from typing import Final, Literal, Protocol
 from handeye.diagnostics import quoted
 from handeye.errors import InvalidInput
 from handeye.events import (
+    AnyEvent,
     Choice,
     OperatorAnswered,
     OperatorCalled,
@@ -67,7 +68,7 @@ NOBODY: Final = Abort()
 
 @dataclass(frozen=True, slots=True)
 class Retry:
-    """Does each stage again at most so many times, then gives up.
+    """Does each stage again at most so many times, then gives up; so it does where the arm cannot undo something.
 
     It counts what has happened in the run, so that a run taken up again goes on as if never broken off.
     """
@@ -76,8 +77,10 @@ class Retry:
 
     def answer(self, runner: Runner, call: OperatorCalled, refused: str | None) -> OperatorChoice:
         """How to go on."""
+        if undoing(runner):
+            return "abort"
         done, now = 0, None
-        for event in runner.events:
+        for event in _of_this_part(runner):
             if isinstance(event, StageStarted):
                 now = runner.stages.index(event.stage)
             elif isinstance(event, OperatorAnswered) and event.choice == "retry" and now == runner.stage:
@@ -111,12 +114,18 @@ def undoing(runner: Runner) -> bool:
 def _unwound(runner: Runner) -> set[int]:
     """The stages, by their indices, for whose failure the arm has undone what it did."""
     found, now = set(), -1
-    for event in runner.events:
+    for event in _of_this_part(runner):
         if isinstance(event, StageStarted):
             now = runner.stages.index(event.stage)
         elif isinstance(event, UndoOrdered) and event.asked_by == "person":
             found.add(now)
     return found
+
+
+def _of_this_part(runner: Runner) -> Sequence[AnyEvent]:
+    """What has happened since the run was begun, or last ordered to undo all that it was: another part of its job."""
+    ordered = (n for n, event in enumerate(runner.events) if isinstance(event, UndoOrdered) and event.halts)
+    return runner.events[max(ordered, default=-1) + 1 :]
 
 
 def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:

@@ -19,7 +19,7 @@ from handeye.comparison.corrected import corrections
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.text import comparison_text
 from handeye.errors import InvalidInput
-from handeye.events import Event, GuardTripped, StepStarted
+from handeye.events import Event, GuardTripped, StepStarted, UndoFinished, UndoStarted
 from handeye.faults import Fault
 from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
@@ -102,6 +102,23 @@ def test_a_run_with_a_step_that_its_plan_lacks_is_refused(tmp_path: Path) -> Non
     run = recorded(tmp_path / "a.mcap")
     with pytest.raises(InvalidInput, match=r"a\.mcap tells of steps that its plan lacks$"):
         comparison(run, changed(run, astray))
+
+
+def test_a_step_that_the_arm_takes_back_is_none_that_it_carried_out(tmp_path: Path) -> None:
+    run = recorded(tmp_path / "a.mcap")
+    begun = [event for event in run.trace.events if isinstance(event, StepStarted)]
+    ends = run.trace.events[-1].time
+    back = [
+        event
+        for each in reversed(begun)
+        for event in (
+            UndoStarted(time=ends, step=each.step, line=each.line, text=each.text),
+            UndoFinished(time=ends, step=each.step, hand=None, planned=None, gap=None, force=0.0),
+        )
+    ]
+    undone = replace(run, trace=replace(run.trace, events=(*run.trace.events, *back)))
+    both = TwoRuns(run, undone)
+    assert len(both.carried_out[0]) == len(both.carried_out[1]) == len(begun)
 
 
 def test_a_fault_is_told_as_it_would_be_typed(tmp_path: Path) -> None:

@@ -11,12 +11,15 @@ from short_runs import begin
 
 from handeye.errors import InvalidInput
 from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
-from handeye.execution.undo.resistance import ALLOWED, allowed
+from handeye.execution.undo.resistance import ALLOWED, Resistance, allowed
 from handeye.execution.undo.standing import FALLEN
+from handeye.packed import encoded
 from handeye.program.causes import HoldOff, MetEarly, UndoResisted, UndoUnknown
+from handeye.program.guards import GuardKind
 from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.touch.guards import Reading, Trip
 from handeye.touch.hold import SKEW
 
 pytestmark = pytest.mark.slow
@@ -45,6 +48,36 @@ GRASP = (2, 4)
 CLOSED = 4
 """Its step that grasps the pin."""
 DROP = f"{TAKE}        OPEN    1\n"
+TRY = """
+        STAGE   "try beside the pin, and take it"
+        OPEN    1
+        MOVE    P1
+        CHANGE  [0 0 1] 2
+        CHANGE  [0 1 0] 3
+        ASSIGN  TRIES 3
+AGAIN:  CLOSE   .1
+        SKIPE   2
+        JUMP    GOT
+        OPEN    1
+        CHANGE  [0 -1 0] 3
+        CHANGE  [0 0 -1] 2
+        SOJG    TRIES AGAIN
+        WAIT    "no pin"
+GOT:    CHANGE  [0 0 1] 1
+"""
+"""Closes on nothing 3 in beside the pin, and then takes it: the loop begins with the grasp."""
+SEARCH = """
+        OPEN    .5
+        SEARCH  .5
+        ASSIGN  N 3
+ROUND:  MOVE    T1
+        CHANGE  [0 0 -1] .2
+        SOJG    N NEXT
+        JUMP    END
+NEXT:   AOJ     ROUND
+END:    CHANGE  [0 0 1] .5
+"""
+"""Goes down at places of a search, through free air."""
 HOLD = """
         STAGE   "hold the top on its stand"
         OPEN    3.4
@@ -120,6 +153,21 @@ def test_rounds_that_changed_nothing_but_memory_are_undone_as_one_lift() -> None
     texts = [(e.text.split()[0], e.steps) for e in back().events if isinstance(e, UndoStarted)]
     assert texts.count(("MOVE", 8)) == 1
     assert [word for word, _ in texts].count("SOJG") == 1
+
+
+def test_a_pin_that_a_loop_took_in_its_second_round_goes_back_too() -> None:
+    run = undone(done(TRY))
+    assert run.call is None
+    assert strayed(run, "pin0") < 0.3
+
+
+def test_fingers_that_closed_on_nothing_must_hold_nothing() -> None:
+    def closed_on_nothing(runner: Runner) -> None:
+        done = context_of(runner.system).state.done
+        done[CLOSED] = replace(done[CLOSED], gap=(done[CLOSED].gap[0], 0.0))
+
+    cause = stopped_by(undone(done(), left=CLOSED, meddle=closed_on_nothing)).cause
+    assert isinstance(cause, HoldOff)
 
 
 def test_stages_are_told_as_they_are_undone_the_last_one_first() -> None:
@@ -243,6 +291,36 @@ def test_a_way_that_cannot_be_used_stops_the_arm_and_breaks_nothing() -> None:
         state.done[:] = [replace(done, way=b"spoilt" if done.way else b"") for done in state.done]
 
     assert isinstance(stopped_by(undone(done(), meddle=spoil)).cause, UndoUnknown)
+
+
+def test_a_memory_that_cannot_be_the_programs_stops_the_arm_before_it_moves() -> None:
+    def spoil(runner: Runner) -> None:
+        state = context_of(runner.system).state
+        state.done[-1] = replace(state.done[-1], remembered={"saved": encoded({"C1": np.zeros(5)})})
+
+    run = undone(done(), meddle=spoil)
+    assert isinstance(stopped_by(run).cause, UndoUnknown)
+    assert context_of(run.system).state.saved["C1"].shape == (3,)
+
+
+def test_a_lift_that_was_stopped_goes_on_as_a_lift(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = Runner(done(SEARCH))
+    run.have_undone(0)
+
+    def lifts() -> list[int]:
+        return [event.steps for event in run.events if isinstance(event, UndoStarted) and event.steps > 1]
+
+    def hinders_a_lift(self: Resistance, reading: Reading) -> Trip | None:
+        return Trip(guard=GuardKind.FORCE, value=21.0, limit=20.0) if lifts() else None
+
+    monkeypatch.setattr(Resistance, "check", hinders_a_lift)
+    while run.call is None:
+        run.step()
+    monkeypatch.undo()
+    (first,) = lifts()
+    run.answer("proceed")
+    run.step()
+    assert (lifts(), run.call) == (2 * [first], None)
 
 
 def test_an_undo_that_was_stopped_goes_on_from_where_the_arm_is() -> None:

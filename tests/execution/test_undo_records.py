@@ -143,6 +143,16 @@ def test_a_round_in_which_a_stage_began_is_none() -> None:
     assert entry(executed(3, enters=True), executed(4), executed(3)) == 0
 
 
+def test_a_grasp_that_a_loop_begins_with_closes_no_round() -> None:
+    """It closed on nothing the first time, and holds something now: a lift would carry that away."""
+    first, last = executed(3, gap=(0.05, 0.0)), executed(3, gap=(0.05, 0.025))
+    rounds = (first, executed(4, grasping=True), executed(5, grasping=True), executed(6), last)
+    assert loop_entry(rounds, lambda _: None, grasping=True) is None
+    same = (*rounds[:-1], first)
+    assert loop_entry(same, lambda _: None, grasping=True) is None
+    assert loop_entry((executed(3), *rounds[1:-1], executed(3)), lambda _: None, grasping=False) == 0
+
+
 HOLDING = {"grasping": True}
 FREE = {"grasping": False}
 

@@ -4,20 +4,30 @@ from functools import cache
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from pump_bench import LAID, MACROS, Bench, bench, stacked
 
+from handeye.arm.ik import solve
+from handeye.arm.kinematics import forward
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import CellState
 from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Undoing
+from handeye.execution.undo.resistance import Resistance
+from handeye.execution.undo.way import Way, packed, unpacked
 from handeye.mutable_records import copied
+from handeye.pose import translated
 from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
+from handeye.program.guards import GuardKind
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.threads import holes_of
+from handeye.touch.guards import Reading, Trip
 from handeye.units import INCH, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
 
+HALF_OUT = 30
+"""Servo periods that a screw is turned out, or left behind, until something hinders the arm."""
 ONE = f"{MACROS}        DRIVER\n        SCREW   S1 H0 Y1 1\n"
 
 
@@ -71,6 +81,84 @@ def test_the_magnet_is_on_again_when_the_screw_is_left_behind() -> None:
     truth = run.cell.truth
     assert run.run.drive.state.magnet
     assert truth.data.ctrl[truth.model.actuator("magnet").id] == 1.0
+
+
+def turned_out() -> Bench:
+    """A screw that is out, and hangs from the bit."""
+    run = driven()
+    run.executor.undo(Undoing(left=0, halts=True))
+    return run.go(lambda: holes_of(run.cell.truth)[0].screw is None)
+
+
+def in_the_dispenser(run: Bench) -> bool:
+    assert run.executor.state.stopped is None
+    return bool(np.linalg.norm(run.place("screw0") - dispensed()) * INCH < 1e-3)
+
+
+def test_a_screw_on_the_bit_goes_back_when_the_arm_is_ordered_anew_to_undo() -> None:
+    assert in_the_dispenser(undo(turned_out()))
+
+
+def test_a_program_that_goes_on_finds_the_magnet_on() -> None:
+    run = turned_out()
+    taken = run.run.state.lets_go
+    assert taken is not None
+    run.executor.undo(Undoing(left=taken))
+    run.go(lambda: run.executor.state.undoing is None)
+    assert len(run.executor.state.done) == taken
+    assert run.run.drive.state.magnet
+    assert run.go().finished
+    assert holes_of(run.cell.truth)[0].screw == 0
+
+
+def came_from_above(run: Bench, height: float) -> None:
+    """The step that took the screw on the bit began so far above it, m."""
+    state, arm = run.run.state, run.run.arm
+    assert state.lets_go is not None
+    took = state.done[state.lets_go]
+    end = unpacked(took.way, len(arm.joints)).q[-1]
+    above = solve(arm, translated(forward(arm, end), np.array((0.0, 0.0, height))), end).q
+    assert above is not None
+    way = Way(q=np.linspace(above, end, HALF_OUT), gap=np.full(HALF_OUT, run.run.drive.state.gap))
+    state.done[state.lets_go] = replace(took, way=packed(way))
+
+
+def test_a_hand_that_is_stopped_as_it_leaves_a_screw_goes_on_later(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run, check, periods = turned_out(), Resistance.check, [0]
+    came_from_above(run, 0.02)
+
+    def hindered(self: Resistance, reading: Reading) -> Trip | None:
+        periods[0] += not run.run.drive.state.magnet
+        hit = periods[0] == HALF_OUT
+        return Trip(guard=GuardKind.FORCE, value=21.0, limit=20.0) if hit else check(self, reading)
+
+    monkeypatch.setattr(Resistance, "check", hindered)
+    run.go()
+    assert isinstance(run.called.cause, UndoResisted)
+    assert len(run.executor.state.done) == (run.run.state.lets_go or 0) + 1
+    run.executor.answer("proceed")
+    assert in_the_dispenser(run.go())
+
+
+def test_a_screw_that_is_half_out_when_the_arm_is_stopped_comes_out_later(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run, check, periods = driven(), Resistance.check, [0]
+    run.executor.undo(Undoing(left=0, halts=True))
+
+    def hindered(self: Resistance, reading: Reading) -> Trip | None:
+        periods[0] += run.run.drive.state.tool < 0
+        hit = periods[0] == HALF_OUT
+        return Trip(guard=GuardKind.FORCE, value=21.0, limit=20.0) if hit else check(self, reading)
+
+    monkeypatch.setattr(Resistance, "check", hindered)
+    run.go()
+    assert isinstance(run.called.cause, UndoResisted)
+    assert 1e-3 < run.executor.state.done[-1].risen < 5e-3
+    run.executor.answer("proceed")
+    assert in_the_dispenser(run.go())
 
 
 def test_the_pump_stays_where_it_is_while_a_screw_is_turned_out() -> None:

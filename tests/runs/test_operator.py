@@ -1,6 +1,7 @@
 """What operators say when they are called, and what comes of it."""
 
 import pytest
+from msgspec.structs import replace
 from short_runs import begin, history, plan_of
 from stepper_bench import AIR, reset
 
@@ -20,6 +21,7 @@ from handeye.report.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Abort, Back, Retry, UnwindOnce, attend, beginnings, parse_policy
+from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
@@ -135,6 +137,30 @@ def test_retry_does_the_stage_again_so_many_times_and_gives_up(runner: Runner, t
     assert attend(runner, Retry(times)).kind == "operator"
     assert answers(runner) == ["retry"] * times
     assert calls(runner) == times + 1
+
+
+def test_what_a_step_leaves_for_undoing_it_tells_that_it_called_the_operator(runner: Runner) -> None:
+    attend(runner, Abort())
+    called = [done.called for done in context_of(runner.system).state.done]
+    assert called == [*(len(called) - 1) * [False], True]
+
+
+def test_where_the_arm_cannot_undo_something_nothing_is_retried(runner: Runner) -> None:
+    attend(runner, Abort())
+    state = context_of(runner.system).state
+    state.done[-1] = replace(state.done[-1], way=b"no way")
+    runner.have_undone(0, halts=True)
+    assert attend(runner, Retry(3)).kind == "operator"
+    assert answers(runner) == []
+
+
+def test_a_part_that_begins_when_all_is_undone_is_retried_on_its_own_account(runner: Runner) -> None:
+    attend(runner, Retry(1))
+    runner.have_undone(0, halts=True)
+    attend(runner, Retry(1))
+    runner.answer("proceed")  # built again
+    attend(runner, Retry(1))
+    assert answers(runner) == ["retry", "proceed", "retry"]
 
 
 def test_a_run_taken_up_again_retries_no_more_often_than_one_never_broken_off(runner: Runner) -> None:

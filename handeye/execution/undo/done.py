@@ -31,6 +31,8 @@ class Done(Record, frozen=True, kw_only=True, omit_defaults=True):
     """Greatest force that the hand has felt, N; 0: it felt for none."""
     ended: GuardKind | None = None
     """The guard that it ended on."""
+    risen: float = 0.0
+    """By how much the hand has risen while the screw that it drove in was turned out, m, if that was broken off."""
     remembered: dict[str, bytes] = msgspec.field(default_factory=dict)
     """What the program remembered before, as far as that has changed, see `undo.memory`."""
     enters: bool = False
@@ -47,7 +49,3 @@ class Undoing(Record, frozen=True, kw_only=True):
     halts: bool = False
     """The run ends there; otherwise the program can go on."""
     asked_by: AskedBy = "person"
-    lets_go: Natural | None = None
-    """The index of the step that took the screw on the bit: undone, it leaves it where it was."""
-    held: float | None = None
-    """Finger gap with which the hand took what it holds, or held it when undoing began, m; None: it held nothing."""

@@ -39,7 +39,8 @@ def loop_entry(
     last = len(done) - 1
     for head in range(last, 0, -1):
         jumped = done[head - 1].step >= done[head].step
-        if not (jumped and head == last) and not _in_air(done, head, grasping):
+        passes = _keeps_hold if jumped and head == last else _in_air
+        if not passes(done, head, grasping):
             return None
         if jumped:
             return next(
@@ -52,12 +53,20 @@ def loop_entry(
 def _in_air(done: Sequence[Done], index: int, grasping: bool | None) -> bool:
     """A step felt nothing, called nobody, and changed nothing of what the hand and the driver do."""
     here = done[index]
+    nothing = here.force == 0.0 and not here.tool and not here.called and not here.enters
+    return nothing and _keeps_hold(done, index, grasping)
+
+
+def _keeps_hold(done: Sequence[Done], index: int, grasping: bool | None) -> bool:
+    """The hand holds behind a step what it held before.
+
+    A grasp that a loop begins with is none such: what it took the first time is not what it takes the last time.
+    """
+    here, (before, behind) = done[index], done[index].gap
     after = (
         done[index + 1].grasping if index + 1 < len(done) else here.grasping if grasping is None else grasping
     )
-    before, behind = here.gap
-    same = here.grasping == after and abs(behind - before) < SAME_GAP and not here.tool
-    return same and here.force == 0.0 and not here.called and not here.enters
+    return here.grasping == after and abs(behind - before) < SAME_GAP
 
 
 def touch_entry(done: Sequence[Done], *, grasping: bool) -> int | None:
@@ -92,14 +101,16 @@ def without_rounds(done: Sequence[Done], hand: Callable[[int], Array | None]) ->
     index = len(done) - 1
     while index >= 0:
         yield index
-        entry = loop_entry(done[: index + 1], hand)
+        grasping = done[index + 1].grasping if index + 1 < len(done) else None
+        entry = loop_entry(done[: index + 1], hand, grasping=grasping)
         index = index - 1 if entry is None else entry
 
 
 def _alike(one: Done, other: Done) -> bool:
-    """The same step, begun with the same in the hand, and the driver off."""
+    """The same step, begun and ended with the same in the hand, and the driver off."""
     same = (one.step, one.load, one.grasping) == (other.step, other.load, other.grasping)
-    return same and one.tool == other.tool == 0.0 and abs(one.gap[0] - other.gap[0]) < SAME_GAP
+    gaps = zip(one.gap, other.gap, strict=True)
+    return same and one.tool == other.tool == 0.0 and all(abs(a - b) < SAME_GAP for a, b in gaps)
 
 
 def _undone_itself(done: Sequence[Done], entry: int, hand: Callable[[int], Array | None]) -> bool:

@@ -6,7 +6,11 @@ its aim are where they are, and undoing moves only the arm.
 
 from typing import Any, Final, get_type_hints
 
-from handeye.execution.state import ExecutionState
+from msgspec.structs import replace
+
+from handeye.errors import InvalidInput
+from handeye.execution.context import ExecutionContext
+from handeye.execution.state import ExecutionState, check_fits
 from handeye.mutable_records import MutableRecord, put_back
 from handeye.packed import decoded, encoded
 
@@ -15,6 +19,10 @@ REMEMBERED: Final = (
     "general", "world",
 )  # fmt: skip
 """Fields of the state."""
+Memory = dict[str, Any]
+"""Values of fields of the state."""
+_UNCHECKED: Final[Memory] = {"done": [], "undoing": None, "unwound": {}, "shots": {}, "found": {}}
+"""What no step remembers is sound already, and large."""
 _TYPES: Final[dict[str, Any]] = get_type_hints(ExecutionState)
 
 
@@ -28,15 +36,24 @@ def changed(before: dict[str, bytes], after: dict[str, bytes]) -> dict[str, byte
     return {name: old for name, old in before.items() if after[name] != old}
 
 
-def remember(state: ExecutionState, before: dict[str, bytes]) -> None:
-    """Let a state remember again what it did.
+def recalled(run: ExecutionContext, before: dict[str, bytes]) -> Memory:
+    """What a program remembered, by the names of fields of its state.
 
     Raises:
-        ValueError: it is no memory of a program.
+        ValueError: it is no memory of the program that runs.
     """
     if not before.keys() <= set(REMEMBERED):
         raise ValueError("it remembers what no program does")
     found = {name: decoded(data, _TYPES[name]) for name, data in before.items()}
+    try:
+        check_fits(replace(run.state, **_UNCHECKED, **found), run.plan, run.arm)
+    except InvalidInput as fault:
+        raise ValueError(str(fault)) from None
+    return found
+
+
+def remember(state: ExecutionState, found: Memory) -> None:
+    """Let a state remember again what it did."""
     for name, value in found.items():
         here = getattr(state, name)
         if isinstance(here, MutableRecord) and type(here) is type(value):

@@ -1,6 +1,6 @@
 """Undoing executed steps, the last one first: how each operation is undone, and what stops it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,7 +17,7 @@ from handeye.execution.state import ExecutionState, vector
 from handeye.execution.undo.done import Done, Undoing
 from handeye.execution.undo.loops import loop_entry, touch_entry, without_rounds
 from handeye.execution.undo.meeting import Meeting
-from handeye.execution.undo.memory import remember
+from handeye.execution.undo.memory import Memory, recalled, remember
 from handeye.execution.undo.resistance import Resistance, allowed
 from handeye.execution.undo.retracing import retracing
 from handeye.execution.undo.standing import stands, where_the_hand_is
@@ -30,10 +30,12 @@ from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation
 from handeye.touch.guards import FirstOf, Monitor
-from handeye.touch.hold import SAME_HOLD, SKEW, as_before
+from handeye.touch.hold import NEARLY_ZERO, SAME_HOLD, SKEW, as_before, at_least
 
 STANDS: Final = 0.5
 """Of the force with which a screw was taken: so much has to bear the hand that brings it back."""
+STRAIGHTER: Final = 2 * 1.1e-3
+"""m by which what is carried may come to lie straighter in the fingers. Chosen: twice the most measured."""
 BESIDE: Final = 1e-4
 """rad or m: an arm that is no farther from where a loop was entered is there."""
 
@@ -54,9 +56,17 @@ def order(state: ExecutionState, undoing: Undoing) -> None:
     """
     if undoing.left >= len(state.done):
         raise InvalidInput("there is nothing to undo")
-    held = state.done[-1].gap[1] if state.grasping else None
-    state.undoing, state.stopped, state.onward, state.idle = replace(undoing, held=held), None, None, 0
+    if not state.grasping:
+        state.held = None
+    elif state.held is None:
+        state.held = state.done[-1].gap[1]
+    state.undoing, state.stopped, state.onward, state.idle = undoing, None, None, 0
     state.pending, state.at = None, state.done[-1].step
+
+
+def end(state: ExecutionState) -> None:
+    """No more is undone: a program that goes on finds the magnet on, as it left it."""
+    state.undoing, state.drive.magnet = None, True
 
 
 def undo_last(run: ExecutionContext) -> Stopped | None:
@@ -73,8 +83,9 @@ def undo_last(run: ExecutionContext) -> Stopped | None:
     _tell(run, here, len(state.done) - first)
     try:
         several = first < len(state.done) - 1
+        remembered = [recalled(run, done.remembered) for done in state.done[first:]]
         stopped = _lift(run, first - 1) if several else _undo(run, state.done[-1])
-        undone = [] if stopped else _forget(run, first)
+        undone = [] if stopped else _forget(run, first, remembered)
     except ValueError:  # a way or a memory that is none of this program and its arm
         stopped, undone = Stopped(cause=UndoUnknown()), []
     run.emit(_finished(run, here))
@@ -110,12 +121,18 @@ def _finished(run: ExecutionContext, number: int) -> UndoFinished:
     return UndoFinished(time=run.time, step=number, hand=hand, planned=None, gap=gap, force=force)
 
 
-def _forget(run: ExecutionContext, first: int) -> list[Done]:
-    """Remember what the program did before the step of an index; all from there on, taken off the list."""
+def _forget(run: ExecutionContext, first: int, remembered: Sequence[Memory]) -> list[Done]:
+    """Remember what the program did before the step of an index; all from there on, taken off the list.
+
+    Args:
+        remembered: before each of these steps, as far as it changed that.
+    """
     state, undone = run.state, run.state.done[first:]
-    for done in reversed(undone):
-        remember(state, done.remembered)
+    for memory in reversed(remembered):
+        remember(state, memory)
     state.drive.load, state.drive.tool, state.drive.in_air = undone[0].load, 0.0, False
+    if state.lets_go is not None and state.lets_go >= first:
+        state.lets_go = None
     del state.done[first:]
     return undone
 
@@ -132,7 +149,8 @@ def _come_to(run: ExecutionContext, undone: list[Done]) -> None:
     if state.at is None:
         onward, halts = undone[0].step, state.undoing.halts
         run.emit(UndoEnded(time=run.time, step=onward))
-        state.undoing, state.at, state.onward = None, None if halts else onward, onward if halts else None
+        end(state)
+        state.at, state.onward = None if halts else onward, onward if halts else None
 
 
 # -- by operation -------------------------------------------------------------------------------------
@@ -140,10 +158,10 @@ def _come_to(run: ExecutionContext, undone: list[Done]) -> None:
 
 def _undo(run: ExecutionContext, done: Done) -> Stopped | None:
     operation = run.plan.program.steps[done.step].operation
-    undoing, drive = run.state.undoing, run.drive.state
+    drive = run.drive.state
     if not done.way:
         return None
-    if undoing is not None and undoing.lets_go == len(run.state.done) - 1:
+    if run.state.lets_go == len(run.state.done) - 1 and drive.magnet:
         lost = _screw_lost(run, done)
         if lost is not None:
             return lost
@@ -175,7 +193,9 @@ def _let_go(run: ExecutionContext, done: Done) -> Stopped | None:
         return off
     done = replace(done, way=packed(where_the_hand_is(run, _way(run, done))))
     if not done.grasping:
-        return _fingers_back(run, done)
+        stopped = _fingers_back(run, done)
+        run.state.held = run.state.held if stopped else None
+        return stopped
     stopped = _retrace(run, done)
     if stopped is None:
         _press(run, done.fingers)
@@ -186,8 +206,7 @@ def _take_again(run: ExecutionContext, done: Done) -> Stopped | None:
     """Undo an opening: the fingers close to where they were, on what they held there."""
     stopped = _fingers_back(run, done)
     if stopped is None and done.grasping:
-        assert run.state.undoing is not None
-        run.state.undoing = replace(run.state.undoing, held=run.drive.sensed.gap)
+        run.state.held = run.drive.sensed.gap
     return stopped
 
 
@@ -225,15 +244,15 @@ def _turn_out(run: ExecutionContext, done: Done) -> Stopped | None:
         return Stopped(cause=BackingOut())
     if done.ended is not GuardKind.TORQUE:
         return _retrace(run, done)
-    came = unscrew(run, done, _way(run, done))
-    if isinstance(came, Outcome):
-        return _met(run, came)
-    if not came.out:
-        return Stopped(cause=ScrewFast(torque=round(came.torque, 6), risen=round(came.risen, 6)))
-    state = run.state
-    assert state.undoing is not None
-    backwards = without_rounds(state.done, lambda index: _hand_behind(run, index))
-    state.undoing = replace(state.undoing, lets_go=taken_by(run, backwards))
+    outcome, screw = unscrew(run, done, _way(run, done))
+    turned = outcome.trip is not None and outcome.trip.guard is GuardKind.TORQUE
+    if not (turned and screw.out):
+        risen = round(screw.risen, 6)
+        run.state.done[-1] = replace(done, risen=risen)
+        fast = Stopped(cause=ScrewFast(torque=round(screw.torque, 6), risen=risen))
+        return fast if turned else _met(run, outcome) or fast
+    backwards = without_rounds(run.state.done, lambda index: _hand_behind(run, index))
+    run.state.lets_go = taken_by(run, backwards)
     return None
 
 
@@ -249,11 +268,13 @@ def _screw_lost(run: ExecutionContext, done: Done) -> Stopped | None:
 def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
     """See that the fingers hold what they took: where they stood when it was grasped, or since it was taken again.
 
-    What is carried may come to lie straighter between them: one base of seed 1, by 1.1 mm.
+    What is carried may come to lie straighter between them: one base of seed 1, by 1.1 mm. What is more than twice as
+    much thicker or thinner is another thing, and so is nothing.
     """
-    undoing = run.state.undoing
-    held = kept if undoing is None or undoing.held is None else undoing.held
-    return _off_hold(run, kept, SKEW + max(0.0, kept - held), SAME_HOLD + max(0.0, held - kept))
+    held = kept if run.state.held is None else run.state.held
+    straighter = held - kept if at_least(min(held, kept), NEARLY_ZERO) else 0.0
+    closer, wider = min(max(-straighter, 0.0), STRAIGHTER), min(max(straighter, 0.0), STRAIGHTER)
+    return _off_hold(run, kept, SKEW + closer, SAME_HOLD + wider)
 
 
 def _off_hold(

@@ -44,6 +44,8 @@ class Loosened:
     """Of the hand, m."""
     rise: float
     """By how much it rises at least when the screw is out, m."""
+    before: float
+    """By how much it had risen before turning was broken off, m."""
     highest: float = field(init=False)
     started: float = field(init=False)
     torque: float = 0.0
@@ -52,7 +54,8 @@ class Loosened:
     _periods: int = 0
 
     def __post_init__(self) -> None:
-        self.started = self.highest = self.height()
+        self.highest = self.height()
+        self.started = self.highest - self.before
 
     @property
     def risen(self) -> float:
@@ -79,23 +82,22 @@ class Loosened:
         return Trip(guard=GuardKind.TORQUE, value=abs(reading.tool_torque), limit=0.0) if over else None
 
 
-def unscrew(run: ExecutionContext, done: Done, way: Way) -> Outcome | Loosened:
+def unscrew(run: ExecutionContext, done: Done, way: Way) -> tuple[Outcome, Loosened]:
     """Turn left on the screw that a step has driven in, until it is out or does not come.
 
     Returns:
-        How the screw came, or what else ended it.
+        What else ended it, if anything did, and how far the screw came.
     """
     drive = run.drive
     begin, end = forward(run.arm, way.q[[0, -1]])[:, 2, 3]
     rise = max(float(begin - end) - TURN, RISING)
-    loosened = Loosened(height=lambda: float(drive.hand()[2, 3]), rise=rise)
+    loosened = Loosened(height=lambda: float(drive.hand()[2, 3]), rise=rise, before=done.risen)
     drive.state.tool, drive.state.current = -SPEED * done.tool, 0.0
     guards = FirstOf(monitors=(Resistance(limit=allowed(done.force)), loosened))
     outcome = drive.comply(_course(run), guards)
     drive.state.tool = 0.0
     drive.hold(run.arm.servo.settle)
-    met = outcome.trip is not None and outcome.trip.guard is GuardKind.TORQUE
-    return loosened if met else outcome
+    return outcome, loosened
 
 
 def lower(run: ExecutionContext, force: float) -> Outcome:

@@ -2,6 +2,8 @@
 
 from typing import Final
 
+from msgspec import UNSET
+
 from handeye.see.facts.outcome import Outcome
 from handeye.see.recorded import Recorded
 from handeye.tasks import known
@@ -21,6 +23,8 @@ def title(run: Recorded, outcome: Outcome) -> str:
             return "The arm has undone what it did, but not everything is back."
         case "wrong":
             return f"The program reported success, but {words.product} is not right."
+        case "ended" if run.result is not None and run.result.apart is not UNSET:
+            return "What the arm was to undo is undone."
         case "ended":
             return "The program came to its end."
         case "stopped":
