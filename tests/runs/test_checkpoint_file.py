@@ -71,15 +71,15 @@ def test_a_flipped_bit_anywhere_is_refused(data: bytes) -> None:
 
 def test_a_newer_version_is_refused(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
-    with pytest.raises(InvalidInput, match="checkpoint format version 4; this handeye reads up to version 3"):
-        decode(sealed(rest, version=4), "it")
+    with pytest.raises(InvalidInput, match="checkpoint format version 5; this handeye reads up to version 4"):
+        decode(sealed(rest, version=5), "it")
 
 
 def test_a_checkpoint_of_before_is_refused_with_what_to_do(data: bytes) -> None:
     rest = data.partition(b"\n")[2]
     with pytest.raises(
         InvalidInput,
-        match=r"^it was saved by an older handeye, in checkpoint format version 1; this one reads version 3: "
+        match=r"^it was saved by an older handeye, in checkpoint format version 1; this one reads version 4: "
         r"start the run again, or resume it there$",
     ):
         decode(sealed(rest, version=1), "it")
