@@ -47,7 +47,7 @@ def photographed(name: str, trace: "handeye.Trace", camera: str) -> None:
 def filmed(name: str, trace: "handeye.Trace") -> None:
     """The whole run."""
     trace.video(
-        PICTURES / name, camera="follow", captions=True, seconds=17, width=520, height=390, overwrite=True
+        PICTURES / name, camera="follow", captions=True, seconds=18, width=520, height=390, overwrite=True
     )
 
 
