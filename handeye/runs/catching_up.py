@@ -1,6 +1,6 @@
 """A run brought to where it came before it was broken off, if no checkpoint holds its last steps."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from handeye.errors import InvalidInput
 from handeye.events import AnyEvent, StepFinished
@@ -20,26 +20,22 @@ def done_since(checkpoint: Checkpoint, events: Sequence[AnyEvent]) -> int | None
     return sum(isinstance(event, StepFinished) for event in events[begun:])
 
 
-def caught_up(
-    checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str, halt: Callable[[], bool] = lambda: False
-) -> Checkpoint:
+def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> Checkpoint:
     """The run as it was behind the last step that it finished: what it did since a checkpoint is carried out again.
 
     Equal runs go the same way to the byte, so that nothing is other than it was.
 
     Args:
         name: of the run, for messages.
-        halt: the panic button, asked at every servo period.
 
     Raises:
         InvalidInput: it goes another way here, or its cell cannot be built.
-        Halted: the panic button was hit.
     """
     if not done_since(checkpoint, events):
         return checkpoint
     last = max(number for number, event in enumerate(events) if isinstance(event, StepFinished))
     happened = events[: last + 1]
-    runner = Runner(checkpoint, halt=halt)
+    runner = Runner(checkpoint)
     runner.repeat(happened)
     if runner.events[: len(happened)] != list(happened):
         raise InvalidInput(

@@ -18,7 +18,8 @@ from handeye.units import INCH
 
 FALLEN: Final = 0.31 * INCH
 """m that it may have fallen. By the pump's gasket: fingers reach .25 in through it (`[gasket_stand]`), and it is .06 in
-thick; fallen farther, they would not hold it again. Measured: 6.0 and 6.7 mm, seeds 8128 and 8124."""
+thick; fallen much farther, they would not hold it again. Measured: 6.0 and 6.7 mm, seeds 8128 and 8124; 8.05, held all
+the same, in 8724, which this stops: the arm is not just as high as it believes."""
 
 
 def stands(run: ExecutionContext, way: Way, grasps: Callable[[Done], bool]) -> bool:

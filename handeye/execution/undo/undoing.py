@@ -272,9 +272,9 @@ def _lost(run: ExecutionContext, kept: float) -> Stopped | None:
     much thicker or thinner is another thing, and so is nothing.
     """
     held = kept if run.state.held is None else run.state.held
-    straighter = held - kept if at_least(min(held, kept), NEARLY_ZERO) else 0.0
-    closer, wider = min(max(-straighter, 0.0), STRAIGHTER), min(max(straighter, 0.0), STRAIGHTER)
-    return _off_hold(run, kept, SKEW + closer, SAME_HOLD + wider)
+    most = STRAIGHTER if at_least(min(held, kept), NEARLY_ZERO) else 0.0
+    straighter = min(max(held - kept, -most), most)
+    return _off_hold(run, kept, SKEW + max(-straighter, 0.0), SAME_HOLD + max(straighter, 0.0))
 
 
 def _off_hold(
