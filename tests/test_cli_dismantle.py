@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from conftest import Command
+from report_pages import tree
 from short_runs import begin
 
 from handeye.cli import runs as cli_runs
@@ -87,6 +88,13 @@ def test_it_goes_back_to_the_beginning_of_a_stage(command: Command, taken: Path)
     told = json.loads(out)
     assert (code, told["apart"], told["referee"]) == (0, None, {})
     assert [stage["status"] for stage in told["stages"]] == ["done", "undone"]
+
+
+def test_the_page_of_a_run_that_was_undone_so_far_says_so(command: Command, taken: Path) -> None:
+    assert command("dismantle", str(taken), "--to", "draw", "--out", "apart")[0] == 0
+    assert command("report", "apart")[0] == 0
+    page = tree(Path("apart/report.html").read_text(encoding="utf-8"))
+    assert page.all("h1")[0].text == "What the arm was to undo is undone."
 
 
 def test_a_guard_stops_it_with_exit_code_1_and_says_why(command: Command, dropped: Path) -> None:

@@ -17,6 +17,8 @@ from cyclopts import App
 
 from handeye import cli
 from handeye.cli.common import notes, screen
+from handeye.cli.streams import STAND_INS
+from handeye.report.page import _MARK
 
 SCRIPT = """        STAGE   "insert the aligning pins"
         OPEN    1
@@ -249,3 +251,7 @@ def test_trials_that_are_interrupted_end_at_once_with_one_line_and_leave_no_proc
         assert trials.stderr is not None
         assert trials.stderr.read() == b"\nhandeye: interrupted\n"
     assert trials.returncode == 130
+
+
+def test_the_mark_of_every_stage_has_a_stand_in() -> None:
+    assert {mark for mark, _ in _MARK.values()} <= STAND_INS.keys()

@@ -7,6 +7,7 @@ from stepper_bench import AIR, reset
 
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
+from handeye.debugger.choices import choices
 from handeye.errors import InvalidInput
 from handeye.events import (
     OperatorAnswered,
@@ -152,6 +153,7 @@ def test_where_the_arm_cannot_undo_something_nothing_is_retried(runner: Runner) 
     runner.have_undone(0, halts=True)
     assert attend(runner, Retry(3)).kind == "operator"
     assert answers(runner) == []
+    assert choices(runner)["proceed"] == "proceed: go on undoing"
 
 
 def test_a_part_that_begins_when_all_is_undone_is_retried_on_its_own_account(runner: Runner) -> None:
