@@ -17,7 +17,7 @@ ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
 import handeye  # noqa: E402
-from handeye import events  # noqa: E402
+from handeye.program import events  # noqa: E402
 
 PAGE = ROOT / "docs" / "python.md"
 MARK = "<!-- Below: docs/make_reference.py -->\n"
@@ -31,31 +31,31 @@ with warnings.catch_warnings():
     )
 GROUPS: Final = {
     "Plans": {
-        "handeye.plan": "door.plans.plan",
-        "handeye.Plan": "door.plans.Plan",
-        "FlowDrawing": "door.flow.FlowDrawing",
+        "handeye.plan": "api.plans.plan",
+        "handeye.Plan": "api.plans.Plan",
+        "FlowDrawing": "api.flow.FlowDrawing",
         "InspectedStage": "inspection.inspection.InspectedStage",
         "InspectedStep": "inspection.inspection.InspectedStep",
-        "handeye.Diagnostic": "door.diagnostic.Diagnostic",
+        "handeye.Diagnostic": "api.diagnostic.Diagnostic",
     },
     "Runs": {
-        "handeye.begin": "door.begin.begin",
-        "handeye.assemble": "door.begin.assemble",
-        "handeye.Run": "door.run.Run",
-        "handeye.State": "door.state.State",
-        "Memory": "door.state.Memory",
+        "handeye.begin": "api.begin.begin",
+        "handeye.assemble": "api.begin.assemble",
+        "handeye.Run": "api.run.Run",
+        "handeye.State": "api.state.State",
+        "Memory": "api.state.Memory",
     },
     "Worlds": {
-        "handeye.World": "door.worlds.World",
-        "QuantityReport": "report.world_page.QuantityReport",
-        "Export": "report.export.Export",
-        "Weight": "report.export.Weight",
+        "handeye.World": "api.worlds.World",
+        "QuantityReport": "results.world_page.QuantityReport",
+        "Export": "results.export.Export",
+        "Weight": "results.export.Weight",
     },
     "Results": {
-        "handeye.Result": "report.result.Result",
-        "Stage": "report.result.Stage",
-        "Timing": "report.result.Timing",
-        "Check": "report.result.Check",
+        "handeye.Result": "results.result.Result",
+        "Stage": "results.result.Stage",
+        "Timing": "results.result.Timing",
+        "Check": "results.result.Check",
         "handeye.Finding": "judge.finding.Finding",
         "handeye.at_most": "judge.finding.at_most",
         "handeye.at_least": "judge.finding.at_least",
@@ -65,14 +65,14 @@ GROUPS: Final = {
         "PredictedWorlds": "trials.prediction.predicted.PredictedWorlds",
     },
     "Traces": {
-        "handeye.open": "door.opening.open",
+        "handeye.open": "api.opening.open",
         "handeye.Trace": "trace.trace.Trace",
         "Motion": "trace.motion.Motion",
         "Forces": "trace.forces.Forces",
         "Moment": "trace.replay.Moment",
         "Table": "trace.table.Table",
         "Video": "video.making.Video",
-        "handeye.compare": "door.comparing.compare",
+        "handeye.compare": "api.comparing.compare",
         "handeye.Comparison": "comparison.comparison.Comparison",
         "First": "comparison.first.First",
         "Differing": "trace.quantities.Differing",
@@ -80,7 +80,7 @@ GROUPS: Final = {
         "Place": "comparison.place.Place",
     },
     "Programs that are taught": {
-        "handeye.TrigSession": "door.trig_session.TrigSession",
+        "handeye.TrigSession": "systems.trig.session_api.TrigSession",
     },
     "Vision": {
         "handeye.vision.Scan": "vision.scan.Scan",
@@ -99,7 +99,7 @@ GROUPS: Final = {
     "Errors": {
         "handeye.HandeyeError": "errors.HandeyeError",
         "handeye.InvalidInput": "errors.InvalidInput",
-        "handeye.ScriptError": "door.diagnostic.ScriptError",
+        "handeye.ScriptError": "api.diagnostic.ScriptError",
     },
 }
 """Names by what they are for, and where each is defined; those without `handeye.` are records that others hold."""
@@ -109,7 +109,7 @@ def reference() -> str:
     """All names with what is said of them."""
     out = []
     for name in ("scripts", "demo"):
-        out += [*paragraph(f"`handeye.{name}`: {sentence(PACKAGE[f'door.provided.{name}'])}"), ""]
+        out += [*paragraph(f"`handeye.{name}`: {sentence(PACKAGE[f'api.provided.{name}'])}"), ""]
     for group, names in GROUPS.items():
         out += [f"## {group}", ""]
         for name, place in names.items():
@@ -128,15 +128,15 @@ def findings() -> Iterator[str]:
 
 def happenings() -> Iterator[str]:
     """The events, as a table."""
-    yield from ("### Events", "", *told(PACKAGE["events.Event"]))
+    yield from ("### Events", "", *told(PACKAGE["program.events.Event"]))
     yield from paragraph(
         "The seconds since a run began are `event.time - run.events[0].time`. A guard trips at the end of the servo "
         "period in which it was met, so its `value` lies over its `limit`: N, N m, or the mask of the fingers."
     )
-    yield from ("", "| `handeye.events` | fields | what happened |", "|---|---|---|")
+    yield from ("", "| `handeye.program.events` | fields | what happened |", "|---|---|---|")
     for event in get_args(events.AnyEvent):
         fields = ", ".join(f"`{each}`" for each in event.__struct_fields__ if each != "time")
-        said = sentence(PACKAGE["events"][event.__name__])
+        said = sentence(PACKAGE["program.events"][event.__name__])
         yield f"| `{event.__name__}` | {fields} | {said} |"
     yield ""
 

@@ -18,7 +18,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "support")]
 from chromium import Browser  # noqa: E402
 
 from handeye.cli.reports import write_report  # noqa: E402
-from handeye.resources import demo  # noqa: E402
+from handeye.core.resources import demo  # noqa: E402
 
 PICTURE = ROOT / "docs" / "pictures" / "report.webp"
 WIDTH, HEIGHT = 1360, 1330

@@ -24,8 +24,8 @@ from msgspec import convert
 ROOT: Final = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
 
-from handeye.files import Kind, write_over  # noqa: E402
-from handeye.see.facts.again import sense_words, world_words  # noqa: E402
+from handeye.core.files import Kind, write_over  # noqa: E402
+from handeye.report.facts.again import sense_words, world_words  # noqa: E402
 from handeye.trials.batch.comparing import Outcome, beside  # noqa: E402
 from handeye.trials.batch.folder import Head, read_batch  # noqa: E402
 from handeye.trials.batch.rates import rate  # noqa: E402

@@ -13,20 +13,20 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from handeye import tasks, trials, vision
+    from handeye.api.begin import assemble, begin
+    from handeye.api.comparing import compare
+    from handeye.api.diagnostic import Diagnostic, ScriptError
+    from handeye.api.opening import open
+    from handeye.api.plans import Plan, plan
+    from handeye.api.provided import demo, scripts
+    from handeye.api.run import Run
+    from handeye.api.state import State
+    from handeye.api.worlds import World
     from handeye.comparison.comparison import Comparison
-    from handeye.door.begin import assemble, begin
-    from handeye.door.comparing import compare
-    from handeye.door.diagnostic import Diagnostic, ScriptError
-    from handeye.door.opening import open
-    from handeye.door.plans import Plan, plan
-    from handeye.door.provided import demo, scripts
-    from handeye.door.run import Run
-    from handeye.door.state import State
-    from handeye.door.trig_session import TrigSession
-    from handeye.door.worlds import World
-    from handeye.errors import HandeyeError, InvalidInput
+    from handeye.core.errors import HandeyeError, InvalidInput
     from handeye.judge.finding import Finding, at_least, at_most
-    from handeye.report.result import Result
+    from handeye.results.result import Result
+    from handeye.systems.trig.session_api import TrigSession
     from handeye.tasks.interface import Task
     from handeye.trace.trace import Trace
 
@@ -64,28 +64,28 @@ __all__ = [
 
 _HOMES = {
     "Comparison": "handeye.comparison.comparison",
-    "Diagnostic": "handeye.door.diagnostic",
+    "Diagnostic": "handeye.api.diagnostic",
     "Finding": "handeye.judge.finding",
-    "HandeyeError": "handeye.errors",
-    "InvalidInput": "handeye.errors",
-    "Plan": "handeye.door.plans",
-    "Result": "handeye.report.result",
-    "Run": "handeye.door.run",
-    "ScriptError": "handeye.door.diagnostic",
-    "State": "handeye.door.state",
+    "HandeyeError": "handeye.core.errors",
+    "InvalidInput": "handeye.core.errors",
+    "Plan": "handeye.api.plans",
+    "Result": "handeye.results.result",
+    "Run": "handeye.api.run",
+    "ScriptError": "handeye.api.diagnostic",
+    "State": "handeye.api.state",
     "Task": "handeye.tasks.interface",
     "Trace": "handeye.trace.trace",
-    "TrigSession": "handeye.door.trig_session",
-    "World": "handeye.door.worlds",
-    "assemble": "handeye.door.begin",
+    "TrigSession": "handeye.systems.trig.session_api",
+    "World": "handeye.api.worlds",
+    "assemble": "handeye.api.begin",
     "at_least": "handeye.judge.finding",
     "at_most": "handeye.judge.finding",
-    "begin": "handeye.door.begin",
-    "compare": "handeye.door.comparing",
-    "demo": "handeye.door.provided",
-    "open": "handeye.door.opening",
-    "plan": "handeye.door.plans",
-    "scripts": "handeye.door.provided",
+    "begin": "handeye.api.begin",
+    "compare": "handeye.api.comparing",
+    "demo": "handeye.api.provided",
+    "open": "handeye.api.opening",
+    "plan": "handeye.api.plans",
+    "scripts": "handeye.api.provided",
 }
 """The module that each name comes from."""
 _MODULES = ("tasks", "trials", "vision")
@@ -99,7 +99,7 @@ if not TYPE_CHECKING:  # who could not tell a wrong name otherwise
         if name in _MODULES:
             return import_module(f"handeye.{name}")
         if name == "__version__":
-            return import_module("handeye.versions").HANDEYE
+            return import_module("handeye.core.versions").HANDEYE
         if name not in _HOMES:
             raise AttributeError(
                 f"module 'handeye' has no attribute {name!r}", name=name, obj=import_module("handeye")

@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
+from handeye.core.packed import packed, sealed
+from handeye.core.variation import WorldSpec
 from handeye.execution.camera_calibration import CalibrationFailed
-from handeye.packed import packed, sealed
 from handeye.ports.camera import Renderer
-from handeye.runs import programs
-from handeye.runs.conditions import Conditions
-from handeye.runs.kept_calibrations import MAGIC, VERSION
+from handeye.systems.stanford import executor_run as programs
+from handeye.systems.stanford.conditions import Conditions
+from handeye.systems.stanford.kept_calibrations import MAGIC, VERSION
 from handeye.tasks.water_pump.eye import DRAWING
-from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration
 
 

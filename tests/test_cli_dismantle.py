@@ -10,8 +10,8 @@ from report_pages import tree
 from short_runs import begin
 
 from handeye.cli import runs as cli_runs
+from handeye.core.resources import plans
 from handeye.judge.finding import at_most
-from handeye.resources import plans
 from handeye.runs.checkpoint_file import decode, encode, read_checkpoint
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.files import Kind, check_place, write_over
+from handeye.core.files import Kind, check_place, write_over
 from handeye.trials import faults as fault_trials
 from handeye.trials.faults import FaultTrial
 

@@ -9,12 +9,12 @@ from recordings import BODIES, record
 from report_pages import tree
 from short_runs import begin
 
-from handeye import resources
 from handeye.cli import job
-from handeye.errors import InvalidInput
-from handeye.see import animation, photographs
-from handeye.see.facts.again import is_shipped
-from handeye.see.page.document import REPORT
+from handeye.core import resources
+from handeye.core.errors import InvalidInput
+from handeye.report import animation, photographs
+from handeye.report.facts.again import is_shipped
+from handeye.report.page.document import REPORT
 from handeye.tasks.water_pump.task import WaterPump
 from handeye.trace import channels, mcap_writer
 from handeye.trace.reading import read_trace

@@ -12,17 +12,17 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
-from handeye.events import AnyEvent, PanicStopped, RunStarted, StepStarted
+from handeye.core.variation import WorldSpec
 from handeye.planfile.store import read_plan
+from handeye.program.events import AnyEvent, PanicStopped, RunStarted, StepStarted
 from handeye.runs.checkpoint_file import read_head
 from handeye.runs.folder import open_again
-from handeye.runs.programs import ProgramSystem
+from handeye.systems.stanford.executor_run import ProgramSystem
 from handeye.trace.eventlist import effective, read_events
 from handeye.trials.batch.batch import head_of
 from handeye.trials.batch.folder import BatchFolder
 from handeye.trials.batch.row import Row
 from handeye.trials.batch.trial import Trial
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -18,7 +18,7 @@ from cyclopts import App
 from handeye import cli
 from handeye.cli.common import notes, screen
 from handeye.cli.streams import STAND_INS
-from handeye.report.page import _MARK
+from handeye.results.page import _MARK
 
 SCRIPT = """        STAGE   "insert the aligning pins"
         OPEN    1

@@ -14,7 +14,7 @@ from short_runs import begin, through
 
 import handeye
 from handeye.cell.photograph import Near
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
 from handeye.trace import channels, mcap_writer

@@ -7,9 +7,9 @@ import msgspec
 import pytest
 from conftest import Command
 
-from handeye.events import RunStarted, to_line
+from handeye.core.variation import DRAWING
+from handeye.program.events import RunStarted, to_line
 from handeye.trace.eventlist import read_events
-from handeye.variation import DRAWING
 
 pytestmark = pytest.mark.slow
 

@@ -2,9 +2,9 @@
 
 from stepping_walk import of_command, pieces
 
+from handeye.core.resources import plans
 from handeye.debugger.listing import listing_text
 from handeye.planfile.store import read_plan
-from handeye.resources import plans
 
 
 def test_the_stages_of_the_walk_are_those_of_the_plan() -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import handeye
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 ROOT = Path(__file__).parent.parent
 SOURCE = Path(handeye.__file__).read_text(encoding="utf-8")

@@ -8,10 +8,10 @@ from fakes import FakeArm, FakeAxes, FakeCell, FakeClock, Wall
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH, JIFFY
 from handeye.ports.axes import AxisSpec
 from handeye.ports.workcell import Workcell
-from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7, 104.0, 0.0, 0.0, 76.0, 70.3]) * DEGREE + np.array([0, 0, 17.5 * INCH, 0, 0, 0])
 

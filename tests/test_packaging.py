@@ -11,7 +11,7 @@ from import_reading import imports
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-from handeye.versions import HANDEYE
+from handeye.core.versions import HANDEYE
 
 ROOT = Path(__file__).parent.parent
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))

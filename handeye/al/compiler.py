@@ -15,10 +15,10 @@ from handeye.al.statements import by_word, used_names
 from handeye.al.syntax import Name, Script
 from handeye.al.syntax_check import MISSING
 from handeye.al.vectors import named_vectors, with_vectors
-from handeye.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
+from handeye.core.diagnostics import LIMIT, Diagnostic, Label, arranged, has_errors
+from handeye.core.source import Source, Span
 from handeye.program.program import Position, Program
 from handeye.program.taught import Taught
-from handeye.source import Source, Span
 
 LANGUAGE: Final = "wave"
 """Name of the language in programs and plans: that of the arm program of 1973."""

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from enum import Enum, StrEnum
 from typing import Final
 
-from handeye import units
 from handeye.al.syntax import Value
+from handeye.core import units
 
 BIGGEST: Final = 1e6
 """No number of a program is larger; keeps squares of numbers finite."""

@@ -7,8 +7,8 @@ from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
 from handeye.al.statements import pairs
 from handeye.al.syntax import Number
-from handeye.diagnostics import Diagnostic, Label, arranged, quoted
-from handeye.source import Source, Span
+from handeye.core.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.core.source import Source, Span
 
 _AGAINST = "the period stops on a vector: `STOP [0 0 -50]`"
 

@@ -10,7 +10,7 @@ from handeye.al.instructions import DEFINE, INSTRUCTIONS, RUN
 from handeye.al.scanner import NAME, Line, Token
 from handeye.al.syntax import Name, Number, Text, Vector
 from handeye.al.word_groups import OPERAND_WORDS
-from handeye.diagnostics import quoted
+from handeye.core.diagnostics import quoted
 
 _ANY: Final = (Name, Number, Vector, Text)
 """What a call may give; the lines that it comes to take less."""

@@ -4,7 +4,7 @@ import re
 from typing import Final
 
 from handeye.al.unitwords import no_units
-from handeye.diagnostics import LOOKALIKES
+from handeye.core.diagnostics import LOOKALIKES
 
 _COMMENT: Final = "a comment begins with `;`"
 _BLANKS: Final = "operands follow their instruction after a blank"

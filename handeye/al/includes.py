@@ -11,8 +11,8 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands
 from handeye.al.scanner import scan
 from handeye.al.syntax import Text
-from handeye.errors import InvalidInput
-from handeye.source import LARGEST, Source, Span, read_source
+from handeye.core.errors import InvalidInput
+from handeye.core.source import LARGEST, Source, Span, read_source
 
 REQUIRE: Final = "REQUIRE"
 MOST: Final = 100

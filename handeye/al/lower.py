@@ -13,11 +13,11 @@ from handeye.al.lower_statement import operation, restore
 from handeye.al.macros import Placed
 from handeye.al.parameters import Call, FilledLine, uses
 from handeye.al.syntax import Name, Statement, Text
-from handeye.diagnostics import LIMIT, Diagnostic, Label, Meant, alternatives, quoted, told_names
+from handeye.core.diagnostics import LIMIT, Diagnostic, Label, Meant, alternatives, quoted, told_names
+from handeye.core.source import Source, Span
 from handeye.program.motion_operations import Move
 from handeye.program.operations import AnyOperation
 from handeye.program.program import SourcePlace, Step
-from handeye.source import Source, Span
 
 Report = Callable[[Diagnostic], None]
 FIRST_STAGE = "program"

@@ -9,6 +9,8 @@ from msgspec.structs import replace
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Name, Number, Statement, Text, Value, Vector
+from handeye.core.record import Vector3
+from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.program import guards as g
 from handeye.program.flow_operations import (
     Advance,
@@ -29,8 +31,6 @@ from handeye.program.motion_operations import Center, Change, Close, Height, Mov
 from handeye.program.operations import AnyOperation
 from handeye.program.program import Position
 from handeye.program.vision_operations import Aim, General, Inspect, Lens, Look, Match, Specific
-from handeye.record import Vector3
-from handeye.units import INCH, OUNCE_FORCE
 
 PLACE_DEPTH: Final = 3.0 * INCH
 """Greatest distance that PLACE lowers the hand: the height of an approach."""

@@ -13,7 +13,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands
 from handeye.al.parameters import Call, FilledLine, Given, filled
 from handeye.al.syntax import LONGEST_LINE, Macro, Name, Script, Statement, Value
-from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import Diagnostic, Label, quoted
 
 LONGEST: Final = 10_000
 """Statements of the longest program, macros expanded."""

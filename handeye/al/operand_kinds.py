@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import Final
 
-from handeye import units
 from handeye.al.definition import (
     ANY,
     BIGGEST,
@@ -18,6 +17,7 @@ from handeye.al.definition import (
     Refers,
 )
 from handeye.al.syntax import Name, Number, Vector
+from handeye.core import units
 from handeye.ports import camera
 
 HAND: Final = round(units.GAP / units.INCH, 2)

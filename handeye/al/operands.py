@@ -14,8 +14,8 @@ from handeye.al.scanner import JUNK, MARK, NAME, NUMBER, STRING, Token
 from handeye.al.syntax import Name, Number, Text, Value, Vector
 from handeye.al.unitwords import no_units
 from handeye.al.word_groups import FREE_TEXT
-from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.source import Span
+from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.source import Span
 
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.ASCII | re.IGNORECASE)
 _NO_LENGTH = 1e-6

@@ -14,8 +14,8 @@ import msgspec
 from handeye.al.scanner import NAME, STRING, Token
 from handeye.al.syntax import Operand, Statement, Value
 from handeye.al.word_groups import FREE_TEXT
-from handeye.diagnostics import Diagnostic, Label
-from handeye.source import Located, Span
+from handeye.core.diagnostics import Diagnostic, Label
+from handeye.core.source import Located, Span
 
 Call = tuple[int, ...]
 """Which call of a macro a statement comes from, within which other call: () is the text itself."""

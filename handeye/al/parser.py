@@ -15,7 +15,7 @@ from handeye.al.parameters import braced_in, parameters_in
 from handeye.al.requirements import Requirements
 from handeye.al.scanner import JUNK, MARK, NAME, Line, Token, scan
 from handeye.al.syntax import LONGEST_LINE, Macro, Name, Script, Statement, Text, Value
-from handeye.diagnostics import (
+from handeye.core.diagnostics import (
     LIMIT,
     Diagnostic,
     Label,
@@ -25,7 +25,7 @@ from handeye.diagnostics import (
     quoted,
     told_names,
 )
-from handeye.source import Source, Span
+from handeye.core.source import Source, Span
 
 _DEFINE: Final = "DEFINE"
 _TYPED: Final = ("DO", "GO")

@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from handeye.al.scanner import scan
-from handeye.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.core.diagnostics import Diagnostic, Label, arranged, quoted
+from handeye.core.source import Source, Span
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.findings import (
     GoalBelowTable,
     NoConfiguration,
@@ -29,8 +31,6 @@ from handeye.program.reasons import (
     TooFast,
     TooNear,
 )
-from handeye.source import Source, Span
-from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 RIDDLE: Final = (
     "in the print of 1973 the second stop of the pin insertion can be read as 60 or as 600 oz; "

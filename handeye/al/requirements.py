@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 from handeye.al.includes import MOST, key_of, own_key
 from handeye.al.syntax import Text
-from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.source import LARGEST, Source, Span
+from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.source import LARGEST, Source, Span
 
 _SHOWN = 6
 """Files of a circle that are named."""

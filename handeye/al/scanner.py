@@ -5,7 +5,7 @@ from enum import Enum
 
 import msgspec
 
-from handeye.source import Located
+from handeye.core.source import Located
 
 
 class TokenKind(Enum):

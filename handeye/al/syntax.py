@@ -5,7 +5,7 @@ from typing import ClassVar, Final
 import msgspec
 
 from handeye.al.scanner import Token
-from handeye.source import Located, Span
+from handeye.core.source import Located, Span
 
 LONGEST_LINE: Final = 1000
 """Characters. Steps, plans and traces repeat the line they come from, for each call of a macro."""

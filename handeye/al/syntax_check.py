@@ -1,8 +1,8 @@
 """Check the form of a text itself, whatever its names mean and whatever it requires."""
 
 from handeye.al.parser import parse_whole
-from handeye.diagnostics import Diagnostic
-from handeye.source import Source
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
 
 MISSING = ("unreadable-file", "too-much-required")
 """A part of the text is not there: what it makes would be told as unknown."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 def chain(arm: ArmModel, q: Array) -> tuple[Array, Array]:

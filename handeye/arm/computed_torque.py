@@ -11,7 +11,7 @@ import numpy as np
 from handeye.arm import dynamics
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 def torque(

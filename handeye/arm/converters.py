@@ -3,7 +3,7 @@
 from typing import Final
 
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 SENSE_BITS: Final = 12
 """Of the converters that potentiometers and tachometers are read by: "12-bit A/D"."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from handeye.arm.chain import centripetal, chain, cross, point_jacobian, tool_jacobian
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 GRAVITY = 9.81
 """m/s2, downwards along world z."""

@@ -13,7 +13,7 @@ import numpy as np
 from handeye.arm.computed_torque import external_wrench
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.guards import Exerted
 
 MARGIN: Final = 3.0

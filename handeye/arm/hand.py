@@ -7,7 +7,7 @@ a box around it.
 
 from dataclasses import dataclass
 
-from handeye.boxes import Box
+from handeye.core.obb import Box
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,7 @@ import numpy as np
 from handeye.arm.ik import IKResult
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples, check_samples
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.reasons import HeldJoint
 
 _FASTEST: Final = 1.875

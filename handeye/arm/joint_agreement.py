@@ -7,7 +7,7 @@ import numpy as np
 
 from handeye.arm.converters import position_step
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 TURNED: Final = 0.03
 SLID: Final = 0.01

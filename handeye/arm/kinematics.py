@@ -4,7 +4,7 @@ import numpy as np
 
 from handeye.arm.chain import centripetal, chain, tool_jacobian
 from handeye.arm.model import ArmModel
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 
 
 def forward(arm: ArmModel, q: Array) -> Pose:

@@ -10,7 +10,7 @@ from handeye.arm.ik.solvers import rates, singular
 from handeye.arm.kinematics import drift, forward, jacobian
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples, length
-from handeye.pose import Array, Pose, displaced, rotation_z, translated
+from handeye.core.pose import Array, Pose, displaced, rotation_z, translated
 from handeye.program.reasons import TooFast
 
 RAMP = 0.1

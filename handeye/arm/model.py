@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.arm.hand import GraspModel, HandModel
-from handeye.pose import Array, Pose, inverse
+from handeye.core.pose import Array, Pose, inverse
 
 Structure = Literal["spherical wrist", "gantry", "cartesian"]
 """Structure of an arm, as far as its inverse kinematics go; `handeye.arm.ik` has a solver for each."""

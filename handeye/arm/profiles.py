@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 _PEAK_SPEED = 1.875
 """Of a quintic: its greatest speed is so many times its mean one."""

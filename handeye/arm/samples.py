@@ -8,7 +8,7 @@ from handeye.arm.ik import IKResult
 from handeye.arm.ik.choice import SLACK, beyond
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 from handeye.program.reasons import BelowTable
 
 

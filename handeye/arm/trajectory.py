@@ -16,9 +16,9 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples, check_samples
-from handeye.pose import Array, Pose, translated
+from handeye.core.pose import Array, Pose, translated
+from handeye.core.units import INCH
 from handeye.program.reasons import BelowTable
-from handeye.units import INCH
 
 DIRECT_KNOT: Final = 1 / 9
 """Share of the way at which a motion without departure or approach has its knots: 5 degrees of 45, as in the

@@ -15,7 +15,7 @@ import numpy as np
 
 from handeye.arm.dynamics import gravity
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 MASS_DOUBT: Final = 0.05
 """Of the mass of a link. Chosen."""

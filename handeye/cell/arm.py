@@ -15,10 +15,10 @@ from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import allow, wake
 from handeye.cell.state import figures, finite
 from handeye.cell.watchdog import Watchdog
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.ports.arm import ArmPort, ArmReading
-from handeye.pose import Array
-from handeye.record import Record
 
 _BRAKE_STIFFNESS: Final = ((0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0))
 """It creeps under .01 deg in 10 s, until the arm sleeps."""

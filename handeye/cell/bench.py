@@ -7,11 +7,11 @@ import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.ports.axes import Axes, AxesReading, AxisSpec
 from handeye.ports.clock import Clock, whole_steps
-from handeye.pose import Array
-from handeye.record import Record
 
 MICROSECONDS: Final = 1_000_000
 _LATEST: Final = 10**15

@@ -15,11 +15,11 @@ from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.record import Record
+from handeye.core.units import DEGREE
 from handeye.ports.camera import FIRST_LENS, Picture, Renderer, TvCamera
-from handeye.pose import Array
-from handeye.record import Record
-from handeye.units import DEGREE
 from handeye.vision.camera_model import CameraModel, View
 
 TURRET: Final = 20.0

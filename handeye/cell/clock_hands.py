@@ -6,7 +6,7 @@ from typing import Any, Final
 import mujoco
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 TURNS: Final = "turns/"
 """Begins the names of the figures in which a scene tells in how many seconds a body of the world turns once."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 def converted(value: float, step: float) -> float:

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 
 from handeye.cell.raster import Raster
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

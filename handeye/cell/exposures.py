@@ -15,9 +15,9 @@ from handeye.cell.film_stock import FILMS, GAMMA
 from handeye.cell.gloss import polish
 from handeye.cell.lens import Lens
 from handeye.cell.photograph import Near, Photograph, Photographer, check_size, smooth_photograph
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.pose import Array
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
 
 USUAL: Final = 24
 MOST: Final = 1000

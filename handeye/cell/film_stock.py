@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.lighting import Lighting
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 GAMMA: Final = 2.2
 """Light is the value of a point of the screen to this power."""

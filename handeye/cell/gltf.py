@@ -15,7 +15,7 @@ from trimesh.visual.material import PBRMaterial
 from handeye.cell.keyframe import body_pose
 from handeye.cell.solid_scene import SolidScene
 from handeye.cell.solids import Solid
-from handeye.pose import Array, Pose, inverse, pose
+from handeye.core.pose import Array, Pose, inverse, pose
 
 FRAME: Final = "scene"
 """The node of the world frame, z up."""

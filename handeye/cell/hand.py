@@ -12,8 +12,8 @@ from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
+from handeye.core.record import Record
 from handeye.ports.hand import HandPort, HandReading
-from handeye.record import Record
 
 _GIVE: Final = 0.004  # m by which the fingers must be held up to press with all the force allowed. Chosen.
 _LAG: Final = 0.03  # s, time constant of the finger servo. Assembly study: 60 N s/m over 2000 N/m.

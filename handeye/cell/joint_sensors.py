@@ -5,7 +5,7 @@ import numpy as np
 from handeye.cell.converter import Converters
 from handeye.cell.device_errors import ArmErrors
 from handeye.cell.lines import Lines
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 class JointSensors:

@@ -10,7 +10,7 @@ import numpy as np
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
 from handeye.cell.truth import Drawn, Truth
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.camera import Renderer
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)

@@ -6,7 +6,7 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.pose import Pose, inverse, pose
+from handeye.core.pose import Pose, inverse, pose
 
 FREE: Final = mujoco.mjtJoint.mjJNT_FREE
 HINGE: Final = mujoco.mjtJoint.mjJNT_HINGE

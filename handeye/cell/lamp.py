@@ -6,8 +6,8 @@ import mujoco
 
 from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
+from handeye.core.record import Record
 from handeye.ports.lamp import LampPort
-from handeye.record import Record
 
 
 class LampState(Record, frozen=True, kw_only=True):

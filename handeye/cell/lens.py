@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 APERTURE: Final = 0.008
 """Radius of the opening, m: of a 50 mm lens at f/3.1."""

@@ -7,7 +7,7 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 Colour = tuple[float, float, float]
 _AWAY: Final = 2.0

@@ -13,9 +13,9 @@ import numpy as np
 from handeye.cell.defects import PICTURE, Defect, Values
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import finite
+from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.pose import Array
-from handeye.record import Record
 
 _NUMBER: Final = 8
 """Bytes of a number."""

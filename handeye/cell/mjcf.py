@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 import trimesh
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 SCENE: Final = "scene.xml"
 MESHES: Final = "meshes"

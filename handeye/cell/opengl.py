@@ -16,7 +16,7 @@ import numpy as np
 
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 

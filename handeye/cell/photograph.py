@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.opengl import MOST_GEOMS, context
-from handeye.errors import InvalidInput
-from handeye.files import Kind
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind
 
 PNG: Final = Kind("PNG picture", rb"\x89PNG\r\n\x1a\n", ending=".png")
 SMALLEST: Final = 8

@@ -9,7 +9,7 @@ import numpy as np
 from handeye.cell.clock_hands import hand_poses
 from handeye.cell.looks import LATENT, SEEN
 from handeye.cell.truth import Truth
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 Posed = tuple[mujoco.MjModel, mujoco.MjData]
 """A scene as it stands."""

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from handeye.cell.simulated import SimulatedCell
-from handeye.record import Vector3
+from handeye.core.record import Vector3
 
 
 @contextmanager

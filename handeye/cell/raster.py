@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.pose import Array
 
 MIDDLE: Final = np.array([(COLUMNS - 1) / 2, (ROWS - 1) / 2])
 HALF: Final = np.array([COLUMNS / 2, ROWS / 2])

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
+from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
-from handeye.pose import Array
 from handeye.vision.camera_model import View
 
 SKY: Final = 0.1

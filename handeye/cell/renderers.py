@@ -5,7 +5,7 @@ import mujoco
 from handeye.cell.opengl import OpenGlRenderer
 from handeye.cell.raycasting import RayRenderer
 from handeye.cell.rendering import RendererMaker, SceneRenderer
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:

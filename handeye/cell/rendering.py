@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 
 from handeye.cell.vidicon import Luminance
+from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
-from handeye.pose import Array
 from handeye.vision.camera_model import View
 
 FINE: Final = 2

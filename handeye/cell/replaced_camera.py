@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Luminance
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 

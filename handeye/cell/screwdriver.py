@@ -9,8 +9,8 @@ from handeye.cell.lines import SOUND, Lines
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import finite
 from handeye.cell.watchdog import Watchdog
+from handeye.core.record import Record
 from handeye.ports.screwdriver import ScrewdriverPort
-from handeye.record import Record
 
 
 class ScrewdriverState(Record, frozen=True, kw_only=True):

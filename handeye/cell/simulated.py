@@ -16,7 +16,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.sleep import asleep
 from handeye.cell.stepper import Stepper
-from handeye.errors import HandeyeError
+from handeye.core.errors import HandeyeError
 from handeye.ports.camera import Renderer
 from handeye.ports.clock import Clock, whole_steps
 from handeye.ports.workcell import Workcell

@@ -15,7 +15,7 @@ import trimesh
 
 from handeye.cell.looks import BOX, CYLINDER, MESH, SCENERY, SEEN, SPHERE
 from handeye.cell.mjcf import mesh_of
-from handeye.pose import Array, Pose, pose
+from handeye.core.pose import Array, Pose, pose
 
 SIDES: Final = 64
 """Of what stands for a cylinder."""

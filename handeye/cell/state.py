@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from handeye.errors import InvalidInput
-from handeye.pose import Array
-from handeye.record import Record
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.record import Record
 
 V = TypeVar("V", bound=Array | Sequence[float])
 

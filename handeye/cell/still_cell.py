@@ -6,7 +6,7 @@ import numpy as np
 from handeye.cell.camera import SimulatedCamera, true_camera
 from handeye.cell.device_errors import CameraErrors
 from handeye.cell.renderers import make_renderer
-from handeye.pose import Array, Pose, pose
+from handeye.core.pose import Array, Pose, pose
 from handeye.vision.camera_model import CameraModel
 
 

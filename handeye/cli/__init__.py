@@ -23,7 +23,6 @@ from handeye.cli import (
     teaching,
     traces,
     trials,
-    trig,
     videos,
     views,
     worlds,
@@ -32,8 +31,9 @@ from handeye.cli.common import complain, note, notes, screen
 from handeye.cli.panic_button import terminable
 from handeye.cli.streams import let_go_of_streams, prepare_streams
 from handeye.cli.usage import usage_sentence
-from handeye.errors import HandeyeError
-from handeye.versions import HANDEYE
+from handeye.core.errors import HandeyeError
+from handeye.core.versions import HANDEYE
+from handeye.systems.trig.cli import commands as trig
 
 BAD_INPUT: Final = 2
 INTERRUPTED: Final = 130

@@ -7,8 +7,8 @@ from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderR
 from rich.table import Table
 from rich.text import Text
 
-from handeye.diagnostics import visible
-from handeye.plain_text import printable
+from handeye.core.diagnostics import visible
+from handeye.core.plain_text import printable
 
 if TYPE_CHECKING:
     from handeye.trials.batch.comparing import Paired

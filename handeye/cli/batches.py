@@ -12,15 +12,16 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
-from handeye.errors import InvalidInput
-from handeye.files import check_place, write_over
-from handeye.host_time import HostTimer
-from handeye.plain_text import counted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place, write_over
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.operator import parse_policy
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
+    from handeye.core.variation import WorldSpec
     from handeye.program.senses import Sense
     from handeye.trace.table_files import Format
     from handeye.trials.batch.engines import Engine
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from handeye.trials.batch.folder import BatchFolder
     from handeye.trials.batch.row import Row, Verdict
     from handeye.trials.batch.trial import Trial
-    from handeye.variation import WorldSpec
 
 COUNT: Final = 20
 """Trials, if nobody says how many."""
@@ -298,7 +298,7 @@ def command_of(
     """What tells the command that carries the trial of a seed out."""
     from msgspec.structs import replace
 
-    from handeye.see.facts.again import sense_words, world_words
+    from handeye.report.facts.again import sense_words, world_words
 
     words = ["assemble"] if plan is None else ["run", str(plan), "--judge"]
     made = sense_words(senses) + ([] if camera == "auto" else ["--camera", camera])

@@ -34,9 +34,9 @@ def timing(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int:
 
     Exit code 0: the program came to its end; 1: it stopped and called the operator.
     """
-    from handeye.host_time import HostTimer
-    from handeye.report.page import timing as table
-    from handeye.report.progress import Progress
+    from handeye.core.host_time import HostTimer
+    from handeye.results.page import timing as table
+    from handeye.results.progress import Progress
     from handeye.runs.host_seconds import Meter
     from handeye.trials.assembly import run_plan
 
@@ -64,7 +64,7 @@ def overhead(*, world: WorldOptions = ANY_WORLD, camera: Camera = "auto") -> int
 
     Exit code 0: checkpoints under 2 % and trace under 10 % of the working phase; 1: more.
     """
-    from handeye.report.progress import Progress
+    from handeye.results.progress import Progress
     from handeye.runs.setup import Setup
     from handeye.trials.overhead import measure
 

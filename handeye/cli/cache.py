@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, put_json, say
-from handeye.plain_text import counted
+from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
-    from handeye.runs.kept_calibrations import Kept, KeptCalibrations
+    from handeye.systems.stanford.kept_calibrations import Kept, KeptCalibrations
 
 SHOWN: Final = 20
 """Calibrations that people are shown, the newest."""
@@ -32,7 +32,7 @@ def cache(
     measures anew. All of them take at most 16 MB, some 6 kB each; the oldest go. The environment variable HANDEYE_CACHE
     names another folder than that of the platform; if it is empty, nothing is kept.
     """
-    from handeye.runs.kept_calibrations import KeptCalibrations
+    from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 
     kept = KeptCalibrations.of_user()
     removed = kept.clear() if clear else 0

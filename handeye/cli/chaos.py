@@ -10,9 +10,9 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, say
 from handeye.cli.tally import Tally
-from handeye.plain_text import counted
+from handeye.core.plain_text import counted
+from handeye.core.variation import checked_seed
 from handeye.runs.scripts import default_script
-from handeye.variation import checked_seed
 
 if TYPE_CHECKING:
     from handeye.planfile.plan import Plan

@@ -10,13 +10,13 @@ import msgspec
 from cyclopts import Parameter, Token
 from rich.console import Console
 
-from handeye.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
-from handeye.diagnostics import render as render_diagnostic
-from handeye.errors import InvalidInput
-from handeye.plain_text import folded
+from handeye.core.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
+from handeye.core.diagnostics import render as render_diagnostic
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import folded
+from handeye.core.source import Source
 from handeye.planfile.plan import Plan
 from handeye.runs.scripts import plan_script
-from handeye.source import Source
 
 MOST: Final = 1_000_000
 """Trials, worlds, times and processes that a command takes."""

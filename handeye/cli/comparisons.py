@@ -8,12 +8,12 @@ from cyclopts import App, Parameter
 from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.reports import read_recorded
 from handeye.cli.trace_files import TraceFile
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 if TYPE_CHECKING:
     from handeye.comparison.comparison import Comparison
     from handeye.comparison.page import Animations
-    from handeye.see.recorded import Recorded
+    from handeye.report.recorded import Recorded
 
 
 def register(app: App) -> None:
@@ -66,7 +66,7 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
     """
     from handeye.comparison.comparison import comparison
     from handeye.comparison.page import PAGE, comparison_page
-    from handeye.files import check_free, check_place, write_over
+    from handeye.core.files import check_free, check_place, write_over
 
     check_place(place, PAGE)
     check_free(place, "comparison", overwrite=overwrite)
@@ -78,8 +78,8 @@ def write_comparison(a: Path, b: Path, place: Path, *, overwrite: bool) -> "Comp
 
 def _animations(a: "Recorded", b: "Recorded") -> "Animations | str":
     """What is shown of both runs to walk round in, or why there is nothing."""
-    from handeye.see.animation import animation
-    from handeye.see.facts.scene import check_scene
+    from handeye.report.animation import animation
+    from handeye.report.facts.scene import check_scene
 
     made = []
     for run in (a, b):

@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 from cyclopts import App, Parameter
 
 from handeye.cli.common import say
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 Shell = Literal["bash", "zsh", "fish"]
 

@@ -11,17 +11,17 @@ from handeye.cli.batches import kept_batch, progress
 from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.runs import Overwrite
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
-from handeye.errors import InvalidInput
-from handeye.host_time import HostTimer
-from handeye.plain_text import counted
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
+    from handeye.core.variation import WorldSpec
     from handeye.runs.snapshot import Checkpoint
     from handeye.trials.batch.dismantling import DismantlingTrial
     from handeye.trials.batch.row import Row
-    from handeye.variation import WorldSpec
 
 COUNT: Final = 20
 """Trials, if nobody says how many."""
@@ -171,7 +171,7 @@ def _again(trial: "DismantlingTrial", world: "WorldSpec", plan: Path | None) -> 
     """What tells the command that carries a trial out again."""
     from msgspec.structs import replace
 
-    from handeye.see.facts.again import sense_words, world_words
+    from handeye.report.facts.again import sense_words, world_words
 
     made = sense_words(trial.without) + ([] if trial.camera == "auto" else ["--camera", trial.camera])
     made += ([] if plan is None else ["--plan", str(plan)]) + (["--to", trial.to] if trial.to else [])

@@ -7,9 +7,9 @@ from cyclopts import Parameter
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, say
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.diagnostics import quoted, suggestion
-from handeye.errors import InvalidInput
-from handeye.plain_text import counted
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import counted
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ from handeye.al.formatter import format_text
 from handeye.al.includes import read_script
 from handeye.al.syntax_check import check_form
 from handeye.cli.common import note, put, say, show
-from handeye.diagnostics import has_errors, quoted, suggestion
-from handeye.errors import InvalidInput
-from handeye.files import write_whole
-from handeye.source import Source
+from handeye.core.diagnostics import has_errors, quoted, suggestion
+from handeye.core.errors import InvalidInput
+from handeye.core.files import write_whole
+from handeye.core.source import Source
 
 STANDARD_INPUT = Path("-")
 

@@ -7,10 +7,10 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from handeye.report.export import Export
+    from handeye.results.export import Export
     from handeye.runs.exhibit import Exhibit
 
 Run = Annotated[
@@ -39,7 +39,7 @@ def mjcf(
 
     Exit code 0: it is written; 2: bad input.
     """
-    from handeye.report.export import export_mjcf
+    from handeye.results.export import export_mjcf
 
     return _told(export_mjcf(output, lambda: _exhibit(run, world), overwrite=overwrite), json=json)
 
@@ -57,7 +57,7 @@ def glb(
 
     Exit code 0: it is written, whatever the checks found; 2: bad input.
     """
-    from handeye.report.export import export_glb
+    from handeye.results.export import export_glb
 
     return _told(export_glb(output, lambda: _exhibit(run, world), part=part), json=json)
 

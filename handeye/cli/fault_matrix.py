@@ -9,16 +9,16 @@ from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positi
 from handeye.cli.kept_records import KeptRecords
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
-from handeye.errors import InvalidInput
-from handeye.files import Kind
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind
 from handeye.runs.scripts import default_script
 from handeye.tasks import task
 
 if TYPE_CHECKING:
-    from handeye.faults import Catalogue, FaultKind
+    from handeye.core.faults import Catalogue, FaultKind
+    from handeye.core.variation import WorldSpec
     from handeye.planfile.plan import Plan
     from handeye.trials.faults import FaultTrial
-    from handeye.variation import WorldSpec
 
 OUTCOMES: Final = Kind("list of outcomes", rb'\{"name":')
 
@@ -85,7 +85,7 @@ def faults(
 
 
 def _list(catalogue: "Catalogue", kinds: "list[FaultKind]", *, json: bool) -> int:
-    from handeye.report.faults_page import faults_json, faults_page
+    from handeye.results.faults_page import faults_json, faults_page
 
     if json:
         put(faults_json(catalogue, kinds))

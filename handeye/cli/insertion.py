@@ -8,9 +8,9 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, WholeNumber, positive, put_json, screen
 from handeye.cli.tally import Tally
-from handeye.errors import InvalidInput
-from handeye.files import Kind, check_place, write_over
-from handeye.variation import checked_seed
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, check_place, write_over
+from handeye.core.variation import checked_seed
 
 if TYPE_CHECKING:
     from handeye.trials.insertion import Condition, InsertionTrial

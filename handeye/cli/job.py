@@ -13,6 +13,8 @@ from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import PipedLines, typed_already, typed_lines
 from handeye.cli.reports import write_report
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.command_table import commands_of
@@ -20,18 +22,15 @@ from handeye.debugger.formatting import MOST
 from handeye.debugger.live import Live
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import topics
-from handeye.errors import InvalidInput
-from handeye.events import beginning
 from handeye.execution.servo import Halted
-from handeye.host_time import HostTimer
 from handeye.judge.finding import all_right
-from handeye.report.cautions import cautions, losses
-from handeye.report.finishing import finished
-from handeye.report.judging import findings
-from handeye.report.page import page
-from handeye.report.progress import Progress
-from handeye.report.result import Result, to_json
-from handeye.report.taught_job import carry_out
+from handeye.program.events import beginning
+from handeye.results.cautions import cautions, losses
+from handeye.results.finishing import finished
+from handeye.results.judging import findings
+from handeye.results.page import page
+from handeye.results.progress import Progress
+from handeye.results.result import Result, to_json
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_store import CheckpointStore, leave
 from handeye.runs.folder import PICTURES, REPORT, RunFolder, open_new
@@ -43,7 +42,8 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AnyStop
 from handeye.runs.systems import listing_of
-from handeye.runs.taught.system import TaughtSystem
+from handeye.systems.trig.run.job import carry_out
+from handeye.systems.trig.run.system import TaughtSystem
 
 if TYPE_CHECKING:
     from handeye.view.moment import Newest

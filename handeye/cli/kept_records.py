@@ -4,7 +4,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from handeye.files import Kind, check_free, check_place, write_over
+from handeye.core.files import Kind, check_free, check_place, write_over
 
 
 class KeptRecords(list[Any]):

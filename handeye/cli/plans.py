@@ -7,8 +7,8 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, PlanFile, put, put_json, say
-from handeye.errors import InvalidInput
-from handeye.files import Kind, write_over
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, write_over
 from handeye.planfile.store import read_plan
 
 StageName = Annotated[str | None, Parameter(help="One stage only: its number, its name, or a piece of it.")]

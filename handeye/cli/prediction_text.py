@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from handeye.cli.batch_text import PlainTable, percent
-from handeye.plain_text import counted
+from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
     from handeye.trials.prediction.figures import Agreement, Outcome, PredictionFigures

@@ -9,21 +9,21 @@ from cyclopts import Parameter
 from handeye.cli.batches import command_of, kept_batch, progress
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions
-from handeye.errors import InvalidInput
-from handeye.host_time import HostTimer
-from handeye.plain_text import counted
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from handeye.core.variation import WorldSpec
     from handeye.planfile.plan import Plan
     from handeye.program.senses import Sense
     from handeye.trials.batch.row import Row
     from handeye.trials.prediction.figures import PredictionFigures
     from handeye.trials.prediction.predicting import Prediction
-    from handeye.variation import WorldSpec
 
 WORLDS: Final = 10_000
 WORST: Final = 100

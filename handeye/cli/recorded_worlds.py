@@ -5,15 +5,15 @@ from typing import Final
 
 from handeye.cli.common import CameraKind
 from handeye.cli.trace_files import trace_file
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, RunStarted
-from handeye.plain_text import counted
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import counted
+from handeye.core.variation import DRAWING
 from handeye.planfile.plan import Plan
+from handeye.program.events import AnyEvent, RunStarted
 from handeye.runs.folder import EVENTS
 from handeye.runs.setup import Setup
 from handeye.trace.eventlist import read_events
 from handeye.trace.reading import is_cut_short, read_trace
-from handeye.variation import DRAWING
 
 _CAMERAS: Final[dict[str, CameraKind]] = {"opengl": "gl", "rays": "ray"}
 

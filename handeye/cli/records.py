@@ -9,11 +9,11 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, note, screen
 from handeye.cli.trace_files import check_no_batch
-from handeye.diagnostics import quoted
+from handeye.core.diagnostics import quoted
 
 if TYPE_CHECKING:
-    from handeye.report.kept_run import KeptRun
-    from handeye.report.result import Result
+    from handeye.results.kept_run import KeptRun
+    from handeye.results.result import Result
 
 Folder = Annotated[Path, Parameter(help="The folder of a run.")]
 
@@ -57,9 +57,9 @@ def shown(folder: Path, *, json: bool) -> "KeptRun":
     Raises:
         InvalidInput: there is no run that could be shown.
     """
-    from handeye.report.kept_run import kept_run
-    from handeye.report.page import page
-    from handeye.report.result import to_json
+    from handeye.results.kept_run import kept_run
+    from handeye.results.page import page
+    from handeye.results.result import to_json
 
     check_no_batch(folder)
     kept = kept_run(folder)

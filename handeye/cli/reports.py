@@ -7,10 +7,10 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import note, say
 from handeye.cli.trace_files import TraceFile, motion_file
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 if TYPE_CHECKING:
-    from handeye.see.recorded import Recorded
+    from handeye.report.recorded import Recorded
 
 
 DEMO: Final = "demo.html"
@@ -46,8 +46,8 @@ def report(
 
     Exit code 0: it is written, whatever the run came to; 2: bad input.
     """
-    from handeye import resources
     from handeye.cli.comparisons import write_comparison
+    from handeye.core import resources
 
     if (run is None) != demo or (demo and other is not None):
         raise InvalidInput("a report is of one run: give its folder or its trace, or --demo")
@@ -84,8 +84,8 @@ def write_report(run: Path, place: Path, *, overwrite: bool) -> None:
     Raises:
         InvalidInput: there is no such run, or the report cannot be written there.
     """
-    from handeye.files import check_free, check_place, write_over
-    from handeye.see.page.document import REPORT
+    from handeye.core.files import check_free, check_place, write_over
+    from handeye.report.page.document import REPORT
 
     check_place(place, REPORT)
     check_free(place, "report", overwrite=overwrite)
@@ -98,11 +98,11 @@ def page_of(run: Path) -> bytes:
     Raises:
         InvalidInput: there is none, or an older handeye recorded it.
     """
-    from handeye.report.job_folder import kept_job_page
-    from handeye.see.animation import animation
-    from handeye.see.facts.scene import check_scene
-    from handeye.see.page.document import report_page
-    from handeye.see.photographs import album
+    from handeye.report.animation import animation
+    from handeye.report.facts.scene import check_scene
+    from handeye.report.page.document import report_page
+    from handeye.report.photographs import album
+    from handeye.systems.trig.run.job_folder import kept_job_page
 
     if (job := kept_job_page(run)) is not None:
         return job
@@ -117,7 +117,7 @@ def read_recorded(run: Path) -> "Recorded":
     Raises:
         InvalidInput: there is none.
     """
-    from handeye.report.recorded_run import recorded_run
+    from handeye.results.recorded_run import recorded_run
     from handeye.trace.reading import is_cut_short, read_trace
 
     file = motion_file(run)

@@ -8,8 +8,8 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, compiled, note
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.errors import InvalidInput
-from handeye.plain_text import counted
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
@@ -237,7 +237,7 @@ def resume(
     """
     from handeye.cli.job import Job, work
     from handeye.cli.records import shown
-    from handeye.report.kept_run import has_ended
+    from handeye.results.kept_run import has_ended
     from handeye.runs.checkpoint_file import read_checkpoint
     from handeye.runs.folder import CHECKPOINTS, PLAN, open_again
     from handeye.runs.systems import listing_of

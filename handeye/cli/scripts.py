@@ -19,10 +19,10 @@ from handeye.cli.common import (
     show,
     show_unreadable,
 )
-from handeye.diagnostics import arranged, has_errors
-from handeye.errors import InvalidInput
-from handeye.files import beside
-from handeye.plain_text import counted
+from handeye.core.diagnostics import arranged, has_errors
+from handeye.core.errors import InvalidInput
+from handeye.core.files import beside
+from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan, write_plan
 from handeye.program.language import language_of
 from handeye.runs.scripts import LANGUAGES, taught

@@ -7,7 +7,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, notes, positive, put_json, screen
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.runs.scripts import default_script
 
 
@@ -45,7 +45,7 @@ def speed(
     """
     from dataclasses import replace
 
-    from handeye.report.progress import Progress
+    from handeye.results.progress import Progress
     from handeye.runs.setup import Setup
     from handeye.trials.speed import Watching, measure
     from handeye.trials.speed_page import as_json, page

@@ -10,12 +10,12 @@ from handeye.cli.common import Calibrate, Camera, Json, note, put_line, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.errors import InvalidInput
-from handeye.files import beside, check_place
+from handeye.core.errors import InvalidInput
+from handeye.core.files import beside, check_place
+from handeye.core.source import read_source
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script
 from handeye.runs.scripts import taught as taught_for
-from handeye.source import read_source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

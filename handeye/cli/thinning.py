@@ -7,7 +7,7 @@ from cyclopts import Parameter
 
 from handeye.cli.common import say
 from handeye.cli.trace_files import TraceFile, trace_file
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 
 def thin(
@@ -21,7 +21,7 @@ def thin(
 
     It is a trace in its own right; only `verify` needs the whole one.
     """
-    from handeye.files import check_free, check_place
+    from handeye.core.files import check_free, check_place
     from handeye.trace.reading import TRACE, read_trace
     from handeye.trace.thinned_file import write_thinned
 

@@ -8,10 +8,10 @@ from cyclopts import App, Parameter
 from handeye.cli.common import say
 from handeye.cli.reports import read_recorded
 from handeye.cli.trace_files import TraceFile
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.files import check_place, write_over
-from handeye.plain_text import counted
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place, write_over
+from handeye.core.plain_text import counted
 
 if TYPE_CHECKING:
     from handeye.trace.table_files import Format

@@ -6,7 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import note
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
 TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]

@@ -23,11 +23,11 @@ from handeye.cli.common import (
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.thinning import thin
 from handeye.cli.trace_files import File, TraceFile, trace_file
-from handeye.errors import InvalidInput
-from handeye.files import check_place, write_over
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place, write_over
 
 if TYPE_CHECKING:
-    from handeye.events import AnyEvent
+    from handeye.program.events import AnyEvent
     from handeye.trace.reading import Trace
 
 
@@ -42,7 +42,7 @@ def register(app: App) -> None:
 
 def show(file: File, /, *, json: Annotated[bool, Parameter(help="Events as JSON lines.")] = False) -> int:
     """Show what happened in a run, and why."""
-    from handeye.events import to_line
+    from handeye.program.events import to_line
     from handeye.trace.account import account
 
     _, events = _read(file)
@@ -109,8 +109,8 @@ def verify(file: TraceFile, /) -> int:
 
     Exit code 0: the run repeats exactly; 1: it does not; 2: bad input.
     """
+    from handeye.core.versions import versions
     from handeye.runs.verify import difference, settled
-    from handeye.versions import versions
 
     trace, events = _read(file)
     if trace is None:

@@ -11,16 +11,16 @@ from handeye.cli.chaos import chaos_trials
 from handeye.cli.common import Camera, Json, WholeNumber, note, positive, put_json, say
 from handeye.cli.dismantling import dismantling_trials
 from handeye.cli.disturbing import disturbed_trials
-from handeye.cli.pallet_trials import pallet_trials
 from handeye.cli.predictions import predict_trials
 from handeye.cli.world_options import (
     ANY_WORLD,
     WorldOptions,
 )
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
+from handeye.systems.trig.cli.pallet_trials import pallet_trials
 from handeye.tasks import task
 from handeye.tasks.trial import Known
-from handeye.variation import WorldSpec
 
 Eye = Annotated[
     Known,

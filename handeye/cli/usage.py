@@ -15,7 +15,7 @@ from cyclopts import (
     UnusedCliTokensError,
 )
 
-from handeye.diagnostics import quoted, suggestion
+from handeye.core.diagnostics import quoted, suggestion
 
 _NOUNS: Final[dict[object, str]] = {float: "a number", int: "a whole number"}
 """What a value of a type is called."""

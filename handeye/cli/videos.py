@@ -10,8 +10,8 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import note, notes, say
 from handeye.cli.trace_files import TraceFile, motion_file
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 
 if TYPE_CHECKING:
     from handeye.trace.trace import Trace

@@ -12,7 +12,7 @@ from handeye.cli.reports import page_of
 from handeye.cli.runs import Overwrite
 from handeye.cli.teaching import left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
@@ -60,8 +60,8 @@ def view(
 
     Exit codes are those of `run`, with --teach those of `teach`; of a recorded run 0, when Ctrl-C ends it.
     """
-    from handeye import resources
     from handeye.cli.job import Job, work
+    from handeye.core import resources
     from handeye.runs.setup import Setup
     from handeye.runs.snapshot import Checkpoint
     from handeye.view.link import Link

@@ -7,12 +7,12 @@ import msgspec
 from cyclopts import Group, Parameter
 
 from handeye.cli.common import whole
-from handeye.errors import InvalidInput
-from handeye.fault_options import StageNumber, faults, from_start_only
+from handeye.core.errors import InvalidInput
+from handeye.core.fault_options import StageNumber, faults, from_start_only
+from handeye.core.variation import WorldSpec, checked_seed
+from handeye.core.world_options import overrides
 from handeye.program.senses import SENSES, Sense
 from handeye.tasks import task
-from handeye.variation import WorldSpec, checked_seed
-from handeye.world_options import overrides
 
 if TYPE_CHECKING:
     from handeye.runs.system import Listing

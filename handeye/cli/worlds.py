@@ -5,7 +5,7 @@ from cyclopts import App
 from handeye.cli.common import Height, Json, PictureFile, SceneCamera, Width, put, say, screen
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.files import check_place, write_over
+from handeye.core.files import check_place, write_over
 from handeye.tasks import task
 
 
@@ -17,7 +17,7 @@ def register(app: App) -> None:
 
 def world(*, world: WorldOptions = ANY_WORLD, json: Json = False) -> int:
     """List every quantity in which worlds differ: what it is in this world, unit, spread and source."""
-    from handeye.report.world_page import world_json, world_page
+    from handeye.results.world_page import world_json, world_page
 
     spec = world.spec
     table = task().variation(spec.seed)

@@ -13,10 +13,10 @@ from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.parting import Parting, Turning, parting
 from handeye.comparison.place import Place
 from handeye.comparison.searched import Searches, searches
-from handeye.errors import InvalidInput
-from handeye.events import StepStarted
-from handeye.see.facts.outcome import Kind, outcome
-from handeye.see.recorded import Recorded
+from handeye.core.errors import InvalidInput
+from handeye.program.events import StepStarted
+from handeye.report.facts.outcome import Kind, outcome
+from handeye.report.recorded import Recorded
 from handeye.trace.stats import StageFigures, statistics
 
 

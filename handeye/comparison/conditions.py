@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from typing import Final
 
-from handeye.events import RunStarted
-from handeye.faults import Fault
-from handeye.record import Record
-from handeye.see.facts.again import written
+from handeye.core.faults import Fault
+from handeye.core.record import Record
+from handeye.program.events import RunStarted
+from handeye.report.facts.again import written
 from handeye.tasks import known
 from handeye.tasks.interface import Task
 from handeye.trace.sentences import renderer_name

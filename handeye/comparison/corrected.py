@@ -7,8 +7,8 @@ import numpy as np
 
 from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
 from handeye.comparison.place import Place
-from handeye.events import PartSeen, Saved
-from handeye.record import Record
+from handeye.core.record import Record
+from handeye.program.events import PartSeen, Saved
 from handeye.trace.account import ASTRAY
 
 

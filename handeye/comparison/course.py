@@ -7,7 +7,7 @@ from typing import Final
 
 from handeye.comparison.pairing import CarriedOut, TwoRuns
 from handeye.comparison.place import Place
-from handeye.see.recorded import Recorded
+from handeye.report.recorded import Recorded
 
 _BEFORE: Final = -1
 """In the place of the number of a pair: before the first step."""

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 
 from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
 from handeye.comparison.place import Place
-from handeye.events import GuardTripped
+from handeye.core.record import Record
+from handeye.program.events import GuardTripped
 from handeye.program.guards import GuardKind
-from handeye.record import Record
 
 
 class Stop(Record, frozen=True, kw_only=True):

@@ -11,11 +11,11 @@ from handeye.comparison.otherwise import otherwise
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.place import Place, place_of
 from handeye.comparison.stretches import Stretch, stretches
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, StepStarted
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import one_line
 from handeye.inspection.difference import step_changes
-from handeye.plain_text import one_line
-from handeye.see.recorded import Recorded
+from handeye.program.events import AnyEvent, StepStarted
+from handeye.report.recorded import Recorded
 from handeye.tasks import known
 from handeye.trace.quantities import Differing
 

@@ -9,7 +9,7 @@ import msgspec
 
 from handeye.arm.model import ArmModel
 from handeye.comparison.stretches import OF_A_PERIOD, Stretch, Told
-from handeye.events import AnyEvent, OperatorAnswered, StepFinished
+from handeye.program.events import AnyEvent, OperatorAnswered, StepFinished
 from handeye.trace.channels import FRAMES, JOINTS
 from handeye.trace.quantities import Differing, differing, differing_events
 

@@ -10,14 +10,14 @@ from handeye.comparison.page_sections import sections
 from handeye.comparison.page_view import SIDES, moments, view
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.wording import THINNED, place_words, run_words, same_words
-from handeye.files import Kind
-from handeye.markup import Markup
-from handeye.plain_text import printable
-from handeye.see import player
-from handeye.see.animation import Animation
-from handeye.see.page.document import head, packed, resource
-from handeye.see.page.elements import element, section
-from handeye.see.recorded import Recorded
+from handeye.core.files import Kind
+from handeye.core.markup import Markup
+from handeye.core.plain_text import printable
+from handeye.report import player
+from handeye.report.animation import Animation
+from handeye.report.page.document import head, packed, resource
+from handeye.report.page.elements import element, section
+from handeye.report.recorded import Recorded
 
 _MARK: Final = "<!doctype html>\n<!-- handeye comparison -->\n"
 PAGE: Final = Kind("comparison of handeye", _MARK.encode(), ending=".html")

@@ -15,8 +15,9 @@ from handeye.comparison.wording import (
     stop_words,
     turning_words,
 )
-from handeye.markup import Markup
-from handeye.see.page.elements import (
+from handeye.core.markup import Markup
+from handeye.core.units import INCH
+from handeye.report.page.elements import (
     cell,
     element,
     figure_cell,
@@ -27,7 +28,6 @@ from handeye.see.page.elements import (
     to_moment,
 )
 from handeye.trace.stats import StageFigures
-from handeye.units import INCH
 
 _BOTH: Final = ("A", "B")
 

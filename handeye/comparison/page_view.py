@@ -6,10 +6,10 @@ from typing import Final
 from handeye.comparison.course import Course
 from handeye.comparison.place import Place
 from handeye.comparison.wording import place_words
-from handeye.markup import Markup
-from handeye.plain_text import printable
-from handeye.see.page.elements import element, note
-from handeye.see.page.moments import json_markup
+from handeye.core.markup import Markup
+from handeye.core.plain_text import printable
+from handeye.report.page.elements import element, note
+from handeye.report.page.moments import json_markup
 
 SIDES: Final = (("A", "a"), ("B", "b"))
 """Letters of the runs, as people read them and as the parts of the page are named."""

@@ -7,10 +7,10 @@ from functools import cached_property
 from typing import TypeVar
 
 from handeye.comparison.place import Place, place_of
-from handeye.events import UndoStarted
 from handeye.inspection.alignment import Pair, aligned
+from handeye.program.events import UndoStarted
 from handeye.program.program import Step
-from handeye.see.recorded import Recorded
+from handeye.report.recorded import Recorded
 from handeye.trace.steps import DoneStep, done_steps
 
 Turn = tuple[int, int]

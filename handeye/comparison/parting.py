@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import Any
 
-from handeye import events as happened
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.place import Place, place_of
-from handeye.events import AnyEvent, StepStarted
-from handeye.see.recorded import Recorded
+from handeye.program import events as happened
+from handeye.program.events import AnyEvent, StepStarted
+from handeye.report.recorded import Recorded
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,9 +1,9 @@
 """Places in runs: a step as it was carried out."""
 
-from handeye.events import StepStarted
-from handeye.record import Record
-from handeye.see.recorded import Recorded
-from handeye.source import line_name
+from handeye.core.record import Record
+from handeye.core.source import line_name
+from handeye.program.events import StepStarted
+from handeye.report.recorded import Recorded
 
 
 class Place(Record, frozen=True, kw_only=True):

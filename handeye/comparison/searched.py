@@ -6,9 +6,9 @@ from msgspec.structs import replace
 
 from handeye.comparison.pairing import CarriedOut, Turn, TwoRuns, side_by_side
 from handeye.comparison.place import Place
-from handeye.events import AnyEvent, ErrorRaised, SearchAdvanced
+from handeye.core.record import Record
 from handeye.program.causes import PlacesTried
-from handeye.record import Record
+from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced
 
 
 class Search(Record, frozen=True, kw_only=True):

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Final
 
-from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted, StepStarted
+from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted, StepStarted
 from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, LOG, MOMENTS, NEWER, SCENE
 from handeye.trace.records import RawMessage
 from handeye.trace.trace import Trace

@@ -22,9 +22,9 @@ from handeye.comparison.wording import (
     stop_words,
     turning_words,
 )
+from handeye.core.units import INCH
 from handeye.trace.account import ASTRAY
 from handeye.trace.stats import StageFigures
-from handeye.units import INCH
 
 _BOTH: Final = ("A", "B")
 

@@ -11,13 +11,13 @@ from handeye.comparison.otherwise import EVENT
 from handeye.comparison.parting import Turning
 from handeye.comparison.place import Place
 from handeye.comparison.searched import Search
-from handeye.events import AnyEvent, StepStarted
-from handeye.plain_text import counted, one_line
+from handeye.core.plain_text import counted, one_line
+from handeye.core.units import DEGREE, UNITS
+from handeye.program.events import AnyEvent, StepStarted
 from handeye.program.guards import GuardKind
-from handeye.see.facts.outcome import Kind
+from handeye.report.facts.outcome import Kind
 from handeye.trace.quantity_text import quantity_text, values_text
 from handeye.trace.sentences import inches, sentence
-from handeye.units import DEGREE, UNITS
 
 _CAME_TO: Final[dict[Kind, str]] = {
     "right": "it ended, and the work is right",

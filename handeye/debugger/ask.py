@@ -4,15 +4,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.choices import choices
 from handeye.debugger.formatting import shown_lines
 from handeye.debugger.listing import excerpt, excerpt_lines, numbered_stage
 from handeye.debugger.views import show
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.events import Choice, OperatorCalled, StepStarted
 from handeye.program.cause_text import call_sentence
+from handeye.program.events import Choice, OperatorCalled, StepStarted
 from handeye.runs.operator import Back, OperatorChoice, Unwind, beginnings
 from handeye.runs.runner import Runner
 

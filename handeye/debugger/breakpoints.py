@@ -5,14 +5,14 @@ from collections.abc import Iterable
 from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
+from handeye.core.diagnostics import nearest, quoted
+from handeye.core.errors import ERRORS, InvalidInput
+from handeye.core.source import line_name
 from handeye.debugger.source_places import Place, named_place
-from handeye.diagnostics import nearest, quoted
-from handeye.errors import ERRORS, InvalidInput
 from handeye.program.stage_names import stage_called, stage_index
 from handeye.runs.stops import AnyStop, AtInstruction, AtLabel, AtLine, AtStage, OnError
 from handeye.runs.system import Listing
-from handeye.runs.taught.plan import TaughtListing
-from handeye.source import line_name
+from handeye.systems.trig.run.plan import TaughtListing
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 _ERROR: Final = re.compile(r"error\s*:\s*(?P<any>.*)|error\s+(?P<number>\d+)", re.IGNORECASE)

@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 
-from handeye.events import Choice
+from handeye.program.events import Choice
 from handeye.runs.operator import undoing
-from handeye.runs.programs import ProgramSystem
 from handeye.runs.runner import Runner
+from handeye.systems.stanford.executor_run import ProgramSystem
 
 
 def choices(runner: Runner) -> Mapping[Choice, str]:

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 
 Act = TypeVar("Act", bound=Callable[..., Any])
 

@@ -4,16 +4,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 from handeye.debugger import commands as acts
 from handeye.debugger.breakpoints import meant
 from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.reply import CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.views import topics
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.runs.programs import ProgramSystem
 from handeye.runs.runner import Runner
+from handeye.systems.stanford.executor_run import ProgramSystem
 
 StepperCommand = Command[Callable[[DebugSession, str], CommandResult]]
 

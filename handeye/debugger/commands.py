@@ -7,6 +7,10 @@ from typing import Final
 
 from msgspec import UNSET
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place
+from handeye.core.plain_text import counted
 from handeye.debugger import experiments
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.pace import factor
@@ -14,12 +18,8 @@ from handeye.debugger.reply import Break, CommandResult
 from handeye.debugger.session import DebugSession
 from handeye.debugger.source_places import named_place, text_of
 from handeye.debugger.views import show, write_picture
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.events import Choice
-from handeye.files import check_place
-from handeye.plain_text import counted
-from handeye.report.pauses import pause_sentence
+from handeye.program.events import Choice
+from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
 from handeye.runs.runner import reach

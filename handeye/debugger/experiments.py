@@ -4,9 +4,9 @@ import math
 import re
 from typing import Final
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import meant
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
 from handeye.runs.runner import Runner
 from handeye.runs.system import Settable
 

@@ -6,6 +6,8 @@ from typing import Any, Final
 import msgspec
 from msgspec import UNSET
 
+from handeye.core.plain_text import counted, one_line
+from handeye.core.source import line_name
 from handeye.debugger.listing import excerpt_lines
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.step_summary import StepSummary
@@ -19,9 +21,7 @@ from handeye.debugger.view_records import (
     SearchView,
     Shown,
 )
-from handeye.plain_text import counted, one_line
-from handeye.report.pauses import pause_sentence, stop_name
-from handeye.source import line_name
+from handeye.results.pauses import pause_sentence, stop_name
 
 MOST: Final = 24
 """Steps that a terminal is told of a long way; all of them are in the trace."""

@@ -1,10 +1,10 @@
 """The program to look at: its stages and steps, its labels, and the source around a line."""
 
+from handeye.core.plain_text import counted, one_line, printable
+from handeye.core.record import Record
+from handeye.core.source import Source, line_name
 from handeye.debugger.source_places import text_of
-from handeye.plain_text import counted, one_line, printable
-from handeye.record import Record
 from handeye.runs.system import Listing
-from handeye.source import Source, line_name
 
 
 class ListedStep(Record, frozen=True, kw_only=True, omit_defaults=True):

@@ -6,12 +6,12 @@ from typing import Final
 
 import msgspec
 
+from handeye.core.plain_text import one_line
 from handeye.debugger.formatting import told_row
 from handeye.debugger.reply import UnderWay
 from handeye.debugger.step_summary import StepSummary, step_summaries
-from handeye.events import AnyEvent, StepStarted
 from handeye.execution.servo_period import ServoPeriod
-from handeye.plain_text import one_line
+from handeye.program.events import AnyEvent, StepStarted
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 

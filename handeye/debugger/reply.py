@@ -2,11 +2,11 @@
 
 from msgspec import UNSET, UnsetType
 
+from handeye.core.record import Record
 from handeye.debugger.listing import SourceLine
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import Shown
-from handeye.events import AnyEvent
-from handeye.record import Record
+from handeye.program.events import AnyEvent
 from handeye.runs.advance import Pause
 from handeye.runs.stops import AnyStop
 

@@ -5,15 +5,15 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final, Literal
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.choices import choices
 from handeye.debugger.listing import SourceLine, excerpt
 from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Break
 from handeye.debugger.source_places import Place
-from handeye.errors import InvalidInput
-from handeye.events import StepStarted
 from handeye.execution.servo import Halted
+from handeye.program.events import StepStarted
 from handeye.runs.advance import Pause, advance, ended
 from handeye.runs.observer import Observer
 from handeye.runs.operator import beginnings

@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 from typing import Final
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 from handeye.runs.system import Listing
 
 Place = tuple[str, int]

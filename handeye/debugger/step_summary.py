@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Sequence
 from typing import Final
 
-from handeye import events as happened
-from handeye.events import AnyEvent
-from handeye.plain_text import one_line
-from handeye.record import Record
+from handeye.core.plain_text import one_line
+from handeye.core.record import Record
+from handeye.core.units import INCHES, MILLIMETRES
+from handeye.program import events as happened
+from handeye.program.events import AnyEvent
 from handeye.runs.system import Listing
-from handeye.runs.taught.plan import HANDS, TaughtListing
+from handeye.systems.trig.run.plan import HANDS, TaughtListing
 from handeye.trace.sentences import sentence
-from handeye.units import INCHES, MILLIMETRES
 
 _BETWEEN: Final = (
     happened.StageStarted,

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import msgspec
 
+from handeye.core.errors import HandeyeError, InvalidInput
 from handeye.debugger.command_table import MEANWHILE, find
 from handeye.debugger.formatting import as_json, as_text
 from handeye.debugger.live import Ear, Live, LiveJson, LiveText
 from handeye.debugger.reply import CommandResult, Reply
 from handeye.debugger.session import DebugSession
 from handeye.debugger.step_summary import step_summaries
-from handeye.errors import HandeyeError, InvalidInput
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint

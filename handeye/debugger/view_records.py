@@ -4,7 +4,7 @@ from typing import Any
 
 from msgspec import UNSET, UnsetType
 
-from handeye.record import Record, Vector3
+from handeye.core.record import Record, Vector3
 
 Six = tuple[float, float, float, float, float, float]
 

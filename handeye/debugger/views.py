@@ -7,6 +7,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import write_whole
+from handeye.core.pose import Array, Pose, hand_angles, yaw
+from handeye.core.record import Vector3
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
 from handeye.debugger.breakpoints import meant
 from handeye.debugger.view_records import (
     ErrorView,
@@ -19,18 +25,12 @@ from handeye.debugger.view_records import (
     SearchView,
     Shown,
 )
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.events import GuardTripped, PictureTaken
-from handeye.files import write_whole
-from handeye.pose import Array, Pose, hand_angles, yaw
 from handeye.program.cause_text import error_sentence
+from handeye.program.events import GuardTripped, PictureTaken
 from handeye.program.world_model import planned_pose
-from handeye.record import Vector3
-from handeye.report.pictures import annotated_png
-from handeye.runs.programs import ProgramSystem, context_of
+from handeye.results.pictures import annotated_png
 from handeye.runs.runner import Runner
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.systems.stanford.executor_run import ProgramSystem, context_of
 
 
 def show(runner: Runner, what: str = "", pictures: Path | None = None) -> Shown:

@@ -8,14 +8,14 @@ from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
 
 from handeye.al.formatter import format_text
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Span
 from handeye.editor.completion import completions
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
 from handeye.editor.navigation import definition, references, renamable, rename
 from handeye.editor.outline import STAGE, Symbol, outline
 from handeye.editor.server import ArmServer
-from handeye.errors import InvalidInput
-from handeye.source import Span
 
 _PROPOSED: Final = {
     "instruction": lsp.CompletionItemKind.Function,

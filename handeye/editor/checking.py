@@ -2,7 +2,7 @@
 
 from handeye.al import AL
 from handeye.arm.model import ArmModel
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
 from handeye.planning.scripts import plan_program
 from handeye.program.program import Program
 from handeye.tasks import task

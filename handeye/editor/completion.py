@@ -7,12 +7,12 @@ from handeye.al.definition import AXES, NIL, Operand, Refers
 from handeye.al.instructions import EXPLAINED
 from handeye.al.scanner import TokenKind, scan
 from handeye.al.syntax import Name
+from handeye.core.errors import ERRORS
+from handeye.core.source import Span, line_name
 from handeye.editor.document import Document
 from handeye.editor.macro_bodies import called, uses
 from handeye.editor.occurrences import MACRO, PARAMETER, PART, POSITION
 from handeye.editor.places import expected, instruction
-from handeye.errors import ERRORS
-from handeye.source import Span, line_name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,13 +10,13 @@ from handeye.al.lower_statement import position
 from handeye.al.macros import as_called, expand
 from handeye.al.parser import parse_whole
 from handeye.al.scanner import Line, scan
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source, Span
 from handeye.editor.macro_bodies import MacroBody, macros_of
 from handeye.editor.occurrences import PART, POSITION, Occurrence, occurrences
 from handeye.editor.taughtfile import taught_occurrences
 from handeye.program.program import Position, Program
 from handeye.program.taught import Taught
-from handeye.source import Source, Span
 
 
 @dataclass(frozen=True, kw_only=True)

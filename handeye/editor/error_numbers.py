@@ -5,12 +5,12 @@ from functools import cache
 from textwrap import fill, indent
 from typing import Final
 
-from handeye import errors
 from handeye.al.compiler import compile_text
 from handeye.al.formatter import format_text
+from handeye.core import errors
+from handeye.core.errors import ERRORS
+from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
-from handeye.errors import ERRORS
-from handeye.source import Source
 
 WIDTH: Final = 100
 """Columns of a sentence."""

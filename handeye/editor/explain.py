@@ -9,16 +9,16 @@ from handeye.al.definition import Instruction
 from handeye.al.includes import sewn_of
 from handeye.al.instructions import EXPLAINED
 from handeye.al.operand_help import origin, part, takes
-from handeye.codes import CODES
-from handeye.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
+from handeye.core.codes import CODES
+from handeye.core.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
+from handeye.core.errors import ERRORS, InvalidInput
+from handeye.core.source import Source
 from handeye.editor.checking import planning
 from handeye.editor.document import Document
 from handeye.editor.error_numbers import error_text
 from handeye.editor.fix import cured
 from handeye.editor.fixes import fixes
 from handeye.editor.samples import SAMPLE
-from handeye.errors import ERRORS, InvalidInput
-from handeye.source import Source
 
 _FOUND: Final = {
     "language": "while the script is checked",

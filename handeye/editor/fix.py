@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from handeye.al.definition import Operand
 from handeye.al.scanner import Line, Token
 from handeye.al.syntax import Vector
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Span
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit
 from handeye.editor.places import instruction, places
-from handeye.source import Span
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

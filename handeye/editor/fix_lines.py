@@ -4,14 +4,14 @@ from collections.abc import Iterator
 from itertools import count, takewhile
 
 from handeye.al.definition import Role
-from handeye.diagnostics import Diagnostic, quoted
+from handeye.core.diagnostics import Diagnostic, quoted
+from handeye.core.source import Span
 from handeye.editor.completion import names
 from handeye.editor.document import Document
 from handeye.editor.fix import Fix, at, insert, line_of, replace, word_of
 from handeye.editor.navigation import Edit
 from handeye.editor.occurrences import LABEL, MACRO
 from handeye.editor.places import instruction
-from handeye.source import Span
 
 
 def remove_line(document: Document, diagnostic: Diagnostic) -> Iterator[Fix]:

@@ -6,14 +6,14 @@ from typing import Final
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.scanner import TokenKind
 from handeye.al.syntax import Name, Text
-from handeye.diagnostics import Diagnostic, MissingMark, quoted
+from handeye.core.diagnostics import Diagnostic, MissingMark, quoted
+from handeye.core.source import Span
 from handeye.editor.completion import names
 from handeye.editor.document import Document
 from handeye.editor.fix import Fix, insert, line_of, operand_of, replace, with_blanks_before
 from handeye.editor.macro_bodies import called
 from handeye.editor.navigation import Edit
 from handeye.editor.places import expected, instruction, places
-from handeye.source import Span
 
 MOST: Final = 8
 """Choices offered for a name that is missing."""

@@ -6,7 +6,7 @@ A diagnostic that knows what was meant tells it, as data; for the others there i
 from collections.abc import Callable, Iterator
 from typing import Final
 
-from handeye.diagnostics import Diagnostic, KnownNames, SimilarName, quoted
+from handeye.core.diagnostics import Diagnostic, KnownNames, SimilarName, quoted
 from handeye.editor import fix_lines, fix_operands
 from handeye.editor.document import Document
 from handeye.editor.fix import Fix, replace

@@ -13,16 +13,16 @@ from handeye.al.scanner import Line, Token, TokenKind
 from handeye.al.syntax import Number, Vector
 from handeye.arm.ik import solve
 from handeye.arm.model import ArmModel
+from handeye.core.errors import ERRORS
+from handeye.core.pose import Pose, hand_angles
+from handeye.core.source import Source, Span, line_name
+from handeye.core.units import DEGREE, INCH
 from handeye.editor.checking import arm
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PART, POSITION, Occurrence, same
 from handeye.editor.places import Place, instruction, places
-from handeye.errors import ERRORS
-from handeye.pose import Pose, hand_angles
 from handeye.program.program import Position
 from handeye.program.world_model import WorldModel
-from handeye.source import Source, Span, line_name
-from handeye.units import DEGREE, INCH
 
 SI: Final = {
     "in": ("mm", 1e-3),

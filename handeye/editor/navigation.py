@@ -9,11 +9,11 @@ from handeye.al.definition import AXES
 from handeye.al.includes import key_of, own_key, required_by
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.word_groups import OPERAND_WORDS
-from handeye.diagnostics import quoted
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Span
 from handeye.editor.document import Document
 from handeye.editor.occurrences import LABEL, MACRO, PARAMETER, PARK, PART, POSITION, Occurrence, same
-from handeye.errors import InvalidInput
-from handeye.source import Span
 
 _NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 

@@ -9,9 +9,9 @@ from handeye.al.heads import Head, heads
 from handeye.al.parameters import braced
 from handeye.al.scanner import Line, Token, TokenKind, scan
 from handeye.al.syntax import Name
+from handeye.core.source import Span
 from handeye.editor.macro_bodies import Macros, Use, called, ends, uses
 from handeye.editor.places import instruction, places
-from handeye.source import Span
 
 POSITION, PART, PICTURE = Refers.POSITION.value, Refers.PART.value, Refers.PICTURE.value
 SAVED, LABEL, MACRO, PARAMETER = Refers.SAVED.value, Refers.LABEL.value, "macro", "parameter"

@@ -4,10 +4,10 @@ import re
 from dataclasses import dataclass, field
 
 from handeye.al.scanner import TokenKind
+from handeye.core.source import Span
 from handeye.editor.document import Document
 from handeye.editor.occurrences import MACRO, PARAMETER, Occurrence
 from handeye.editor.places import instruction
-from handeye.source import Span
 
 STAGE = "stage"
 FIRST = "program"

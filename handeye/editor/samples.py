@@ -2,10 +2,10 @@
 
 from typing import Final
 
-from handeye.boxes import Box
+from handeye.core.obb import Box
+from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Fixture, Held, Hole, Part, Position
 from handeye.program.taught import Taught
-from handeye.units import DEGREE, INCH
 
 _DOWN: Final = (90 * DEGREE, 90 * DEGREE, 0.0)
 

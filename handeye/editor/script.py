@@ -10,14 +10,14 @@ from pygls.workspace import Workspace
 
 from handeye.al.includes import led_by
 from handeye.al.syntax_check import check_form
-from handeye.diagnostics import Diagnostic, arranged
+from handeye.core.diagnostics import Diagnostic, arranged
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source, Span, line_name, read_source
 from handeye.editor import wire
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit, Found
-from handeye.errors import InvalidInput
 from handeye.program.taught import Taught
 from handeye.runs.scripts import taught
-from handeye.source import Source, Span, line_name, read_source
 
 
 class EditedScript:

@@ -6,12 +6,12 @@ from typing import Final
 from lsprotocol import types as lsp
 from pygls.lsp.server import LanguageServer
 
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source, Span
+from handeye.core.versions import HANDEYE
 from handeye.editor.checking import planning
 from handeye.editor.script import EditedScript
 from handeye.program.taught import Taught
-from handeye.source import Source, Span
-from handeye.versions import HANDEYE
 
 PAUSE: Final = 0.3
 """Seconds without a keystroke after which motions are planned; what the text alone tells comes at once."""

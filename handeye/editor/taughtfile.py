@@ -8,8 +8,8 @@ import re
 from collections.abc import Iterator
 from typing import Final
 
+from handeye.core.source import Span
 from handeye.editor.occurrences import PART, POSITION, Occurrence
-from handeye.source import Span
 
 _KINDS: Final = {"positions": POSITION, "parts": PART}
 _NAME = r"\"?([A-Za-z_]\w*)\"?"

@@ -5,8 +5,8 @@ from typing import Final
 
 from lsprotocol import types as lsp
 
-from handeye.diagnostics import Diagnostic
-from handeye.source import Source, Span
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source, Span
 
 Units = Callable[[str], int]
 """How many code units of the agreed encoding a text has."""

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from handeye.record import Vector3
+from handeye.core.record import Vector3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,16 +15,16 @@ from handeye.arm.ik import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.trajectory import Trajectory, move
-from handeye.errors import HandeyeError
+from handeye.core.errors import HandeyeError
+from handeye.core.pose import hand
+from handeye.core.record import Vector3
+from handeye.core.units import DEGREE, INCH
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState
 from handeye.ports.camera import DIGITISE, TvCamera
 from handeye.ports.workcell import Workcell
-from handeye.pose import hand
 from handeye.program.cause_text import error_sentence
-from handeye.record import Vector3
-from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 from handeye.vision.lamp import find_spot

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from handeye.arm.model import ComplianceModel
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,14 +6,14 @@ from typing import Any
 
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
-from handeye.events import AnyEvent
+from handeye.core.mutable_records import put_back
+from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
 from handeye.execution.state import DriveState, ExecutionState, Fault, check_fits
 from handeye.execution.stopwatch import Stopwatch
-from handeye.mutable_records import put_back
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.ports.workcell import Workcell
-from handeye.pose import Array
+from handeye.program.events import AnyEvent
 from handeye.program.guards import Guards
 from handeye.program.senses import Sense
 from handeye.program.world_model import WorldModel

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.workcell import Workcell
 from handeye.program.operation import Device
 from handeye.program.program import Program

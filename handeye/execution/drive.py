@@ -6,11 +6,11 @@ from typing import Final
 
 from handeye.arm.dynamics import Dynamics
 from handeye.arm.samples import Samples
+from handeye.core.pose import Array, Pose
 from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, T
 from handeye.execution.servo_loop import Outcome, ServoLoop
 from handeye.ports.clock import Clock
-from handeye.pose import Array, Pose
 from handeye.touch.guards import Monitor
 
 _STANDS: Final = 0.1

@@ -6,9 +6,19 @@ from typing import Final, Literal
 import numpy as np
 from msgspec.structs import replace
 
-from handeye import errors
 from handeye.arm.kinematics import forward
-from handeye.events import (
+from handeye.core import errors
+from handeye.execution.context import Action, ExecutionContext
+from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
+from handeye.execution.hand_actions import HAND_ACTIONS
+from handeye.execution.motion_actions import MOTION_ACTIONS
+from handeye.execution.state import ExecutionState, Fault, vector
+from handeye.execution.undo.done import Undoing
+from handeye.execution.undo.noting import before, noted
+from handeye.execution.undo.undoing import end, order, undo_last
+from handeye.execution.vision_actions import VISION_ACTIONS
+from handeye.program.causes import Cause, Looping
+from handeye.program.events import (
     Choice,
     ErrorRaised,
     OperatorAnswered,
@@ -20,16 +30,6 @@ from handeye.events import (
     StepStarted,
     UndoOrdered,
 )
-from handeye.execution.context import Action, ExecutionContext
-from handeye.execution.flow_actions import DECISIONS, FLOW_ACTIONS
-from handeye.execution.hand_actions import HAND_ACTIONS
-from handeye.execution.motion_actions import MOTION_ACTIONS
-from handeye.execution.state import ExecutionState, Fault, vector
-from handeye.execution.undo.done import Undoing
-from handeye.execution.undo.noting import before, noted
-from handeye.execution.undo.undoing import end, order, undo_last
-from handeye.execution.vision_actions import VISION_ACTIONS
-from handeye.program.causes import Cause, Looping
 from handeye.program.operation import Operation
 from handeye.program.program import Step
 

@@ -17,12 +17,12 @@ from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.weighing import PLAUSIBLE, mass_factors
-from handeye.errors import HandeyeError
+from handeye.core.errors import HandeyeError
+from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.ports.workcell import Workcell
-from handeye.pose import Array
 from handeye.program.cause_text import cause_sentence
 
 RAMP: Final = 0.1

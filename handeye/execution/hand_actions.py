@@ -4,11 +4,11 @@ from typing import Final
 
 import numpy as np
 
-from handeye import errors
 from handeye.arm.kinematics import forward
+from handeye.core import errors
+from handeye.core.pose import translated
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault
-from handeye.pose import translated
 from handeye.program.causes import (
     Cause,
     GapAstray,

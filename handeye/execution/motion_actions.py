@@ -5,12 +5,13 @@ from typing import Final
 
 import numpy as np
 
-from handeye import errors
 from handeye.arm.friction import faint
 from handeye.arm.ik import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.trajectory import Trajectory, four_three_four
-from handeye.events import Adjusted, GuardFaint, GuardTripped, Restored
+from handeye.core import errors
+from handeye.core.pose import Array, Pose, translated
+from handeye.core.record import Vector3
 from handeye.execution.compliance import Course
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.servo_loop import Outcome
@@ -23,12 +24,11 @@ from handeye.planning.motions import (
     move_trajectory,
     turn_samples,
 )
-from handeye.pose import Array, Pose, translated
 from handeye.program.causes import CurrentSilent, GuardsUnmet, HeightOutside, HeightUnknown, TravelOutside
+from handeye.program.events import Adjusted, GuardFaint, GuardTripped, Restored
 from handeye.program.guards import GuardKind, Guards, unmet
 from handeye.program.motion_operations import Change, Height, Move, Travel, Turn
 from handeye.program.operation import Operation
-from handeye.record import Vector3
 from handeye.touch.guards import monitor
 from handeye.touch.senses import STARTING
 

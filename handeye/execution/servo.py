@@ -17,11 +17,11 @@ from handeye.arm.dynamics import Dynamics, at_rest, gravity_and_jacobian
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.weighing import weighed
+from handeye.core.pose import Array, Pose
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
 from handeye.execution.undo.way import Track
 from handeye.ports.workcell import Sensed, Workcell
-from handeye.pose import Array, Pose
 from handeye.touch.guards import ActiveGuard, Reading
 
 T = TypeVar("T")

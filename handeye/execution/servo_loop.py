@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from handeye import errors
 from handeye.arm.computed_torque import prepare
 from handeye.arm.converters import sliding
 from handeye.arm.dynamics import Dynamics, gravity, mass_matrix
@@ -19,9 +18,10 @@ from handeye.arm.joint_agreement import Disagreement, JointAgreement, crept
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import constants
 from handeye.arm.samples import Samples
+from handeye.core import errors
+from handeye.core.pose import Array, Pose, displaced, translated
 from handeye.execution.compliance import Course
 from handeye.execution.servo import Motion, Servo
-from handeye.pose import Array, Pose, displaced, translated
 from handeye.program.causes import (
     Cause,
     ForceInAir,

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
+from handeye.core.pose import Array
 from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.touch.guards import ActiveGuard
 
 

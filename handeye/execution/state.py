@@ -1,7 +1,7 @@
 """The state of a working phase: one record that executor, actions, servo loop and world model live in.
 
 The plan, the arm and the cell are no part of it: they are given anew when a run is taken up again. A snapshot is a
-copy of the record (`handeye.mutable_records`).
+copy of the record (`handeye.core.mutable_records`).
 """
 
 from dataclasses import dataclass, fields, is_dataclass
@@ -10,17 +10,17 @@ import msgspec
 import numpy as np
 
 from handeye.arm.model import ArmModel
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import MutableRecord, put_back
+from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.execution.undo.done import Done, Undoing
-from handeye.mutable_records import MutableRecord, put_back
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import COLUMNS, FIRST_LENS, ROWS, Picture
 from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.program.causes import Cause
+from handeye.program.system_state import Natural, SystemState
 from handeye.program.world_model import WorldState
-from handeye.record import Record
-from handeye.system_state import Natural, SystemState
 from handeye.touch.spiral import SearchPattern, line
 from handeye.vision.base import GeneralLocation, SpecificLocation
 from handeye.vision.calibration import Calibration

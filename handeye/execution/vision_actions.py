@@ -5,14 +5,21 @@ from typing import Final
 
 import numpy as np
 
-from handeye import errors
-from handeye.events import CameraBusy, CameraStarted, PartInspected, PartMatched, PartSeen, PictureTaken
+from handeye.core import errors
+from handeye.core.pose import Array, Pose, planar, yaw
 from handeye.execution.context import Action, ExecutionContext
 from handeye.execution.state import Fault, Found, Shot
 from handeye.planning.first_grasp import first_grasp
 from handeye.ports.camera import DIGITISE, Picture, TvCamera
-from handeye.pose import Array, Pose, planar, yaw
 from handeye.program.causes import NoGeneral, NoPicture, PictureBlank, PictureRepeated
+from handeye.program.events import (
+    CameraBusy,
+    CameraStarted,
+    PartInspected,
+    PartMatched,
+    PartSeen,
+    PictureTaken,
+)
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import Aim, Comparison, General, Inspect, Lens, Look, Match, Specific
 from handeye.vision.base import Failure, locate_general, locate_specific

@@ -6,7 +6,7 @@ from typing import Any
 
 import msgspec
 
-from handeye.plain_text import one_line
+from handeye.core.plain_text import one_line
 from handeye.program.program import Step
 
 Pair = tuple[int | None, int | None]

@@ -6,11 +6,11 @@ graph, loops and error edges included.
 
 from typing import Final, Literal, get_args
 
+from handeye.core.record import Record
+from handeye.core.source import line_name
 from handeye.program.graph import Graph
 from handeye.program.operation import Operation
 from handeye.program.program import Program
-from handeye.record import Record
-from handeye.source import line_name
 
 Measured = Literal["part", "position", "difference", "search"]
 Key = tuple[Measured, str]

@@ -7,14 +7,14 @@ import numpy as np
 
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.robots import robot
+from handeye.core.plain_text import one_line
+from handeye.core.record import Record
 from handeye.inspection.alignment import Pair, aligned, does, leads_alike
 from handeye.inspection.place_changes import PlaceChange, place_changes
 from handeye.inspection.wording import conditions
-from handeye.plain_text import one_line
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.operation import Branch
 from handeye.program.program import Step
-from handeye.record import Record
 
 _ALIKE = 1e-9
 """m, rad or s: below this, two motions differ by rounding."""

@@ -2,11 +2,11 @@
 
 from typing import Final
 
+from handeye.core.source import line_name
+from handeye.core.units import INCH
 from handeye.inspection.difference import Difference, MotionChange, StepChange
 from handeye.inspection.place_changes import PlaceChange
 from handeye.inspection.wording import degrees, figure, inches
-from handeye.source import line_name
-from handeye.units import INCH
 
 _SIGNS: Final = {"added": "+", "removed": "-", "changed": "~", "replanned": " "}
 

@@ -3,10 +3,10 @@
 from html import escape
 from typing import Final
 
+from handeye.core.plain_text import counted
 from handeye.inspection.columns import NOTE, ROW, WIDTH
 from handeye.inspection.flow import Flow, Way
 from handeye.inspection.layout import Layout, Point, Route, StepBox, layout
-from handeye.plain_text import counted
 
 COLOURS: Final = {
     "motion": ("#dbe9f6", "#3b75af"),

@@ -3,8 +3,8 @@
 import json
 from dataclasses import dataclass
 
+from handeye.core.plain_text import one_line
 from handeye.inspection.wording import conditions
-from handeye.plain_text import one_line
 from handeye.planfile.plan import Plan
 from handeye.program.operation import Family
 from handeye.program.program import Step

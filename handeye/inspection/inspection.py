@@ -1,13 +1,13 @@
 """A plan laid open: its stages and steps, how long they take, what guards them, and what they depend on."""
 
+from handeye.core.plain_text import counted, one_line
+from handeye.core.record import Record, Vector3
+from handeye.core.source import line_name
 from handeye.inspection.dependence import Dependence, dependences
 from handeye.inspection.wording import conditions
-from handeye.plain_text import counted, one_line
 from handeye.planfile.plan import Plan
 from handeye.program.guards import Guards
 from handeye.program.operation import Branch
-from handeye.record import Record, Vector3
-from handeye.source import line_name
 
 
 class InspectedStep(Record, frozen=True, kw_only=True):

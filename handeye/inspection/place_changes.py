@@ -4,9 +4,9 @@ from typing import Final, Literal
 
 import numpy as np
 
-from handeye.pose import Pose, hand, planar
+from handeye.core.pose import Pose, hand, planar
+from handeye.core.record import Record
 from handeye.program.program import Part, Position, Program
-from handeye.record import Record
 
 _ALIKE: Final = 1e-9
 """m: below this, two places differ by rounding."""

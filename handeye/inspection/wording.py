@@ -4,14 +4,14 @@ import math
 from collections.abc import Callable
 from typing import Any, Final
 
-from handeye.errors import NOTHING_HELD, WRONG_HEIGHT, WRONG_THICKNESS, WRONG_TRAVEL
-from handeye.plain_text import counted
+from handeye.core.errors import NOTHING_HELD, WRONG_HEIGHT, WRONG_THICKNESS, WRONG_TRAVEL
+from handeye.core.plain_text import counted
+from handeye.core.record import Vector3
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program import guards as g
 from handeye.program.flow_operations import Undo
 from handeye.program.motion_operations import Center, Change, Close, Height, Move, Travel
 from handeye.program.operations import AnyOperation
-from handeye.record import Vector3
-from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 FINGERS = {1: "finger 1", 2: "finger 2", 3: "either finger"}
 """The fingers whose switches a mask enables; 1 is the one on the +y side of the hand frame."""

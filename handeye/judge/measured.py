@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.truth import Truth
-from handeye.pose import Array, Pose, inverse, pose
+from handeye.core.pose import Array, Pose, inverse, pose
 
 
 class Measured:

@@ -7,7 +7,7 @@ builtin data of a plan of its version and returns that of the next; it knows no 
 from collections.abc import Callable
 from typing import Final
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.planfile.plan import VERSION
 from handeye.planfile.version_1 import Data, to_version_2
 

@@ -5,8 +5,8 @@ This is the second waist of the system.
 
 from typing import Final
 
+from handeye.core.record import Record
 from handeye.program.program import Program
-from handeye.record import Record
 
 VERSION: Final = 2
 """Version of the format on disk."""

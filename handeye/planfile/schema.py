@@ -5,7 +5,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.files import Kind
+from handeye.core.files import Kind
 from handeye.planfile.plan import VERSION, Plan
 
 DIALECT: Final = "https://json-schema.org/draft/2020-12/schema"

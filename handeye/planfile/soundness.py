@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
-from handeye.boxes import Box
+from handeye.core.obb import Box
 from handeye.planfile.plan import Plan, PlannedMotion
 from handeye.program.guards import AnyGuard
 from handeye.program.operation import Use

@@ -9,8 +9,8 @@ from typing import Any, Final
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.files import Kind, read_whole, write_over
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, read_whole, write_over
 from handeye.planfile.migrations import migrated, oldest
 from handeye.planfile.plan import VERSION, Plan
 from handeye.planfile.soundness import faults

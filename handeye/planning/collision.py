@@ -11,10 +11,10 @@ from typing import Final
 
 import numpy as np
 
-from handeye.boxes import Box, depths, lowest
-from handeye.pose import Array, Pose, inverse, planar
+from handeye.core.obb import Box, depths, lowest
+from handeye.core.pose import Array, Pose, inverse, planar
+from handeye.core.units import INCH
 from handeye.program.program import Program
-from handeye.units import INCH
 
 MARGIN: Final = 0.1 * INCH
 """Overlap of boxes that is not reported. The free motions of the pump swing by as much beside the straight way down:

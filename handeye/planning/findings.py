@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from handeye.codes import CODES
+from handeye.core.codes import CODES
 from handeye.program.findings import PlanningFinding
 
 

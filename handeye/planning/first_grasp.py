@@ -1,9 +1,9 @@
 """The first grasp of a part: where a program that has found it first closes the hand on it."""
 
 from handeye.arm.hand import HandModel
+from handeye.core.record import Record
 from handeye.planning.grasp_state import GraspState
 from handeye.program.program import Program
-from handeye.record import Record
 
 
 class FirstGrasp(Record, frozen=True, kw_only=True):

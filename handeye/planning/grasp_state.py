@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from handeye.arm.hand import HandModel
-from handeye.boxes import Box
+from handeye.core.obb import Box
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.program import Program, Step
 

@@ -9,17 +9,17 @@ import numpy as np
 from handeye.arm.friction import MARGIN, faint, felt_friction
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
+from handeye.core.pose import Array
+from handeye.core.record import Vector3
 from handeye.planning.collision import Surroundings, table_crossing
 from handeye.planning.findings import FindingList
 from handeye.planning.grasp_state import GraspState
 from handeye.planning.strength import weakness
-from handeye.pose import Array
 from handeye.program.findings import RunsInto, TooFaint, TooHeavy, TooWeak
 from handeye.program.flow_operations import Load
 from handeye.program.guards import Exerted, Guards
 from handeye.program.motion_operations import Change
 from handeye.program.program import Program, Step
-from handeye.record import Vector3
 
 SPARSE: Final = 8
 """One of so many configurations of a motion is checked for what a load asks of the joints."""

@@ -13,9 +13,9 @@ from handeye.arm.line import arc, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
 from handeye.arm.trajectory import Trajectory, move
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
+from handeye.core.units import DEGREE, INCH
 from handeye.program.motion_operations import Change, Move, Turn
-from handeye.units import DEGREE, INCH
 
 CLEARANCE: Final = 3.0 * INCH
 """Departure and approach height; "a few inches" in 1972, three by recollection (reference D10)."""

@@ -16,11 +16,11 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.samples import Samples
+from handeye.core.pose import Array
 from handeye.planfile.plan import Joints, Plan, PlannedMotion
 from handeye.planning.findings import FindingList
 from handeye.planning.motion_checks import Checks, Demand, to_press, to_stop
 from handeye.planning.motions import Unreachable, change_samples, move_trajectory, turn_samples
-from handeye.pose import Array
 from handeye.program.findings import GoalBelowTable, NoConfiguration, PlanningFinding
 from handeye.program.flow_operations import Here
 from handeye.program.motion_operations import Change, Move, Turn

@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 
 from handeye.arm.model import ArmModel
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.pose import Array
+from handeye.core.source import Source
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
-from handeye.pose import Array
 from handeye.program.language import Language
 from handeye.program.program import Program
 from handeye.program.taught import Taught
-from handeye.source import Source
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

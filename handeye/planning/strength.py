@@ -7,7 +7,7 @@ import numpy as np
 from handeye.arm.dynamics import gravity
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

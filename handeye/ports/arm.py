@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

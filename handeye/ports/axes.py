@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -6,7 +6,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.record import Record
+from handeye.core.record import Record
 
 COLUMNS: Final = 333
 ROWS: Final = 256

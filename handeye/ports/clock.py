@@ -4,7 +4,7 @@ import math
 from abc import ABC, abstractmethod
 from typing import Final
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 LONGEST: Final = 86400.0
 """s that may pass at once: a day, far longer than any job."""

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 
+from handeye.core.pose import Array
 from handeye.ports.arm import ArmPort
 from handeye.ports.camera import TvCamera
 from handeye.ports.clock import Clock
 from handeye.ports.hand import HandPort
 from handeye.ports.lamp import LampPort
 from handeye.ports.screwdriver import ScrewdriverPort
-from handeye.pose import Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,14 +2,14 @@
 
 from typing import assert_never
 
-from handeye.errors import ERRORS
-from handeye.plain_text import told_apart
+from handeye.core.errors import ERRORS
+from handeye.core.plain_text import told_apart
+from handeye.core.units import INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program import causes as c
 from handeye.program.causes import Cause
 from handeye.program.doubt_text import doubt_sentence, touching_fingers
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import sentence as reason_sentence
-from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 
 def error_sentence(number: int, cause: Cause | None) -> str:

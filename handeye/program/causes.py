@@ -5,10 +5,10 @@ SI units.
 
 from typing import Literal
 
+from handeye.core.record import Record, Vector3
 from handeye.program.guards import GuardKind
 from handeye.program.reason_text import NamedArm
 from handeye.program.reasons import Reason
-from handeye.record import Record, Vector3
 
 LargeHole = Literal["largest", "second"]
 """The holes by which vision locates a part."""

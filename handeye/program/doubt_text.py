@@ -2,8 +2,8 @@
 
 from typing import assert_never
 
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program import causes as c
-from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 _FINGERS = ("+y", "-y")
 """The fingers in the order of their switches, by the side of the hand they are on."""

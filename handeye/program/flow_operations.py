@@ -4,7 +4,7 @@ from typing import ClassVar, Self
 
 from msgspec.structs import replace
 
-from handeye import errors
+from handeye.core import errors
 from handeye.program.operation import Branch, Operation, action
 
 

@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import ClassVar, Final, NamedTuple
 
-from handeye import errors
+from handeye.core import errors
+from handeye.core.record import Record, Vector3
 from handeye.program.senses import TESTED, Sense
-from handeye.record import Record, Vector3
 
 Bounds = tuple[float, float]
 """Least and greatest value of a number, or size of a vector, SI."""

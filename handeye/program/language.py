@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
 from handeye.program.findings import PlanningFinding
 from handeye.program.program import Program
 from handeye.program.reason_text import NamedArm
 from handeye.program.taught import Taught
-from handeye.source import Source
 
 Compiled = tuple[Program | None, list[Diagnostic]]
 """A program, and what there is to say about its text; there is none if any of that is an error."""

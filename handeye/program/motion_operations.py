@@ -5,10 +5,10 @@ from typing import Annotated, ClassVar, Final
 
 from msgspec import Meta
 
-from handeye import errors
+from handeye.core import errors
+from handeye.core.record import Record, Vector3
 from handeye.program.guards import FORCE, Bounds, GuardKind, Guards, unmet
 from handeye.program.operation import Operation, Use, action
-from handeye.record import Record, Vector3
 
 VIAS: Final = 4
 """Positions that a motion can be led by."""

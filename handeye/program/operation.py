@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import ClassVar, Literal, NamedTuple, Self
 
-from handeye import errors
+from handeye.core import errors
+from handeye.core.record import Record, Vector3
 from handeye.program.guards import Bounds, Guards
-from handeye.record import Record, Vector3
 
 Kind = Literal["position", "part", "target", "picture", "difference", "counter", "search", "goal", "travel"]
 """Kinds of what a run keeps: where things are (a target is a position or a part), pictures taken, differences saved,

@@ -6,11 +6,11 @@ operations, joined by planned motions, make the plan.
 
 from msgspec import field
 
-from handeye.boxes import Box
+from handeye.core.obb import Box
+from handeye.core.record import Record
+from handeye.core.source import Source, line_name
 from handeye.program.operation import Device, Kind
 from handeye.program.operations import AnyOperation
-from handeye.record import Record
-from handeye.source import Source, line_name
 
 Columns = tuple[int, int]
 """Characters of a line, from 0: the first, and the one behind the last. They are those of the line, so that a change in

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Protocol, assert_never
 
+from handeye.core.units import DEGREE, INCH
 from handeye.program.reasons import (
     BelowTable,
     FixedDirection,
@@ -16,7 +17,6 @@ from handeye.program.reasons import (
     TooFast,
     TooNear,
 )
-from handeye.units import DEGREE, INCH
 
 
 class NamedJoint(Protocol):

@@ -3,7 +3,7 @@
 Joints are counted from 0; SI units.
 """
 
-from handeye.record import Record
+from handeye.core.record import Record
 
 
 class ReasonRecord(Record, frozen=True, tag_field="reason", tag=True):

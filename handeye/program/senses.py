@@ -2,7 +2,7 @@
 
 from typing import Final, Literal, get_args
 
-from handeye import errors
+from handeye.core import errors
 
 Sense = Literal["vision", "touch", "search", "force", "centring"]
 SENSES: Final[tuple[Sense, ...]] = get_args(Sense)

@@ -4,8 +4,8 @@ import re
 from collections.abc import Sequence
 from typing import Final
 
-from handeye.diagnostics import nearest, quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import nearest, quoted
+from handeye.core.errors import InvalidInput
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 

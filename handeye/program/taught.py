@@ -27,8 +27,9 @@ from typing import Final
 
 import msgspec
 
-from handeye.diagnostics import quoted, suggestion
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source, read_source
 from handeye.program.program import Fixture, Held, Part, Position
 from handeye.program.taught_tables import (
     FixtureTable,
@@ -39,7 +40,6 @@ from handeye.program.taught_tables import (
     read_tables,
     unfit,
 )
-from handeye.source import Source, read_source
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

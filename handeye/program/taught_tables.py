@@ -6,10 +6,10 @@ from typing import Final, TypeVar
 
 import msgspec
 
-from handeye.boxes import Box
-from handeye.diagnostics import quoted
+from handeye.core.diagnostics import quoted
+from handeye.core.obb import Box
+from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Fixture, Held, Hole, Part, Position
-from handeye.units import DEGREE, INCH
 
 
 class PositionTable(msgspec.Struct, forbid_unknown_fields=True):

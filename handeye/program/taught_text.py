@@ -9,9 +9,9 @@ import re
 import tomllib
 from typing import Any, Final
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Position
-from handeye.units import DEGREE, INCH
 
 _HEADER: Final = re.compile(r"^[ \t]*\[\s*positions\s*\][ \t]*(?:#.*)?\r?$", re.MULTILINE)
 _NEXT: Final = re.compile(r"^[ \t]*\[", re.MULTILINE)

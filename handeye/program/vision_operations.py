@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from handeye import errors
+from handeye.core import errors
 from handeye.ports.camera import LENSES
 from handeye.program.operation import Operation, action
 

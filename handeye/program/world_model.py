@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.mutable_records import MutableRecord
-from handeye.pose import Pose, hand, hand_angles, inverse, planar
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import MutableRecord
+from handeye.core.pose import Pose, hand, hand_angles, inverse, planar
 from handeye.program.program import Part, Position, Program
 
 

@@ -1,1 +1,1 @@
-"""Reports: what a run came to, for people and for programs."""
+"""Shows runs to people: reads traces and results, and drives nothing."""

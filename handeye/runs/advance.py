@@ -3,9 +3,9 @@
 from collections.abc import Callable, Sequence
 from typing import Literal
 
+from handeye.core.record import Record
 from handeye.execution.servo import Halted
 from handeye.program.causes import Cause
-from handeye.record import Record
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Snapshot
 from handeye.runs.stops import AfterSteps, AnyStop, Asked

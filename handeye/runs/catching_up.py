@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, StepFinished
+from handeye.core.errors import InvalidInput
+from handeye.program.events import AnyEvent, StepFinished
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 

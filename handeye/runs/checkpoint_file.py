@@ -14,19 +14,19 @@ import msgspec
 from msgspec import UNSET, UnsetType
 
 from handeye.cell.state import CellState
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, RunStarted, StageFinished, StageStarted
-from handeye.files import Kind, read_whole, write_whole
-from handeye.packed import decoded, encoded, packed, sealed, unpacked
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, read_whole, write_whole
+from handeye.core.packed import decoded, encoded, packed, sealed, unpacked
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
+from handeye.core.versions import versions
+from handeye.program.events import AnyEvent, RunStarted, StageFinished, StageStarted
 from handeye.program.senses import Sense
-from handeye.record import Record
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint, Snapshot
 from handeye.runs.system import SystemKind
 from handeye.runs.systems import digest_of, kind_of, listing_of, system_kind, written
 from handeye.tasks import DEFAULT
-from handeye.variation import WorldSpec
-from handeye.versions import versions
 
 MAGIC: Final = "handeye-checkpoint"
 VERSION: Final = 4

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
-from handeye.errors import InvalidInput
-from handeye.files import write_whole
+from handeye.core.errors import InvalidInput
+from handeye.core.files import write_whole
 from handeye.runs.checkpoint_file import (
     ENDING,
     Head,

@@ -5,14 +5,14 @@ from pathlib import Path
 from typing import Literal
 
 from handeye.cell.truth import Truth
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
 from handeye.runs.checkpoint_file import read_checkpoint
 from handeye.runs.folder import open_again
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.tasks import DEFAULT, task
-from handeye.variation import WorldSpec
 
 MomentKind = Literal["drawn", "final", "unfinished"]
 """Before anything happened; the plan has come to its end; it has not."""

@@ -11,22 +11,22 @@ from typing import Final
 
 import msgspec
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, RunFinished
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole, write_whole
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.vision_actions import just_found
-from handeye.files import read_whole, write_whole
 from handeye.ports.camera import Picture
+from handeye.program.events import AnyEvent, RunFinished
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.host_seconds import HostSeconds, Meter, read_host_seconds, write_host_seconds
 from handeye.runs.journal import Journal
 from handeye.runs.observer import Observer
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import digest_of, kind_of, written
+from handeye.systems.stanford.executor_run import context_of
 from handeye.trace.frames import Frames, NoFrames
 from handeye.trace.recorder import Looks, Recorder
 from handeye.vision.marks import Mark

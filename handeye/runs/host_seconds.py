@@ -8,10 +8,10 @@ from pathlib import Path
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.files import read_whole, write_whole
-from handeye.host_time import HostTimer
-from handeye.record import Record
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole, write_whole
+from handeye.core.host_time import HostTimer
+from handeye.core.record import Record
 from handeye.runs.runner import Runner
 
 _LARGEST = 10_000

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, WentBack, to_line
-from handeye.line_file import LineFile
+from handeye.core.errors import InvalidInput
+from handeye.core.line_file import LineFile
+from handeye.program.events import AnyEvent, WentBack, to_line
 from handeye.trace.eventlist import effective, read_events
 
 

@@ -1,7 +1,7 @@
 """Observers that look on while a run goes on. No observer can change a run."""
 
-from handeye.events import AnyEvent
 from handeye.execution.servo_period import ServoPeriod
+from handeye.program.events import AnyEvent
 from handeye.runs.snapshot import Checkpoint
 
 

@@ -5,9 +5,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal, Protocol
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
+from handeye.execution.servo import Halted
+from handeye.program.events import (
     AnyEvent,
     Choice,
     OperatorAnswered,
@@ -18,9 +20,7 @@ from handeye.events import (
     UndoOrdered,
     UndoStarted,
 )
-from handeye.execution.servo import Halted
 from handeye.program.stage_names import stage_index
-from handeye.record import Record
 from handeye.runs.advance import Pause, advance, keep, paused_before
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint

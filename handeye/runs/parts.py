@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from handeye.cell.rendering import RendererMaker
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.touch.spiral import SearchPattern
 
 NEEDED: Final = ("search", "camera")

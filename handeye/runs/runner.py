@@ -10,8 +10,14 @@ from typing import Final
 
 from handeye.cell.kept import KeptCell
 from handeye.cell.simulated import SimulationError
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import copied
+from handeye.core.plain_text import counted
+from handeye.execution.servo import Halted
+from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.stopwatch import Stopwatch
+from handeye.execution.undo.done import Undoing
+from handeye.program.events import (
     AnyEvent,
     AskedBy,
     Choice,
@@ -26,12 +32,6 @@ from handeye.events import (
     UndoOrdered,
     beginning,
 )
-from handeye.execution.servo import Halted
-from handeye.execution.servo_period import ServoPeriod
-from handeye.execution.stopwatch import Stopwatch
-from handeye.execution.undo.done import Undoing
-from handeye.mutable_records import copied
-from handeye.plain_text import counted
 from handeye.runs.observer import Observer
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.snapshot import Checkpoint, Snapshot, interfered

@@ -5,13 +5,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from handeye.al import AL, sewn
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.files import beside
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import beside
+from handeye.core.resources import plans
+from handeye.core.source import Source, read_source
 from handeye.program.language import Language, language_of
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
-from handeye.source import Source, read_source
 from handeye.tasks import task
 from handeye.tasks.interface import Task
 

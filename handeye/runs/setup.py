@@ -2,12 +2,12 @@
 
 import msgspec
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.program.senses import Sense
-from handeye.record import Record
 from handeye.tasks import DEFAULT
-from handeye.variation import WorldSpec
 
 
 class Setup(Record, frozen=True, kw_only=True):

@@ -6,11 +6,11 @@ from typing import Annotated
 import msgspec
 
 from handeye.cell.state import CellState
-from handeye.events import AnyEvent, ExperimentMade, OperatorAnswered, UndoOrdered
-from handeye.record import Record
+from handeye.core.record import Record
+from handeye.program.events import AnyEvent, ExperimentMade, OperatorAnswered, UndoOrdered
+from handeye.program.system_state import SystemState
 from handeye.runs.setup import Setup
 from handeye.runs.systems import listing_of
-from handeye.system_state import SystemState
 
 
 class Snapshot(Record, frozen=True, kw_only=True):

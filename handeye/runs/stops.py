@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from handeye.events import AnyEvent, ErrorRaised, StageFinished, UndoEnded
-from handeye.record import Record
+from handeye.core.record import Record
+from handeye.program.events import AnyEvent, ErrorRaised, StageFinished, UndoEnded
 from handeye.runs.runner import Runner
 
 

@@ -1,6 +1,6 @@
 """System: a machine that a run drives. It can step, give its state as one record and take it back; facts tell of it.
 
-The executor of programs (`runs/programs.py`) is the first.
+The executor of programs (`systems/stanford/executor_run.py`) is the first.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -11,16 +11,16 @@ import msgspec
 import numpy as np
 
 from handeye.cell.kept import KeptCell
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, Choice
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
 from handeye.execution.undo.done import Undoing
+from handeye.program.events import AnyEvent, Choice
 from handeye.program.operation import Device
-from handeye.record import Record
+from handeye.program.system_state import SystemState
 from handeye.runs.parts import OWN, Parts
 from handeye.runs.setup import Setup
-from handeye.system_state import SystemState
 
 
 class StepFacts(Protocol):

@@ -3,14 +3,14 @@
 from functools import lru_cache
 from typing import Final
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
 from handeye.planfile.store import written_digest
-from handeye.record import Record
-from handeye.runs.programs import PROGRAM
 from handeye.runs.setup import Setup
 from handeye.runs.system import Listing, SystemKind
-from handeye.runs.taught.system import TAUGHT
+from handeye.systems.stanford.executor_run import PROGRAM
+from handeye.systems.trig.run.system import TAUGHT
 
 _KINDS: Final[dict[str, SystemKind]] = {PROGRAM.name: PROGRAM, TAUGHT.name: TAUGHT}
 

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.events import StepStarted, UndoEnded, UndoOrdered
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import copied
 from handeye.execution.undo.done import Undoing
-from handeye.mutable_records import copied
+from handeye.program.events import StepStarted, UndoEnded, UndoOrdered
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.system import ExecutedStep, Listing
 from handeye.runs.systems import kind_of, listing_of

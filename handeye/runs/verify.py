@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.core.errors import InvalidInput
+from handeye.program.events import (
     AnyEvent,
     PanicStopped,
     StepFinished,

@@ -6,8 +6,8 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.arm import robots
-from handeye.diagnostics import quoted, suggestion
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import InvalidInput
 from handeye.tasks.interface import AnyTask, Task
 
 DEFAULT: Final = "water_pump"
@@ -18,8 +18,8 @@ _BUILT_IN: Final = {
 }
 """Where the tasks that come with handeye are found; they are imported when they are asked for."""
 _TAUGHT: Final = {
-    "palletise": ("handeye.tasks.blocks.task", "PALLET"),
-    "bucket": ("handeye.tasks.blocks.task", "BUCKET_TASK"),
+    "palletise": ("handeye.systems.trig.jobs.task", "PALLET"),
+    "bucket": ("handeye.systems.trig.jobs.task", "BUCKET_TASK"),
 }
 """Those that no planned program does, likewise."""
 _ELSEWHERE: Final = " (a task of your own is known to the Python program that calls `handeye.tasks.register`)"

@@ -9,19 +9,19 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 from handeye.arm.model import ArmModel, digest
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.faults import Catalogue
+from handeye.core.pose import Array
+from handeye.core.units import INCHES, Measures
+from handeye.core.variation import Variation, WorldSpec
 from handeye.execution.calibration_look import CalibrationLook
-from handeye.faults import Catalogue
 from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
 from handeye.ports.camera import Picture
-from handeye.pose import Array
 from handeye.program.program import Fixture, Part, Program
 from handeye.program.senses import Sense
 from handeye.tasks.trial import Trial
-from handeye.units import INCHES, Measures
-from handeye.variation import Variation, WorldSpec
 from handeye.vision.camera_model import CameraModel, View
 
 if TYPE_CHECKING:  # a plan is made and checked without a simulator

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Generic, Literal, TypeVar
 
-from handeye.record import Record
-from handeye.variation import WorldSpec
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
 
 Known = Literal["lamp", "sightings", "drawn", "true"]
 """What the program knows of its camera: what its own lamp shows it, as in a run; what so many simulated sightings of a

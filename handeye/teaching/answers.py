@@ -7,14 +7,14 @@ from typing import Final, Protocol
 import msgspec
 from msgspec import UNSET, UnsetType
 
+from handeye.core.diagnostics import Diagnostic, as_json, has_errors, render
+from handeye.core.record import Record
+from handeye.core.source import Source
 from handeye.debugger.formatting import shown_lines, summary_lines
 from handeye.debugger.step_summary import StepSummary
 from handeye.debugger.view_records import Shown
-from handeye.diagnostics import Diagnostic, as_json, has_errors, render
-from handeye.record import Record
-from handeye.report.pauses import pause_sentence
+from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
-from handeye.source import Source
 
 
 class LineResult(Record, frozen=True, kw_only=True):

@@ -11,12 +11,12 @@ from msgspec import UNSET
 from handeye.al.includes import read_script
 from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.core.files import beside, write_whole
 from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.views import show
-from handeye.diagnostics import quoted, suggestion
-from handeye.errors import HandeyeError, InvalidInput
-from handeye.events import Choice
-from handeye.files import beside, write_whole
+from handeye.program.events import Choice
 from handeye.teaching.answers import Answer, LineResult
 from handeye.teaching.functions import lasting
 from handeye.teaching.plan_and_run import answer

@@ -8,11 +8,11 @@ from handeye.al import AL
 from handeye.al.parser import parse
 from handeye.al.syntax import Macro
 from handeye.arm.model import ArmModel
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.pose import Array
+from handeye.core.source import Source
 from handeye.planning.scripts import PlannedScript, plan_source
-from handeye.pose import Array
 from handeye.program.taught import Taught
-from handeye.source import Source
 
 TYPED: Final = "typed"
 """Name of typed functions where a file would have a name."""

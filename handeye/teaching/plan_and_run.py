@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 from msgspec import UNSET
 
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
 from handeye.debugger.step_summary import step_summaries
-from handeye.diagnostics import Diagnostic
 from handeye.planning.scripts import PlannedScript
-from handeye.report.pauses import pause_sentence
+from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
-from handeye.source import Source
 from handeye.teaching.answers import NOTHING, Answer, LineResult
 from handeye.teaching.workplace import Workplace
 

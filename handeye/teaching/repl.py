@@ -7,10 +7,10 @@ from typing import Final
 import msgspec
 
 from handeye.al.includes import sewn
-from handeye.diagnostics import has_errors
-from handeye.errors import InvalidInput
-from handeye.events import Choice
-from handeye.source import Source, read_source
+from handeye.core.diagnostics import has_errors
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source, read_source
+from handeye.program.events import Choice
 from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED, is_open, mistakes
 from handeye.teaching.plan_and_run import about, answer, carry_out, done

@@ -7,17 +7,17 @@ from typing import Final
 
 import numpy as np
 
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.core.pose import Array
+from handeye.core.record import Vector3
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
 from handeye.debugger.command import Command, rows
 from handeye.debugger.views import show
-from handeye.diagnostics import quoted, suggestion
-from handeye.errors import HandeyeError, InvalidInput
-from handeye.pose import Array
 from handeye.program.program import Position
-from handeye.record import Vector3
 from handeye.teaching.answers import Answer, LineResult
 from handeye.teaching.plan_and_run import answer
 from handeye.teaching.teacher import Teacher
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
 AXES: Final = ("x", "y", "z")
 NAME: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)

@@ -13,11 +13,13 @@ from handeye.arm.jog import jog
 from handeye.arm.line import pivot
 from handeye.arm.samples import Samples
 from handeye.cell.pushing import pushed
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import write_whole
+from handeye.core.record import Vector3
+from handeye.core.source import Source, read_source
 from handeye.execution.servo import Halted
 from handeye.execution.servo_loop import Outcome
-from handeye.files import write_whole
 from handeye.planning.motions import TURN_SPEED, change_samples
 from handeye.planning.planner import SPEED
 from handeye.program.cause_text import error_sentence
@@ -25,9 +27,7 @@ from handeye.program.motion_operations import Change
 from handeye.program.program import Position
 from handeye.program.taught import Taught
 from handeye.program.taught_text import with_position
-from handeye.record import Vector3
-from handeye.runs.programs import cell_of
-from handeye.source import Source, read_source
+from handeye.systems.stanford.executor_run import cell_of
 from handeye.teaching.answers import Answer
 from handeye.teaching.functions import TYPED
 from handeye.teaching.plan_and_run import carry_out

@@ -6,28 +6,28 @@ from typing import Final
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.events import Choice, RunStarted, beginning
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import copied
+from handeye.core.pose import Array
+from handeye.core.source import Source
+from handeye.core.variation import WorldSpec
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState
-from handeye.mutable_records import copied
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest
 from handeye.planning.scripts import PlannedScript
-from handeye.pose import Array
+from handeye.program.events import Choice, RunStarted, beginning
 from handeye.program.taught import Taught
 from handeye.runs.advance import Pause, advance
 from handeye.runs.observer import Observer
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup, plan_of
 from handeye.runs.snapshot import Checkpoint, Snapshot
-from handeye.source import Source
+from handeye.systems.stanford.executor_run import context_of
 from handeye.tasks import DEFAULT
 from handeye.tasks import task as known_task
 from handeye.tasks.interface import Task
 from handeye.teaching.functions import TYPED, planned
-from handeye.variation import WorldSpec
 
 MOST: Final = 100
 """States that can be gone back to."""

@@ -7,7 +7,7 @@ towards that finger's side as fast as its fingers close: this finger stands stil
 from dataclasses import dataclass, field
 from typing import Final
 
-from handeye.errors import NOTHING_HELD
+from handeye.core.errors import NOTHING_HELD
 from handeye.touch.hold import least_gap
 
 SPARE: Final = 0.005

@@ -6,7 +6,7 @@ from typing import Any, Final, Protocol
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program import guards as g
 from handeye.program.guards import GuardKind, Guards
 

@@ -6,7 +6,7 @@ and in the middle as before.
 
 from typing import Final
 
-from handeye.units import INCH
+from handeye.core.units import INCH
 
 NEARLY_ZERO: Final = 0.05 * INCH
 """The most that fingers shut on nothing read, m: their potentiometer is off by up to .02 in, .04 in worlds of the high

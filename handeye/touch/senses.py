@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
-from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
+from handeye.core.pose import Array
+from handeye.core.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 FREED: Final = 0.12 * INCH
 """Opening of the gap after which a finger stands off whatever it touched, m. Half of it is each finger's: the arm

@@ -6,11 +6,11 @@ from typing import Final
 
 import numpy as np
 
-from handeye import events as happened
-from handeye.events import AnyEvent, beginning
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.core.units import INCH
+from handeye.program import events as happened
+from handeye.program.events import AnyEvent, beginning
 from handeye.trace.sentences import inches, sentence
-from handeye.units import INCH
 
 ASTRAY: Final = 0.02 * INCH
 """A motion that ends farther than this from where it was to end is worth a word; free ones end nearer."""

@@ -16,7 +16,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from google.protobuf.descriptor_pb2 import FileDescriptorSet
 from google.protobuf.message import Message
 
-from handeye.events import AnyEvent
+from handeye.program.events import AnyEvent
 from handeye.trace.hand_message import hand_schema
 
 FORMAT: Final = "handeye trace"

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, WentBack
-from handeye.files import read_whole
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.program.events import AnyEvent, WentBack
 from handeye.trace.events_read import read_event
 
 

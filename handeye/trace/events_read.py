@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import msgspec
 
-from handeye.events import AnyEvent
+from handeye.program.events import AnyEvent
 
 _DECODER: Final[msgspec.json.Decoder[AnyEvent]] = msgspec.json.Decoder(AnyEvent)
 

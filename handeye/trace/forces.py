@@ -8,7 +8,7 @@ import numpy as np
 from msgspec import UNSET
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.guards import GuardKind
 from handeye.trace.hand_message import Axes, GuardMessage, HandMessage, read_hand
 from handeye.trace.records import RawMessage

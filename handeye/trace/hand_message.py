@@ -6,10 +6,10 @@ import msgspec
 import numpy as np
 from msgspec import UNSET, UnsetType
 
+from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.execution.servo_period import ServoPeriod
-from handeye.pose import Array
 from handeye.program.guards import GuardKind
-from handeye.record import Record
 from handeye.touch.guards import ActiveGuard
 
 PLACES: Final = 6

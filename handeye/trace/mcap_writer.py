@@ -11,8 +11,9 @@ import msgspec
 from mcap.writer import Writer
 from zstandard import compress
 
-from handeye.errors import InvalidInput
-from handeye.events import RunStarted
+from handeye.core.errors import InvalidInput
+from handeye.core.versions import HANDEYE
+from handeye.program.events import RunStarted
 from handeye.trace.channels import (
     CHANNELS,
     FORMAT,
@@ -24,7 +25,6 @@ from handeye.trace.channels import (
     VERSION,
     nanoseconds,
 )
-from handeye.versions import HANDEYE
 
 CHUNK: Final = 1 << 20
 """Bytes of messages after which a chunk is closed."""

@@ -12,9 +12,9 @@ from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 from google.protobuf.timestamp_pb2 import Timestamp
 from numpy.typing import NDArray
 
+from handeye.core.pose import Array
 from handeye.ports.camera import Picture
 from handeye.ports.workcell import Sensed
-from handeye.pose import Array
 from handeye.trace.channels import WORLD
 
 GAP: Final = "gap"

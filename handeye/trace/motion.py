@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.trace.messages import GAP
 from handeye.trace.records import RawMessage
 

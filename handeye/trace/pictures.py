@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 
-from handeye.events import PictureTaken
 from handeye.ports.camera import Picture
+from handeye.program.events import PictureTaken
 from handeye.trace.channels import EVENTS, PICTURE
 from handeye.trace.events_read import read_event
 from handeye.trace.messages import LEVEL

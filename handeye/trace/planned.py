@@ -1,7 +1,7 @@
 """The plan that a recorded run followed."""
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode
 from handeye.trace.trace import Trace

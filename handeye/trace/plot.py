@@ -6,16 +6,16 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from handeye import events as happened
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent
-from handeye.pose import Array
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCHES, Measures
+from handeye.program import events as happened
+from handeye.program.events import AnyEvent
 from handeye.program.stage_names import stage_index
 from handeye.tasks import known_any
 from handeye.trace.stages import Stage
 from handeye.trace.steps import Span
 from handeye.trace.trace import Trace
-from handeye.units import DEGREE, INCHES, Measures
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

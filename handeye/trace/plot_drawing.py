@@ -3,8 +3,8 @@
 from io import BytesIO
 from typing import Any, Final
 
-from handeye.extras import MissingExtra
-from handeye.files import Kind
+from handeye.core.extras import MissingExtra
+from handeye.core.files import Kind
 from handeye.trace.plot import Panel, Plot
 
 KINDS: Final = {

@@ -11,8 +11,8 @@ from foxglove_schemas_protobuf.JointStates_pb2 import JointStates
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
 
 from handeye.arm.model import ArmModel
-from handeye.events import AnyEvent, FrictionMeasured
-from handeye.record import Record
+from handeye.core.record import Record
+from handeye.program.events import AnyEvent, FrictionMeasured
 from handeye.trace.annotations import read_annotations
 from handeye.trace.channels import ANNOTATIONS, EVENTS, FRAMES, HAND, JOINTS, PICTURE
 from handeye.trace.events_read import read_event

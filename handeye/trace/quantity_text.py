@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import Final
 
-from handeye.plain_text import printable, told_apart
+from handeye.core.plain_text import printable, told_apart
+from handeye.core.units import UNITS
 from handeye.trace.quantities import Differing, Value
-from handeye.units import UNITS
 
 _SHOWN_IN: Final[Mapping[str, str]] = {
     "m": "in", "m/s": "in/s", "rad": "deg", "rad/s": "deg/s", "N": "oz", "N m": "oz in",

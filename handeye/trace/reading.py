@@ -8,10 +8,10 @@ from typing import Final
 import msgspec
 from mcap.writer import MCAP0_MAGIC
 
-from handeye.errors import InvalidInput
-from handeye.events import RunStarted
-from handeye.files import Kind, read_whole
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, read_whole
 from handeye.planfile.store import written_digest
+from handeye.program.events import RunStarted
 from handeye.trace.channels import EVENTS, FORMAT, THINNED, VERSION
 from handeye.trace.events_read import read_event
 from handeye.trace.records import Unsound, check, front, is_ended, is_mcap, read_messages

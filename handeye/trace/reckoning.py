@@ -14,10 +14,10 @@ from handeye.arm.computed_torque import felt_wrench
 from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel
-from handeye.events import AnyEvent, ErrorRaised, GuardTripped, RunStarted
+from handeye.core.pose import Array
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode
-from handeye.pose import Array
+from handeye.program.events import AnyEvent, ErrorRaised, GuardTripped, RunStarted
 from handeye.program.guards import unmet
 from handeye.program.operation import Operation
 from handeye.tasks import task

@@ -6,8 +6,11 @@ from pathlib import Path
 
 from google.protobuf.message import DecodeError
 
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.execution.servo_period import ServoPeriod
+from handeye.ports.camera import Picture
+from handeye.program.events import (
     Event,
     PartInspected,
     PartMatched,
@@ -17,9 +20,6 @@ from handeye.events import (
     StepStarted,
     WentBack,
 )
-from handeye.execution.servo_period import ServoPeriod
-from handeye.files import read_whole
-from handeye.ports.camera import Picture
 from handeye.trace.frames import Frames, Mask
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses

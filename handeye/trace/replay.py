@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
-from handeye.events import AnyEvent, StageFinished, StageStarted, StepStarted
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.program.events import AnyEvent, StageFinished, StageStarted, StepStarted
 from handeye.trace.channels import FRAMES, JOINTS
 from handeye.trace.messages import Poses
 from handeye.trace.motion import Motion

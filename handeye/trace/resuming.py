@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from handeye.events import Event, to_line
+from handeye.program.events import Event, to_line
 from handeye.trace.channels import EVENTS
 from handeye.trace.records import RawMessage, read_messages
 

@@ -11,7 +11,7 @@ from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 
 from handeye.cell.looks import BOX, CYLINDER, LATENT, MESH, SEEN
 from handeye.cell.truth import Truth
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.trace.channels import WORLD
 from handeye.trace.messages import stamp
 

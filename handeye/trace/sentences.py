@@ -6,13 +6,13 @@ from typing import Final
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from handeye import events as happened
-from handeye.events import Event
-from handeye.plain_text import counted, told_apart
+from handeye.core.plain_text import counted, told_apart
+from handeye.core.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 from handeye.ports.camera import Renderer
+from handeye.program import events as happened
 from handeye.program.cause_text import call_sentence, error_sentence, inspection_sentence, match_sentence
+from handeye.program.events import Event
 from handeye.program.guards import GuardKind
-from handeye.units import DEGREE, INCH, INCHES, MILLIMETRE, OUNCE_FORCE, OUNCE_INCH, Measures
 
 LEVELS: Final[dict[type[Event], Log.Level.ValueType]] = {
     happened.RunStarted: Log.INFO,

@@ -4,7 +4,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Final, Literal
 
-from handeye.events import (
+from handeye.core.record import Record
+from handeye.program.events import (
     AnyEvent,
     OperatorCalled,
     RunFinished,
@@ -15,7 +16,6 @@ from handeye.events import (
     UndoEnded,
     UndoStarted,
 )
-from handeye.record import Record
 
 BROKEN_OFF: Final = "broken off"
 Status = Literal["done", "stopped", "skipped", "broken off", "turned"]

@@ -9,9 +9,9 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye import events as happened
-from handeye.events import AnyEvent, Event
-from handeye.plain_text import printable
+from handeye.core.plain_text import printable
+from handeye.program import events as happened
+from handeye.program.events import AnyEvent, Event
 
 BROKEN_OFF = "interrupted"
 """Status of a stage whose end was not recorded."""

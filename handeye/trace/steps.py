@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from handeye.events import AnyEvent, StepFinished, StepStarted
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.program.events import AnyEvent, StepFinished, StepStarted
 
 CLOCKS = 1e-4
 """s that the clock of the events, which is rounded, may be off that of the servo periods; far less than a period."""

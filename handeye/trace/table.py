@@ -6,8 +6,8 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.errors import InvalidInput
-from handeye.plain_text import counted
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import counted
 
 Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
 
@@ -79,6 +79,6 @@ class Table:
         )
 
     def _repr_html_(self) -> str:
-        from handeye.door.table_page import table_page
+        from handeye.api.table_page import table_page
 
         return table_page(self)

@@ -8,9 +8,9 @@ from typing import Final, Literal, get_args
 
 import numpy as np
 
-from handeye.extras import MissingExtra
-from handeye.folders import FolderKind, check_folder, write_folder
-from handeye.plain_text import printable
+from handeye.core.extras import MissingExtra
+from handeye.core.folders import FolderKind, check_folder, write_folder
+from handeye.core.plain_text import printable
 from handeye.trace.table import Column, Table
 from handeye.trace.tables import tables
 from handeye.trace.trace import Trace

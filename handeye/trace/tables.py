@@ -6,9 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, StageStarted, StepStarted
-from handeye.pose import Array
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.units import INCHES
+from handeye.program.events import AnyEvent, StageStarted, StepStarted
 from handeye.tasks import known_any
 from handeye.tasks.interface import AnyTask
 from handeye.trace.resuming import event_data
@@ -16,7 +17,6 @@ from handeye.trace.sentences import sentence
 from handeye.trace.steps import CLOCKS
 from handeye.trace.table import Column, Table
 from handeye.trace.trace import Trace
-from handeye.units import INCHES
 
 NO_STEP: Final = -1
 """Number in the place of a step where none was under way."""

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, SCENE, VERSION
 from handeye.trace.events_read import read_event
 from handeye.trace.mcap_writer import GrowingFile

@@ -7,9 +7,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.polyline import Off, Rows, needed_rows, off_poses, off_values, smooth
+from handeye.core.pose import Array
 from handeye.program.guards import GuardKind
-from handeye.straight_ways import Off, Rows, needed_rows, off_poses, off_values, smooth
 from handeye.trace.forces import Forces
 from handeye.trace.messages import Poses
 from handeye.trace.trace import Trace

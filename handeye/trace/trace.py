@@ -17,10 +17,10 @@ import numpy as np
 from google.protobuf.message import DecodeError
 from numpy.typing import NDArray
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, RunStarted
-from handeye.plain_text import one_line
-from handeye.pose import Array
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import one_line
+from handeye.core.pose import Array
+from handeye.program.events import AnyEvent, RunStarted
 from handeye.trace.channels import EVENTS, HAND, JOINTS, MOMENTS, REPEATABLE
 from handeye.trace.forces import Forces, recorded_forces
 from handeye.trace.messages import Poses
@@ -240,8 +240,8 @@ class Trace:
             InvalidInput: as `frame`; there is no such stage, or nothing was recorded there; there is no such length or
                 speed; or it cannot be written there.
         """
-        from handeye.door.arguments import given_file
-        from handeye.folders import Taken
+        from handeye.api.arguments import given_file
+        from handeye.core.folders import Taken
         from handeye.video.making import make_video
         from handeye.video.wanted import Wanted
 
@@ -287,7 +287,7 @@ class Trace:
         return table(self, name)
 
     def _repr_html_(self) -> str:
-        from handeye.door.player import player
+        from handeye.api.player import player
 
         return player(self)
 

@@ -6,9 +6,9 @@ from typing import Final
 import numpy as np
 from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
 
-from handeye.events import Event, PictureTaken, RunStarted, StageFinished, StepStarted
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.camera import Picture
+from handeye.program.events import Event, PictureTaken, RunStarted, StageFinished, StepStarted
 from handeye.trace import messages
 from handeye.trace.annotations import annotations
 from handeye.trace.channels import (

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # a trial is seldom wanted where something in this folder is
-    from handeye.door.plans import FileName, Planned
-    from handeye.door.worlds import World
-    from handeye.report.judging import Limits, Referee
+    from handeye.api.plans import FileName, Planned
+    from handeye.api.worlds import World
+    from handeye.results.judging import Limits, Referee
     from handeye.touch.spiral import SearchPattern
     from handeye.trials.prediction.predicted import PredictedWorlds
     from handeye.trials.results import Results

@@ -3,11 +3,12 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.program.senses import Sense
-from handeye.report.finishing import finished
-from handeye.report.judging import Limits, Referee, check_limits
-from handeye.report.result import Result
+from handeye.results.finishing import finished
+from handeye.results.judging import Limits, Referee, check_limits
+from handeye.results.result import Result
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import NOBODY, Operator, attend
@@ -15,7 +16,6 @@ from handeye.runs.parts import OWN, Parts
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.variation import WorldSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,8 +14,8 @@ from typing import Final
 import msgspec
 import numpy as np
 
-from handeye.errors import HandeyeError
-from handeye.events import AnyEvent, PanicStopped, StageFinished, StageStarted
+from handeye.core.errors import HandeyeError
+from handeye.program.events import AnyEvent, PanicStopped, StageFinished, StageStarted
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, TRACE
 from handeye.runs.snapshot import Snapshot

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
-from handeye.events import WentBack
+from handeye.program.events import WentBack
 from handeye.runs.folder import EVENTS, TRACE
 from handeye.trace.eventlist import effective, read_events
 from handeye.trials.breaking import UnbrokenRun, Verdict, handeye

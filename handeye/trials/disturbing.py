@@ -6,24 +6,24 @@ from typing import Final
 
 import numpy as np
 
-from handeye.events import UndoFinished, UndoStarted
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.program.causes import UndoResisted
-from handeye.record import Record
-from handeye.report.finishing import finished
-from handeye.report.result import Result
+from handeye.program.events import UndoFinished, UndoStarted
+from handeye.results.finishing import finished
+from handeye.results.result import Result
 from handeye.runs.advance import advance
 from handeye.runs.host_seconds import Meter
-from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
+from handeye.systems.stanford.executor_run import cell_of
 from handeye.tasks import task
 from handeye.tasks.interface import Disturbance
 from handeye.trials.brakes import brakes_hold
 from handeye.trials.seeds import in_processes
-from handeye.variation import WorldSpec
 
 MOVED: Final = 2.0
 """mm by which no part may be moved that the hand does not hold."""

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from handeye.core.variation import WorldSpec
 from handeye.tasks import task
 from handeye.tasks.trial import Attempt, Known
 from handeye.trials.seeds import in_processes
-from handeye.variation import WorldSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

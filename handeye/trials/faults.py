@@ -7,18 +7,18 @@ from typing import Annotated, Final, Literal
 
 import msgspec
 
-from handeye.events import AnyEvent, StepStarted
-from handeye.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.record import Record
-from handeye.report.result import Result
-from handeye.runs.programs import cell_of
+from handeye.program.events import AnyEvent, StepStarted
+from handeye.results.result import Result
+from handeye.systems.stanford.executor_run import cell_of
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
 from handeye.trials.brakes import brakes_hold
 from handeye.trials.panic import PanicInStage
 from handeye.trials.seeds import in_processes
-from handeye.variation import WorldSpec
 
 Outcome = Literal["recovered", "stopped", "misnamed", "unnoticed", "unbraked", "silent"]
 """How a run with a fault ended: with a right pump, as it may; stopped, with brakes on, by an error that names the

@@ -6,7 +6,7 @@ from math import fsum, log
 from statistics import fmean
 from typing import Final, Literal
 
-from handeye.plain_text import counted
+from handeye.core.plain_text import counted
 from handeye.trials.growth_costs import Costs, Unit, cells, statements
 
 LINEAR: Final = 1.15

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Final, Literal
 
 from handeye.al import AL, compile_text
+from handeye.core.source import Source
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_source
 from handeye.program.taught import Taught, load_taught
@@ -16,13 +18,11 @@ from handeye.runs.runner import Runner
 from handeye.runs.scripts import default_script
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.source import Source
 from handeye.tasks import task
 from handeye.trace.account import account
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
 from handeye.trials.speed import carry_out, peak_memory_mib
-from handeye.variation import WorldSpec
 
 Unit = Literal["cpu_s", "mib"]
 Costs = Mapping[tuple[str, Unit], float]

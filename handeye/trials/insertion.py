@@ -14,27 +14,27 @@ from msgspec.structs import replace
 
 from handeye.al import AL
 from handeye.cell.state import noise_state
-from handeye.events import SearchAdvanced
+from handeye.core.random_streams import random_numbers
+from handeye.core.record import Record
+from handeye.core.resources import plans
+from handeye.core.source import Source, read_source
+from handeye.core.units import INCH, MILLIMETRE
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.execution.servo_period import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_source
 from handeye.program.cause_text import call_sentence
-from handeye.random_streams import random_numbers
-from handeye.record import Record
-from handeye.resources import plans
+from handeye.program.events import SearchAdvanced
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
-from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.scripts import taught_beside
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.source import Source, read_source
+from handeye.systems.stanford.executor_run import cell_of
 from handeye.tasks import task
 from handeye.tasks.inserting import CHAMFER, CLEARANCE, SPREAD, Inserting
 from handeye.trials.seeds import in_processes
-from handeye.units import INCH, MILLIMETRE
-from handeye.variation import Overrides, WorldSpec
 
 Search = Literal["gentle", "1973"]
 TASK: Final = "insertion"

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from scipy.stats import binomtest
 
-from handeye.record import Record
+from handeye.core.record import Record
 from handeye.trials.insertion import Condition, InsertionTrial
 
 GENTLE: Final = 20.0

@@ -8,11 +8,11 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.files import Kind
-from handeye.markup import Markup
-from handeye.see.page.document import head, resource
-from handeye.see.page.elements import element, figure_cell, figure_heads, note, table
-from handeye.see.page.plots import Scale, dot, drawing, rule, words
+from handeye.core.files import Kind
+from handeye.core.markup import Markup
+from handeye.report.page.document import head, resource
+from handeye.report.page.elements import element, figure_cell, figure_heads, note, table
+from handeye.report.page.plots import Scale, dot, drawing, rule, words
 from handeye.trials.insertion import Condition, InsertionTrial
 from handeye.trials.insertion_figures import GENTLE, Bench, Figures, Spread
 

@@ -9,9 +9,9 @@ import numpy as np
 from handeye.arm.ik import branches, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
-from handeye.pose import Array, Pose, inverse
+from handeye.core.pose import Array, Pose, inverse
+from handeye.core.versions import installed
 from handeye.trials.peers import Comparison, Outcome, Trial, Way, timed
-from handeye.versions import installed
 
 SEED: Final = 0
 TOOLBOX: Final = "roboticstoolbox-python"

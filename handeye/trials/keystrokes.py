@@ -8,7 +8,7 @@ from typing import Any, Final, Self
 
 import msgspec
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 _URI: Final = "untitled:pins.al"
 

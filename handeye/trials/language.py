@@ -15,11 +15,11 @@ from typing import Final
 from msgspec.structs import replace
 
 from handeye.al import AL, compile_text
+from handeye.core.source import Source, read_source
 from handeye.planning.scripts import plan_source
 from handeye.program.program import Position
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script
-from handeye.source import Source, read_source
 from handeye.tasks import task
 from handeye.trials.keystrokes import typed
 

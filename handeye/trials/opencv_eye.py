@@ -7,8 +7,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.core.pose import Array
 from handeye.ports.camera import Picture
-from handeye.pose import Array
 from handeye.program.program import Part
 from handeye.vision.blob import BoundingBox
 from handeye.vision.camera_model import View

@@ -6,8 +6,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from handeye.events import AnyEvent
 from handeye.execution.servo_period import ServoPeriod
+from handeye.program.events import AnyEvent
 from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, RunFolder, open_new
 from handeye.runs.observer import Observer

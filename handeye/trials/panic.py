@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Final
 
-from handeye.events import AnyEvent, StageStarted
 from handeye.execution.servo_period import ServoPeriod
+from handeye.program.events import AnyEvent, StageStarted
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 

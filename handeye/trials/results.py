@@ -7,20 +7,20 @@ from typing import Final, overload
 
 import numpy as np
 
-from handeye.door.arguments import given_count
-from handeye.door.html import heading, inked, page, table
-from handeye.door.parts import limits_of, parts_of, referee_of
-from handeye.door.plans import FileName, Planned, plan
-from handeye.door.worlds import World
-from handeye.errors import InvalidInput
-from handeye.report.judging import Limits, Referee
-from handeye.report.result import Check, Result
+from handeye.api.arguments import given_count
+from handeye.api.html import heading, inked, page, table
+from handeye.api.parts import limits_of, parts_of, referee_of
+from handeye.api.plans import FileName, Planned, plan
+from handeye.api.worlds import World
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec, checked_seed
+from handeye.results.judging import Limits, Referee
+from handeye.results.result import Check, Result
 from handeye.runs.scripts import default_script
 from handeye.touch.spiral import SearchPattern
 from handeye.trace.table import Column, Table
 from handeye.trials.assembly import run_plan
 from handeye.trials.seeds import assemble_many
-from handeye.variation import WorldSpec, checked_seed
 
 _VERDICTS: Final = {0: ("assembled", "good"), 1: ("stopped", "doubtful"), 3: ("not right", "bad")}
 """Of a result by its exit code, and their colours."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.cell.bare_physics import Bare
-from handeye.report.result import Result
+from handeye.results.result import Result
 from handeye.trials.cpu_account import Place
 from handeye.trials.run_components import COMPONENTS, PICTURES
 

@@ -4,13 +4,13 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TypeVar
 
-from handeye.errors import HandeyeError
+from handeye.core.errors import HandeyeError
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.report.judging import Limits
-from handeye.report.result import Result
+from handeye.results.judging import Limits
+from handeye.results.result import Result
 from handeye.trials.assembly import run_plan
 from handeye.trials.workers import answers
-from handeye.variation import WorldSpec
 
 Item = TypeVar("Item")
 T = TypeVar("T")

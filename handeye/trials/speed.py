@@ -14,16 +14,16 @@ from typing import Final
 
 from handeye.cell.bare_physics import Bare, play
 from handeye.cell.tape import Tape
-from handeye.events import AnyEvent, StageStarted
-from handeye.report.outcome import outcome
+from handeye.program.events import AnyEvent, StageStarted
+from handeye.results.outcome import outcome
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
-from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.stanford.executor_run import cell_of
 from handeye.trials.cpu_account import CpuAccount
 from handeye.trials.run_components import charged_to
 from handeye.trials.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent

@@ -7,8 +7,8 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.diagnostics import visible
-from handeye.report.page import clock
+from handeye.core.diagnostics import visible
+from handeye.results.page import clock
 from handeye.trials.run_components import COMPONENTS, PHYSICS, PICTURES
 from handeye.trials.run_cost import RunCost, Speed
 

@@ -10,7 +10,7 @@ from multiprocessing import connection, get_context, parent_process
 from multiprocessing.connection import Connection
 from typing import Any, Final, Generic, TypeVar
 
-from handeye.host_time import HostTimer
+from handeye.core.host_time import HostTimer
 from handeye.trials.interrupts import deaf_to_interrupts
 
 Item = TypeVar("Item")

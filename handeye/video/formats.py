@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from handeye.errors import InvalidInput
-from handeye.files import Kind
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind
 from handeye.video.frames import Frames
 from handeye.video.webm import webm
 from handeye.video.webp import webp

@@ -10,12 +10,12 @@ import numpy as np
 
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import posed
-from handeye.errors import InvalidInput
-from handeye.files import check_place, write_over
-from handeye.folders import Taken
-from handeye.see.facts.scene import check_scene
-from handeye.see.facts.seen import SeenPicture
-from handeye.see.recorded import Recorded
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place, write_over
+from handeye.core.folders import Taken
+from handeye.report.facts.scene import check_scene
+from handeye.report.facts.seen import SeenPicture
+from handeye.report.recorded import Recorded
 from handeye.trace.trace import Trace
 from handeye.video.captions import captioned
 from handeye.video.formats import format_of

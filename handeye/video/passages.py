@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
-from handeye.events import CameraBusy
-from handeye.pose import Array
-from handeye.see.facts.seen import SeenPicture, seen_pictures
-from handeye.see.recorded import Recorded
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.program.events import CameraBusy
+from handeye.report.facts.seen import SeenPicture, seen_pictures
+from handeye.report.recorded import Recorded
 from handeye.trace.trace import Trace
 
 PATIENCE: Final = 1.0

@@ -6,12 +6,12 @@ from typing import Final
 
 import numpy as np
 
-from handeye.diagnostics import quoted, visible
-from handeye.errors import InvalidInput
-from handeye.pose import Array
+from handeye.core.diagnostics import quoted, visible
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
 from handeye.program.stage_names import stage_index
-from handeye.see.facts.seen import SeenPicture
-from handeye.see.page.figures import clock
+from handeye.report.facts.seen import SeenPicture
+from handeye.report.page.figures import clock
 from handeye.trace.planned import plan_of
 from handeye.trace.stages import BROKEN_OFF, Stage
 from handeye.trace.trace import SHOWN, Trace

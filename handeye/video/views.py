@@ -6,9 +6,9 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.cell.photograph import Near
-from handeye.errors import InvalidInput
-from handeye.events import StepFinished
-from handeye.pose import Array
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.program.events import StepFinished
 from handeye.trace.stages import Stage
 from handeye.trace.trace import Trace
 from handeye.video.wanted import FOLLOW, ORBIT

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.cell.photograph import LARGEST, SMALLEST
-from handeye.errors import InvalidInput
-from handeye.whole_numbers import whole
+from handeye.core.errors import InvalidInput
+from handeye.core.whole_numbers import whole
 
 SECONDS: Final = 14.0
 """How long a video is where nobody says."""

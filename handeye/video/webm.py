@@ -10,7 +10,7 @@ from typing import Final
 
 import cv2
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.video.frames import RATE, Frames, bgr
 
 _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)

@@ -6,9 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.events import AnyEvent, beginning
+from handeye.core.pose import Array
 from handeye.execution.servo_period import ServoPeriod
-from handeye.pose import Array
+from handeye.program.events import AnyEvent, beginning
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.trace.frames import Frames, NoFrames

@@ -7,14 +7,14 @@ from typing import Any, Final
 
 import numpy as np
 
-from handeye.markup import Markup
+from handeye.core.markup import Markup
+from handeye.report import player
+from handeye.report.page.document import head, packed, resource
+from handeye.report.page.elements import element
+from handeye.report.page.moments import json_markup
+from handeye.report.player import scene, tracks
 from handeye.runs.runner import Runner
 from handeye.runs.systems import written
-from handeye.see import player
-from handeye.see.page.document import head, packed, resource
-from handeye.see.page.elements import element
-from handeye.see.page.moments import json_markup
-from handeye.see.player import scene, tracks
 from handeye.trace.messages import Poses
 from handeye.view.moment import FIGURES, Newest
 

@@ -20,7 +20,7 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.view.access import HOST, LIVE, NOTHING, Access
 from handeye.view.link import Link
 from handeye.view.moment import Newest

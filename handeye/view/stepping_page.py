@@ -2,11 +2,11 @@
 
 from typing import Any, Final
 
-from handeye.markup import Markup
+from handeye.core.markup import Markup
 from handeye.program.program import Program
+from handeye.report.page.elements import element
+from handeye.report.page.source import listing
 from handeye.runs.runner import Runner
-from handeye.see.page.elements import element
-from handeye.see.page.source import listing
 from handeye.view.moment import Newest
 from handeye.view.page import Face, buttons, live_page
 

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from typing import Final
 
 from handeye.arm.model import ArmModel
-from handeye.markup import Markup
-from handeye.see.page.elements import element, text
+from handeye.core.markup import Markup
+from handeye.report.page.elements import element, text
 from handeye.teaching.teach_commands import AXES
 from handeye.teaching.teacher import Teacher
 from handeye.view.moment import Newest

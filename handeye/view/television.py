@@ -6,13 +6,13 @@ from functools import cached_property
 
 import msgspec
 
-from handeye.events import AnyEvent, ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.execution.state import ExecutionState, Found
+from handeye.program.events import AnyEvent, ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.program.program import Program
-from handeye.runs.programs import ProgramSystem
+from handeye.report.facts.seen import Finding, SeenPicture
+from handeye.report.page.seen import figure
 from handeye.runs.runner import Runner
-from handeye.see.facts.seen import Finding, SeenPicture
-from handeye.see.page.seen import figure
+from handeye.systems.stanford.executor_run import ProgramSystem
 from handeye.trace.steps import DoneStep, done_steps
 
 NEWS = PictureTaken | PartSeen | PartInspected | PartMatched | ErrorRaised

@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from handeye.core.pose import Array
 from handeye.ports.camera import Picture
-from handeye.pose import Array
 
 FARTHEST: Final = 4
 """Points along the lines and across that a picture is looked for."""

@@ -11,11 +11,11 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.causes import NoHoles, NoOutline, OutsidePicture, SightCause
 from handeye.program.program import Part
-from handeye.units import INCH
 from handeye.vision.blob import BoundingBox, localise
 from handeye.vision.camera_model import View
 from handeye.vision.hole_search import SEARCHES, HoleFinder, Levels

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.vision.edge import SPAN, Edges, Polarity
 from handeye.vision.scan import Scan
 

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.vision.beam import beams
 from handeye.vision.edge import BRIGHTER, SPAN
 from handeye.vision.scan import MARGIN, Scan

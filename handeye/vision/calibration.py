@@ -11,9 +11,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
-from handeye.pose import Array
-from handeye.units import DEGREE, INCH
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCH
 from handeye.vision.camera_model import CameraModel, View
 
 PLACE_PRIOR: Final = 0.5 * INCH  # sigma, of the mount and of the lens offsets

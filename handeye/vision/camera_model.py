@@ -12,9 +12,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array, Pose, pose
 from handeye.ports.camera import COLUMNS, RASTER, ROWS
-from handeye.pose import Array, Pose, pose
 
 CENTRE: Final = ((COLUMNS - 1) / 2, (ROWS - 1) / 2)
 SHORTEST: Final = 0.001

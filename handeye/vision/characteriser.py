@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.vision.beam import beams
 from handeye.vision.camera_model import View
 from handeye.vision.edge import BRIGHTER, Edge, Polarity

@@ -5,7 +5,7 @@ from typing import Final, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 SPAN: Final = 3
 """Points averaged on either side of a discontinuity: means of 2 are too noisy at one level of noise."""

@@ -13,9 +13,10 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.units import INCH
 from handeye.ports.camera import Picture
-from handeye.pose import Array
 from handeye.program.causes import (
     BaseHoleUnseen,
     GasketHoleOff,
@@ -26,7 +27,6 @@ from handeye.program.causes import (
     NoGasket,
 )
 from handeye.program.program import Hole, Part
-from handeye.units import INCH
 from handeye.vision.camera_model import View, in_picture
 from handeye.vision.characteriser import characterise, fit_circle, rim
 from handeye.vision.holes import hole_places

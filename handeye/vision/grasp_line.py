@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from handeye.core.pose import Pose
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.pose import Pose
 from handeye.vision.camera_model import View
 
 GraspLine = tuple[tuple[float, float], tuple[float, float]]

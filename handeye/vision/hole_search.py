@@ -5,9 +5,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.core.units import INCH
 from handeye.program.program import Part
-from handeye.units import INCH
 from handeye.vision.beam import beams
 from handeye.vision.blob import BoundingBox
 from handeye.vision.camera_model import View

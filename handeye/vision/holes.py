@@ -6,9 +6,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE
 from handeye.program.program import Part
-from handeye.units import DEGREE
 from handeye.vision.camera_model import View
 from handeye.vision.characteriser import Blob
 from handeye.vision.scan import Scan

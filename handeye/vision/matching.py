@@ -10,11 +10,11 @@ from typing import Final
 import cv2
 import numpy as np
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.causes import OutsidePicture, PartAstray
 from handeye.program.program import Part
-from handeye.units import INCH
 from handeye.vision.alignment import Points, changed, moved, shift, smooth
 from handeye.vision.base import Failure
 from handeye.vision.camera_model import View, in_picture

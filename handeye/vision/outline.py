@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE
 from handeye.program.program import Part
-from handeye.units import DEGREE
 from handeye.vision.blob import BoundingBox
 from handeye.vision.camera_model import View
 

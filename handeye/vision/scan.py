@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 Places = NDArray[np.intp]
 """Numbers of points, line by line from the first."""

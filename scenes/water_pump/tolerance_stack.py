@@ -25,12 +25,12 @@ from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.device_errors import ArmErrors
-from handeye.pose import Array, hand
+from handeye.core.pose import Array, hand
+from handeye.core.units import UNITS
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import screw_holes, standard
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS, variation
-from handeye.units import UNITS
 
 WORLDS: Final = 100_000
 SOFT: Final = 5e-5  # m more play of a pin than drawn; measured in the simulation, .03-.05 mm

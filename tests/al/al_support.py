@@ -6,12 +6,12 @@ from types import MappingProxyType
 import msgspec
 
 from handeye import al
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
 from handeye.program.flow_operations import Assign, Countdown, Test
 from handeye.program.motion_operations import Move
 from handeye.program.program import Hole, Part, Position, Program
 from handeye.program.taught import Taught
-from handeye.source import Source
 
 ORIGIN = Position(at=(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 TAUGHT = Taught(

@@ -6,7 +6,7 @@ from pathlib import Path
 from hypothesis import strategies as st
 
 from handeye.al.instructions import INSTRUCTIONS
-from handeye.codes import CODES
+from handeye.core.codes import CODES
 
 ROOT = Path(__file__).parents[2]
 PUMP = (ROOT / "plans" / "water_pump.al").read_text(encoding="utf-8")

@@ -26,11 +26,11 @@ from fakes import FakeCell, Wall
 from pump_bench import at_standard, put, settle
 
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import Array
+from handeye.core.units import INCH, OUNCE_INCH
 from handeye.ports.workcell import Workcell
-from handeye.pose import Array
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import INCH, OUNCE_INCH
 
 SIMULATED = "the simulated cell"
 

@@ -9,8 +9,8 @@ from handeye.al.definition import Instruction, Operand
 from handeye.al.formatter import format_text
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operand_help import origin, part, takes
-from handeye.codes import CODES, Code
-from handeye.errors import ERRORS
+from handeye.core.codes import CODES, Code
+from handeye.core.errors import ERRORS
 
 REFERENCE = MANUAL / "reference"
 END = "## Meaning\n"

@@ -19,18 +19,18 @@ from cells import ARM, cell_of
 from handeye import al
 from handeye.al import AL
 from handeye.arm.ik import solve
-from handeye.diagnostics import Diagnostic, arranged, render
+from handeye.core.diagnostics import Diagnostic, arranged, render
+from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
-from handeye.events import AnyEvent
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.inspection.inspection import inspection, inspection_text
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_program
+from handeye.program.events import AnyEvent
 from handeye.program.program import Program
 from handeye.program.taught import Taught, load_taught
 from handeye.program.world_model import WorldModel
-from handeye.source import Source
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.trace.account import account
 

@@ -13,10 +13,10 @@ import pytest
 
 from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.resources import plans
+from handeye.core.source import read_source
 from handeye.planning.scripts import plan_program
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
-from handeye.source import read_source
 
 HERE = Path(__file__).parent / "broken"
 PUMP = load_taught(plans() / "water_pump.toml")

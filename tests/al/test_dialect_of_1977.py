@@ -4,11 +4,11 @@ import pytest
 from al_support import codes, compiled, diagnose, moves, only, walk
 
 from handeye import al
+from handeye.core.units import INCH, OUNCE_FORCE, OUNCE_INCH
 from handeye.program.flow_operations import Assign, Countdown
 from handeye.program.guards import Force, Moment, Touch
 from handeye.program.motion_operations import Change, Move
 from handeye.program.program import Program
-from handeye.units import INCH, OUNCE_FORCE, OUNCE_INCH
 
 LISTING_1977 = """\
         TRANS PIN [18 44 4 -90 90 0]   ;location of pin

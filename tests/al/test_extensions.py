@@ -9,8 +9,8 @@ from test_dialect_of_1977 import LISTING_1977
 from handeye import al
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.cli.scripts import check
-from handeye.codes import CODES
-from handeye.source import Source
+from handeye.core.codes import CODES
+from handeye.core.source import Source
 
 
 @pytest.mark.parametrize("listing", [LISTING, LISTING_1977])

@@ -7,12 +7,12 @@ import pytest
 from al_support import LISTING, codes, diagnose
 
 from handeye import al
-from handeye.codes import CODES
+from handeye.core.codes import CODES
+from handeye.core.source import Source
 from handeye.program.flow_operations import Advance, Jump, Save
 from handeye.program.guards import Against, Torque
 from handeye.program.motion_operations import Change, Close, Move
 from handeye.program.taught import load_taught
-from handeye.source import Source
 
 PLANS = Path(__file__).parents[2] / "plans"
 DOWN = "STOP 50\nCHANGE [0 0 -1] 1\n"

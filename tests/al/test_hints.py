@@ -3,8 +3,8 @@
 import pytest
 from al_support import LISTING, diagnose
 
-from handeye.diagnostics import render
-from handeye.source import Source
+from handeye.core.diagnostics import render
+from handeye.core.source import Source
 
 
 @pytest.mark.parametrize(

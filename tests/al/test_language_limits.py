@@ -6,12 +6,13 @@ from pathlib import Path
 import pytest
 from al_support import codes, diagnose
 
-from handeye import al, diagnostics
+from handeye import al
 from handeye.al import lower
 from handeye.al.parser import LONGEST_LINE
-from handeye.diagnostics import LIMIT, LONGEST_COMPARED, MOST_COMPARED, render
-from handeye.errors import InvalidInput
-from handeye.source import LARGEST, Source, read_source
+from handeye.core import diagnostics
+from handeye.core.diagnostics import LIMIT, LONGEST_COMPARED, MOST_COMPARED, render
+from handeye.core.errors import InvalidInput
+from handeye.core.source import LARGEST, Source, read_source
 
 MANY = 20_000
 HARD = {

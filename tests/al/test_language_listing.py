@@ -3,12 +3,12 @@
 import pytest
 from al_support import LISTING, compiled, diagnose, moves, only
 
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH, RPM
 from handeye.ports.camera import CLOSE_UP, WIDE
 from handeye.program.flow_operations import Advance, Load, Save, Search, Tool, Wait
 from handeye.program.guards import Against, Force, Torque
 from handeye.program.motion_operations import Change, Close, Restore, Travel, Turn
 from handeye.program.vision_operations import Lens, Look
-from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH, RPM
 
 
 @pytest.mark.row(1)

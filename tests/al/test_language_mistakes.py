@@ -3,9 +3,9 @@
 import pytest
 from al_support import codes, compiled, diagnose
 
-from handeye.codes import CODES
-from handeye.diagnostics import LIMIT, Diagnostic, Label, as_json, render, suggestion
-from handeye.source import Source, Span
+from handeye.core.codes import CODES
+from handeye.core.diagnostics import LIMIT, Diagnostic, Label, as_json, render, suggestion
+from handeye.core.source import Source, Span
 
 LANGUAGE = [code for code, entry in CODES.items() if entry.phase == "language"]
 

@@ -15,11 +15,11 @@ from handeye.al import AL
 from handeye.al.parser import parse
 from handeye.al.scanner import scan
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import has_errors, render
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import has_errors, render
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source, read_source
 from handeye.planning.scripts import plan_program
 from handeye.program.taught import load_taught
-from handeye.source import Source, read_source
 
 PUMP_TAUGHT = load_taught(ROOT / "plans" / "water_pump.toml")
 

@@ -6,10 +6,10 @@ from al_support import codes, compiled, diagnose, walk
 from handeye import al
 from handeye.al import AL
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import LIMIT, Diagnostic, quoted
+from handeye.core.diagnostics import LIMIT, Diagnostic, quoted
+from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
 from handeye.planning.scripts import plan_program
-from handeye.source import Source
 
 TEXT = """\
 DEFINE FETCH S G OUT

@@ -5,9 +5,9 @@ from al_support import diagnose
 
 from handeye.al import AL, compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
 from handeye.planning.scripts import plan_program
-from handeye.source import Source
 
 
 def codes(text: str) -> list[str]:

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from handeye import al
-from handeye.diagnostics import as_json, render
+from handeye.core.diagnostics import as_json, render
+from handeye.core.source import LARGEST, Source
 from handeye.program.program import Program
-from handeye.source import LARGEST, Source
 
 MACRO = "DEFINE DROP\nSTOP 50\nCHANGE [0 0 -1] 1\n\n"
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from handeye.errors import InvalidInput
-from handeye.source import Source, read_source
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source, read_source
 
 
 def test_text_is_read_without_its_byte_order_mark(tmp_path: Path) -> None:

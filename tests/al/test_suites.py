@@ -15,8 +15,8 @@ from suites import MANUAL, SHOWN, SUITES, Case, cases, shown, taught
 from handeye import al
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.parser import parse
-from handeye.codes import CODES
-from handeye.diagnostics import has_errors
+from handeye.core.codes import CODES
+from handeye.core.diagnostics import has_errors
 from handeye.editor.samples import SAMPLE
 
 

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Hole
 from handeye.program.taught import load_taught
-from handeye.units import DEGREE, INCH
 
 GOOD = """
 [positions.PIN]

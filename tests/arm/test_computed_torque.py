@@ -10,8 +10,8 @@ from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.line import straight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.trajectory import move
-from handeye.pose import hand
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.core.pose import hand
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])
 GOAL = hand(24 * INCH, 38 * INCH, 3 * INCH, np.pi / 2, np.pi / 2, 0)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.units import DEGREE
+from handeye.core.units import DEGREE
 
 FREE = (3.0, 1.5, 1.0, 6.0, 6.0, 6.0)
 """Speeds without a load: rad/s, the boom's m/s."""

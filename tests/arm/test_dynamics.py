@@ -9,7 +9,7 @@ from robots import ROBOTS
 from handeye.arm.dynamics import GRAVITY, bias, gravity, mass_matrix
 from handeye.arm.model import ArmModel, digest
 from handeye.arm.robots.stanford import STANFORD
-from handeye.units import INCH
+from handeye.core.units import INCH
 
 ARMS = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
 

@@ -9,7 +9,7 @@ from handeye.arm.friction import MARGIN, faint, felt_friction
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import jacobian
 from handeye.arm.model import ArmModel
-from handeye.pose import hand
+from handeye.core.pose import hand
 from handeye.program.guards import Exerted
 
 

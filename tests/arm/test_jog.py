@@ -7,10 +7,10 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.jog import jog
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
-from handeye.pose import hand
+from handeye.core.pose import hand
+from handeye.core.units import INCH
 from handeye.program.reasons import BelowTable, OutOfReach
 from handeye.tasks.water_pump.park import PARK
-from handeye.units import INCH
 
 PERIOD = 1 / 60
 

@@ -5,9 +5,9 @@ from handeye.arm.ik import IKResult, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.line import arc, pivot, straight
 from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import hand, rotation, rotation_z
+from handeye.core.pose import hand, rotation, rotation_z
+from handeye.core.units import DEGREE, INCH, JIFFY
 from handeye.program.reasons import InLine, JointLimit, OutOfReach
-from handeye.units import DEGREE, INCH, JIFFY
 
 PARK = np.array([-19.7 * DEGREE, 104 * DEGREE, 17.5 * INCH, 0, 76 * DEGREE, 70.3 * DEGREE])
 

@@ -10,9 +10,9 @@ from handeye.arm.kinematics import forward
 from handeye.arm.line import arc, pivot, straight
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
-from handeye.pose import hand, rotation, rotation_z
+from handeye.core.pose import hand, rotation, rotation_z
+from handeye.core.units import INCH
 from handeye.program.reasons import FixedDirection, FixedOrientation, HeldJoint, InLine, TooFast
-from handeye.units import INCH
 
 ANY = pytest.mark.parametrize("arm", [robot.arm for robot in ROBOTS.values()], ids=list(ROBOTS))
 

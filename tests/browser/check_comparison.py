@@ -15,10 +15,10 @@ from handeye.comparison.comparison import comparison
 from handeye.comparison.course import Course, course
 from handeye.comparison.page import comparison_page
 from handeye.comparison.pairing import TwoRuns
+from handeye.report.animation import animation
+from handeye.report.recorded import Recorded
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
-from handeye.see.animation import animation
-from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
 
 PLACE = 3e-4

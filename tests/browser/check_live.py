@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 from chromium import Browser, Page
 
-from handeye import resources
+from handeye.core import resources
 
 CALLS = """\
         STAGE   "shut the hand"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from chromium import Browser, Page
 
-from handeye import resources
+from handeye.core import resources
 from handeye.trace.reading import read_trace
 
 TIME = "document.getElementById('view').player.time"

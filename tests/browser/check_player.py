@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from short_runs import begin, traced
 
 import handeye
-from handeye.see.player import scene_bytes, script, shown_poses, tracks_bytes
+from handeye.report.player import scene_bytes, script, shown_poses, tracks_bytes
 from handeye.trace.trace import Trace
 
 PLACE, TURN = 3e-4, np.radians(0.3)

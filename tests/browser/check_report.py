@@ -14,13 +14,13 @@ from chromium import Browser, Page
 from report_pages import renamed
 from short_runs import begin, traced
 
-from handeye import resources
 from handeye.cli.reports import read_recorded
-from handeye.see.animation import animation
-from handeye.see.page.document import report_page
-from handeye.see.photographs import album
-from handeye.see.player import shown_poses
-from handeye.see.recorded import Recorded
+from handeye.core import resources
+from handeye.report.animation import animation
+from handeye.report.page.document import report_page
+from handeye.report.photographs import album
+from handeye.report.player import shown_poses
+from handeye.report.recorded import Recorded
 
 EVIL = "</script><img src=x onerror=alert(1)>"
 PLACE, TURN = 3e-4, np.radians(0.3)

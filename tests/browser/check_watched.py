@@ -14,7 +14,7 @@ from pathlib import Path
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from handeye import resources
+from handeye.core import resources
 
 VIEWERS = 20
 LEAST = 60.0

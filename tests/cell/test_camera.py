@@ -11,7 +11,7 @@ from handeye.cell.camera import REFOCUS, SLEW, SimulatedCamera, true_camera
 from handeye.cell.renderers import make_renderer
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Vidicon, blur_disc
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.camera import CLOSE_UP, COLUMNS, DIGITISE, ROWS, WIDE, Renderer
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.pump_world import PumpWorld

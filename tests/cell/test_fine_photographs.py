@@ -17,8 +17,8 @@ from handeye.cell.film_stock import FILMS
 from handeye.cell.gloss import polish
 from handeye.cell.lens import APERTURE, Lens
 from handeye.cell.opengl import OpenGlRenderer, context
-from handeye.errors import InvalidInput
-from handeye.pose import pose
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import pose
 
 SCENE = """
 <mujoco>

@@ -12,12 +12,12 @@ from handeye.cell.arm import SimulatedArm
 from handeye.cell.defects import DEAD, PICTURE, Defect, Drifting, Effect, Scaled, Shifted, Stuck
 from handeye.cell.lines import DefectState, Lines, LinesState
 from handeye.cell.simulated import SimulatedCell
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.resources import scenes
+from handeye.core.units import JIFFY
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.resources import scenes
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import JIFFY
 
 EFFECTS = {
     "stuck": (Stuck(), [5.0, 5.0, 5.0]),

@@ -13,12 +13,12 @@ from robots import CARTESIAN
 from handeye.arm.dynamics import gravity
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell, SimulationError
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.variation import WorldSpec
 from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
-from handeye.pose import Array
 from handeye.tasks.water_pump.park import PARK
-from handeye.variation import WorldSpec
 
 PERIOD = CARTESIAN.servo.period
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from handeye.cell.mjcf import SCENE, mjcf_files
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 THIRD = 1 / 3
 GRAIN = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)

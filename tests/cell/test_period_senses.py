@@ -6,10 +6,10 @@ from driving import Drive, tick
 from released_arm import arm_alone
 
 from handeye.cell.converter import Converters, converted
+from handeye.core.units import INCH
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.units import INCH
-from handeye.variation import Overrides, WorldSpec
 
 
 def world(**set: float) -> PumpWorld:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from handeye.cell.stepper import LONGER, Stepper
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 SHORT = 1 / 960
 PERIOD = 16

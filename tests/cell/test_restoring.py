@@ -11,10 +11,10 @@ from driving import Drive, tick
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.state import CellState
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import JIFFY
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import JIFFY
 
 pytestmark = pytest.mark.slow
 

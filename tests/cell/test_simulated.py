@@ -13,12 +13,12 @@ from handeye.arm.dynamics import gravity
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell, SimulationError
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import hand
+from handeye.core.units import DEGREE, INCH, JIFFY
 from handeye.ports.workcell import Sensed
-from handeye.pose import hand
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import DEGREE, INCH, JIFFY
 
 LOOSE = Drive(torque=np.zeros(6))
 

@@ -18,12 +18,12 @@ from handeye.comparison.conditions import Condition
 from handeye.comparison.corrected import corrections
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.text import comparison_text
-from handeye.errors import InvalidInput
-from handeye.events import Event, GuardTripped, StepStarted, UndoFinished, UndoStarted
-from handeye.faults import Fault
-from handeye.see.recorded import Recorded
+from handeye.core.errors import InvalidInput
+from handeye.core.faults import Fault
+from handeye.core.variation import WorldSpec
+from handeye.program.events import Event, GuardTripped, StepStarted, UndoFinished, UndoStarted
+from handeye.report.recorded import Recorded
 from handeye.trace.reading import read_trace
-from handeye.variation import WorldSpec
 
 
 def with_events(path: Path, number: int, **fields: object) -> Recorded:

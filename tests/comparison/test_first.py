@@ -13,8 +13,8 @@ from report_pages import recorded
 from handeye.comparison.comparison import comparison
 from handeye.comparison.first import First, first_difference
 from handeye.comparison.pairing import TwoRuns
-from handeye.events import GuardTripped
-from handeye.see.recorded import Recorded
+from handeye.program.events import GuardTripped
+from handeye.report.recorded import Recorded
 from handeye.trace.channels import EVENTS, FRAMES, JOINTS, MOMENTS
 from handeye.trace.reading import read_trace
 from handeye.trace.records import RawMessage

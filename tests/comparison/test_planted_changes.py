@@ -11,9 +11,9 @@ from handeye.cell.joint_sensors import JointSensors
 from handeye.comparison.comparison import Comparison, comparison
 from handeye.comparison.first import First
 from handeye.comparison.place import Place, place_of
-from handeye.events import StepStarted
-from handeye.pose import Array
-from handeye.see.recorded import Recorded
+from handeye.core.pose import Array
+from handeye.program.events import StepStarted
+from handeye.report.recorded import Recorded
 
 pytestmark = pytest.mark.slow
 

@@ -4,10 +4,10 @@ import pytest
 from short_runs import begin, plan_of
 from stepper_bench import AIR, reset
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import breakpoint, stage_number, step_number
-from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
-from handeye.report.pauses import pause_sentence
+from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 from handeye.runs.stops import AfterStage, AnyStop, BeforeStep

@@ -10,7 +10,7 @@ from toy_system import begin_toy
 from handeye.debugger.live import Ear, Live
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
-from handeye.events import StepStarted
+from handeye.program.events import StepStarted
 from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 

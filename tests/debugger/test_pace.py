@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.pace import Pace, factor
-from handeye.errors import InvalidInput
 
 
 class WoundClock:

@@ -12,6 +12,10 @@ from hypothesis import strategies as st
 from short_runs import begin, history, through
 from stepper_bench import AIR, before_pins, reset
 
+from handeye.core.errors import InvalidInput
+from handeye.core.files import write_whole
+from handeye.core.pose import hand, hand_angles
+from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.debugger.command_table import COMMANDS
 from handeye.debugger.formatting import as_text
 from handeye.debugger.live import Ear
@@ -19,8 +23,8 @@ from handeye.debugger.pace import Pace
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper, interact
 from handeye.debugger.views import TOPICS
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.execution.state import Found, Shot
+from handeye.program.events import (
     AnyEvent,
     ExperimentMade,
     GuardTripped,
@@ -29,20 +33,16 @@ from handeye.events import (
     Restored,
     StepStarted,
 )
-from handeye.execution.state import Found, Shot
-from handeye.files import write_whole
-from handeye.pose import hand, hand_angles
 from handeye.program.guards import GuardKind
-from handeye.report.pauses import pause_sentence, stop_name
+from handeye.results.pauses import pause_sentence, stop_name
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.observer import Observer
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AtLabel, ByHand
+from handeye.systems.stanford.executor_run import context_of
 from handeye.tasks.water_pump.eye import DRAWING
-from handeye.units import INCH, OUNCE_FORCE
 from handeye.vision.base import GeneralLocation
 from handeye.vision.blob import BoundingBox
 

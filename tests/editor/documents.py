@@ -1,10 +1,10 @@
 """Documents for the tests of what editors ask; `|` marks the pointer."""
 
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
 from handeye.editor.document import Document
 from handeye.editor.navigation import Edit
 from handeye.editor.samples import SAMPLE
-from handeye.source import Source
 
 TAUGHT = """\
 [parts.BASE] # on the belt

@@ -10,9 +10,9 @@ from conftest import Command
 from handeye.al import INSTRUCTIONS
 from handeye.al.instructions import EXPLAINED
 from handeye.cli.scripts import watched
-from handeye.codes import CODES
+from handeye.core.codes import CODES
+from handeye.core.errors import ERRORS, InvalidInput
 from handeye.editor.explain import example, explanation
-from handeye.errors import ERRORS, InvalidInput
 
 UNTIDY = "l1: open   1 ;wide\n"
 TIDY = "l1:     OPEN    1               ;wide\n"

@@ -5,14 +5,14 @@ from typing import get_args
 import pytest
 
 from handeye.al.compiler import compile_text
+from handeye.core.errors import ERRORS
+from handeye.core.source import Source
 from handeye.editor.checking import planning
 from handeye.editor.error_numbers import ACTIONS, REMEDIES, error_text, raised_by
 from handeye.editor.samples import SAMPLE
-from handeye.errors import ERRORS
 from handeye.program.operation import Operation
 from handeye.program.operations import AnyOperation
 from handeye.program.program import Program
-from handeye.source import Source
 
 RAISING: list[type[Operation]] = [kind for kind in get_args(AnyOperation) if kind.raising]
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from documents import diagnosed, document, edited
 
-from handeye.codes import CODES
+from handeye.core.codes import CODES
 from handeye.editor.fixes import Fix, fixes
 
 

@@ -9,7 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from handeye.al import INSTRUCTIONS
-from handeye.diagnostics import arranged
+from handeye.core.diagnostics import arranged
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source
 from handeye.editor.completion import completions
 from handeye.editor.document import Document
 from handeye.editor.fixes import fixes
@@ -17,9 +19,7 @@ from handeye.editor.hover import SI, hover
 from handeye.editor.navigation import definition, references, rename
 from handeye.editor.outline import outline
 from handeye.editor.taughtfile import taught_occurrences
-from handeye.errors import InvalidInput
 from handeye.program.taught import load_taught
-from handeye.source import Source
 
 PLANS = Path(__file__).parents[2] / "plans"
 PUMP = (PLANS / "water_pump.al").read_text(encoding="utf-8")

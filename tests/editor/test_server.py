@@ -11,10 +11,10 @@ from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 
-from handeye.codes import CODES
-from handeye.diagnostics import Diagnostic, Label
+from handeye.core.codes import CODES
+from handeye.core.diagnostics import Diagnostic, Label
+from handeye.core.source import Span
 from handeye.editor import wire
-from handeye.source import Span
 
 TAUGHT = """\
 [positions]

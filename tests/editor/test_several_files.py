@@ -3,13 +3,13 @@
 import pytest
 
 from handeye.al.includes import led_by, sewn_of
+from handeye.core.source import Source
 from handeye.editor.completion import completions
 from handeye.editor.document import Document
 from handeye.editor.fixes import fixes
 from handeye.editor.hover import hover
 from handeye.editor.navigation import Found, definition, references, rename
 from handeye.editor.samples import SAMPLE
-from handeye.source import Source
 
 FILES = {
     "lib/drop.al": "DEFINE DROP\nCHANGE DOWN 1\n\n",

@@ -9,11 +9,11 @@ from handeye.arm.kinematics import forward
 from handeye.arm.line import straight
 from handeye.arm.samples import Samples
 from handeye.arm.trajectory import move
+from handeye.core.pose import translated
+from handeye.core.units import INCH
 from handeye.execution.servo_loop import REACHED
-from handeye.pose import translated
 from handeye.program.guards import Force, GuardKind
 from handeye.touch.guards import monitor
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

@@ -4,9 +4,9 @@ import pytest
 from pump_bench import Bench, bench, world_of, written
 from released_arm import let_go
 
-from handeye.errors import WATCHDOG
+from handeye.core.errors import WATCHDOG
+from handeye.core.units import DEGREE, INCH
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
 

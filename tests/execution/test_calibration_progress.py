@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from fakes import FakeArm, FakeCamera, FakeCell
 
+from handeye.core.pose import Array
+from handeye.core.variation import WorldSpec
 from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
 from handeye.execution.state import DriveState
 from handeye.ports.camera import COLUMNS, ROWS, Picture
-from handeye.pose import Array
 from handeye.tasks import task
 from handeye.tasks.interface import Eye
 from handeye.tasks.water_pump.park import PARK
-from handeye.variation import WorldSpec
 
 OUT_OF_REACH = (9.0, 9.0, 9.0)
 

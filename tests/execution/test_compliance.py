@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from handeye.arm.model import ComplianceModel
+from handeye.core.units import JIFFY
 from handeye.execution.compliance import Course
-from handeye.units import JIFFY
 
 DOWN = np.array([0.0, 0.0, -1.0])
 K = ComplianceModel(

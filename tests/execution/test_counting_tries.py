@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from pump_bench import SEATED, TAUGHT, at_standard, bench, shifted
 
-from handeye.errors import NO_FORCE, NOTHING_HELD
-from handeye.events import HandTold
-from handeye.mutable_records import copied
+from handeye.core.errors import NO_FORCE, NOTHING_HELD
+from handeye.core.mutable_records import copied
+from handeye.core.units import DEGREE, INCH
+from handeye.program.events import HandTold
 from handeye.program.program import Position
-from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
 

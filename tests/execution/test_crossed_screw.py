@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from pump_bench import LAID, Bench, bench, put, shifted, stacked, stage
 
-from handeye.errors import WRONG_TRAVEL
-from handeye.events import GuardTripped
-from handeye.pose import Pose, planar, pose, rotation_x, translated
+from handeye.core.errors import WRONG_TRAVEL
+from handeye.core.pose import Pose, planar, pose, rotation_x, translated
+from handeye.core.units import INCH
+from handeye.program.events import GuardTripped
 from handeye.tasks.water_pump.drawing import base_top, screw_holes
 from handeye.tasks.water_pump.threads import SQUARE, holes_of
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from pump_bench import COUNT, IN_WORLDS, Bench, base_off, bench, stage, world_of, written
 
-from handeye.errors import NOTHING_HELD
-from handeye.pose import Array, planar, yaw
-from handeye.units import DEGREE, INCH
+from handeye.core.errors import NOTHING_HELD
+from handeye.core.pose import Array, planar, yaw
+from handeye.core.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
 

@@ -8,6 +8,7 @@ from handeye.arm.kinematics import forward
 from handeye.arm.line import straight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
+from handeye.core.units import INCH
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo import Halted
@@ -16,7 +17,6 @@ from handeye.execution.state import DriveState
 from handeye.program.guards import Force, GuardKind
 from handeye.tasks.water_pump.park import PARK
 from handeye.touch.guards import monitor
-from handeye.units import INCH
 
 DOWN = np.array([0.0, 0.0, -1.0])
 SETTLE = STANFORD.servo.settle

@@ -5,11 +5,11 @@ import pytest
 from fake_runs import fake_run
 from synthetic import part
 
-from handeye.errors import GASKET_WRONG, PART_ASTRAY, SEARCH_EXHAUSTED, WRONG_TRAVEL
-from handeye.events import PartMatched, SearchAdvanced
+from handeye.core.errors import GASKET_WRONG, PART_ASTRAY, SEARCH_EXHAUSTED, WRONG_TRAVEL
 from handeye.execution import executor
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.program.causes import Looping
+from handeye.program.events import PartMatched, SearchAdvanced
 from handeye.program.program import Hole, Part
 
 HOLES = (Hole(x=0.0, y=0.0, diameter=0.05), Hole(x=0.07, y=0.0, diameter=0.03))

@@ -7,14 +7,14 @@ from released_arm import arm_alone
 from handeye.arm.line import straight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.arm.samples import Samples
+from handeye.core.pose import Array
+from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
-from handeye.pose import Array
 from handeye.program.guards import Force
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.touch.guards import monitor
-from handeye.units import INCH, OUNCE_FORCE
 
 pytestmark = pytest.mark.slow
 

@@ -12,14 +12,14 @@ from robots import ROBOTS
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.faults import Fault
+from handeye.core.variation import WorldSpec
 from handeye.execution.friction_measurement import FrictionUnknown, at_rest, measure_joints
 from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
-from handeye.faults import Fault
 from handeye.tasks import task
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -9,14 +9,14 @@ from fakes import FakeCell
 from handeye.al import compile_text
 from handeye.arm.hand import GraspModel
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.source import Source
+from handeye.core.units import INCH, JIFFY
 from handeye.editor.samples import SAMPLE
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan
 from handeye.ports.workcell import Sensed
-from handeye.source import Source
 from handeye.tasks.water_pump.park import PARK
-from handeye.units import INCH, JIFFY
 
 GRASP = GraspModel(speed=0.06, centring=0.03, settle=4)
 ARM = replace(STANFORD, hand=replace(STANFORD.hand, grip=33.0, grasp=GRASP))

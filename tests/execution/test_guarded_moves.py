@@ -5,10 +5,10 @@ from functools import cache
 import pytest
 from pump_bench import COUNT, IN_WORLDS, Bench, at_standard, bench, world_of, written
 
-from handeye.errors import NO_FORCE
-from handeye.events import GuardTripped
+from handeye.core.errors import NO_FORCE
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.program.events import GuardTripped
 from handeye.program.program import Position
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
 pytestmark = pytest.mark.slow
 

@@ -7,8 +7,8 @@ import pytest
 from fake_runs import FakeRun, fake_run
 from fakes import Wall
 
-from handeye.errors import WRONG_HEIGHT
-from handeye.units import INCH
+from handeye.core.errors import WRONG_HEIGHT
+from handeye.core.units import INCH
 
 FACE = 5.6
 """Height (in) of the face that is touched, .4 in under T."""

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from pump_bench import TAUGHT, Bench, bench, shifted
 
-from handeye.events import PositionDefined, StepFinished
-from handeye.mutable_records import copied
+from handeye.core.mutable_records import copied
+from handeye.core.units import INCH
+from handeye.program.events import PositionDefined, StepFinished
 from handeye.program.program import Position
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

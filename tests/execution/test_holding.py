@@ -6,10 +6,10 @@ import pytest
 from block_task import block_run
 from pump_bench import bench
 
-from handeye.errors import NOTHING_HELD, WRONG_THICKNESS
+from handeye.core.errors import NOTHING_HELD, WRONG_THICKNESS
+from handeye.core.units import INCH
 from handeye.runs.advance import advance
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

@@ -22,10 +22,10 @@ from pump_bench import (
     written,
 )
 
-from handeye.errors import NOTHING_HELD, SEARCH_EXHAUSTED
-from handeye.events import GuardTripped, Saved, SearchAdvanced
+from handeye.core.errors import NOTHING_HELD, SEARCH_EXHAUSTED
+from handeye.core.units import OUNCE_FORCE
+from handeye.program.events import GuardTripped, Saved, SearchAdvanced
 from handeye.program.program import Position
-from handeye.units import OUNCE_FORCE
 
 pytestmark = pytest.mark.slow
 

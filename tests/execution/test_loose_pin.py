@@ -6,9 +6,9 @@ At the fingers a pin has .4 mm of play in its screw hole, and two inches in the 
 import pytest
 from pump_bench import COUNT, IN_WORLDS, Bench, at_standard, bench, stage, world_of, written
 
-from handeye.errors import NO_FORCE
-from handeye.events import SearchAdvanced
-from handeye.pose import inverse, yaw
+from handeye.core.errors import NO_FORCE
+from handeye.core.pose import inverse, yaw
+from handeye.program.events import SearchAdvanced
 from handeye.program.program import Position
 
 pytestmark = pytest.mark.slow

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from pump_bench import Bench, bench, written
 
-from handeye.errors import NO_SOLUTION
-from handeye.events import Adjusted, ErrorRaised, to_line
-from handeye.pose import Array, planar
+from handeye.core.errors import NO_SOLUTION
+from handeye.core.pose import Array, planar
+from handeye.core.units import INCH
 from handeye.program.causes import BeyondArm
+from handeye.program.events import Adjusted, ErrorRaised, to_line
 from handeye.program.program import Part, Position
 from handeye.program.reasons import InnerCylinder
 from handeye.trace.events_read import read_event
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

@@ -3,7 +3,7 @@
 import pytest
 from pump_bench import bench
 
-from handeye.events import PartSeen, to_line
+from handeye.program.events import PartSeen, to_line
 from handeye.tasks.water_pump.pump_world import PumpWorld
 
 pytestmark = [pytest.mark.slow, pytest.mark.render]

@@ -8,7 +8,7 @@ import math
 import pytest
 from pump_bench import COUNT, IN_WORLDS, Bench, bench, stacked, stage, world_of
 
-from handeye.events import GuardTripped
+from handeye.program.events import GuardTripped
 
 pytestmark = pytest.mark.slow
 

@@ -16,13 +16,13 @@ from fakes import FakeCell
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.source import Source
 from handeye.editor.samples import SAMPLE
-from handeye.events import AnyEvent, to_line
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
-from handeye.source import Source
+from handeye.program.events import AnyEvent, to_line
 from handeye.tasks.water_pump.eye import DRAWING
 
 pytestmark = pytest.mark.slow

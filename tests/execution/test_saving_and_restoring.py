@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from block_task import block_run
 
-from handeye.events import AnyEvent, Restored, Saved, StepFinished
+from handeye.core.units import INCH
+from handeye.program.events import AnyEvent, Restored, Saved, StepFinished
 from handeye.runs.advance import advance
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

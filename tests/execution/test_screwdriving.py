@@ -5,13 +5,13 @@ from functools import cache
 import pytest
 from pump_bench import COUNT, IN_WORLDS, LAID, Bench, bench, put, stacked, stage, world_of
 
-from handeye.errors import NO_FORCE
-from handeye.events import GuardTripped, SearchAdvanced
-from handeye.mutable_records import copied
-from handeye.pose import planar, translated
+from handeye.core.errors import NO_FORCE
+from handeye.core.mutable_records import copied
+from handeye.core.pose import planar, translated
+from handeye.core.units import INCH, OUNCE_INCH
+from handeye.program.events import GuardTripped, SearchAdvanced
 from handeye.tasks.water_pump.drawing import screw_holes
 from handeye.tasks.water_pump.threads import holes_of
-from handeye.units import INCH, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
 

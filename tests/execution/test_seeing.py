@@ -5,9 +5,9 @@ import pytest
 from fake_runs import fake_run
 from looked_runs import GRASP, PART, POSE, SCRIPT, looked
 
-from handeye.errors import PART_NOT_SEEN
-from handeye.pose import yaw
-from handeye.units import DEGREE, INCH
+from handeye.core.errors import PART_NOT_SEEN
+from handeye.core.pose import yaw
+from handeye.core.units import DEGREE, INCH
 
 
 def test_a_part_is_believed_where_its_holes_were_seen() -> None:

@@ -3,8 +3,8 @@
 import pytest
 from pump_bench import bench
 
+from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -12,13 +12,13 @@ import pytest
 from fake_runs import FakeRun, fake_run
 from fakes import Wall
 
-from handeye import errors
-from handeye.errors import ERRORS
+from handeye.core import errors
+from handeye.core.errors import ERRORS
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCH, OUNCE_INCH
 from handeye.ports.arm import ArmReading
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.ports.hand import HandReading
-from handeye.pose import Array
-from handeye.units import DEGREE, INCH, OUNCE_INCH
 
 DOWN = "STOP [0 0 -12]\nCHANGE [0 0 -1] .5"
 

@@ -11,17 +11,17 @@ from handeye.arm.kinematics import forward
 from handeye.arm.line import straight
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import SERVO_LAG
+from handeye.core.errors import SERVO_LAG
+from handeye.core.pose import Array
+from handeye.core.units import INCH
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo import Halted
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import DriveState
-from handeye.pose import Array
 from handeye.program.causes import HandAstray, JointBehind
 from handeye.program.guards import Force
 from handeye.touch.guards import monitor
-from handeye.units import INCH
 
 DOWN = np.array([0.0, 0.0, -1.0])
 

@@ -9,7 +9,7 @@ from collections import Counter
 import pytest
 from pump_bench import INSERT, TAUGHT, at_standard, bench, world_of
 
-from handeye.events import Saved, StepStarted
+from handeye.program.events import Saved, StepStarted
 from handeye.program.program import Position
 from handeye.tasks.water_pump.drawing import screw_holes
 

@@ -3,10 +3,10 @@
 import pytest
 from pump_bench import Bench, at_standard, bench, shifted, stage
 
-from handeye.events import GuardTripped
+from handeye.core.units import INCH
+from handeye.program.events import GuardTripped
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.referee import judge
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

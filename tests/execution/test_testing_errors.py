@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import pytest
 from block_task import block_run
 
-from handeye.errors import NO_FORCE, NOTHING_HELD
-from handeye.events import ErrorRaised, StepStarted
+from handeye.core.errors import NO_FORCE, NOTHING_HELD
+from handeye.program.events import ErrorRaised, StepStarted
 from handeye.runs.advance import advance
 
 pytestmark = pytest.mark.slow

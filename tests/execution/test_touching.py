@@ -3,10 +3,10 @@
 import pytest
 from pump_bench import Bench, bench, written
 
-from handeye.errors import NO_TOUCH
-from handeye.events import GuardTripped
-from handeye.pose import planar
-from handeye.units import INCH
+from handeye.core.errors import NO_TOUCH
+from handeye.core.pose import planar
+from handeye.core.units import INCH
+from handeye.program.events import GuardTripped
 
 pytestmark = pytest.mark.slow
 

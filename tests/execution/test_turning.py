@@ -5,12 +5,12 @@ import pytest
 from pump_bench import Bench, at_standard, bench, written
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import NO_FORCE, SERVO_LAG
-from handeye.events import GuardTripped
-from handeye.pose import Array
+from handeye.core.errors import NO_FORCE, SERVO_LAG
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
+from handeye.program.events import GuardTripped
 from handeye.program.program import Position
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import DEGREE, INCH, OUNCE_FORCE, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
 

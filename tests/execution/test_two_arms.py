@@ -12,17 +12,17 @@ from handeye.arm.line import straight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.simulated import SimulatedCell
+from handeye.core.pose import Array
+from handeye.core.resources import scenes
+from handeye.core.units import INCH, JIFFY
 from handeye.execution.drive import run
 from handeye.execution.servo_loop import REACHED, ServoLoop
 from handeye.execution.state import DriveState
 from handeye.ports.arm import ArmPort
 from handeye.ports.clock import Clock
 from handeye.ports.workcell import Workcell
-from handeye.pose import Array
-from handeye.resources import scenes
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import INCH, JIFFY
 
 SIDES = ("left/", "right/")
 

@@ -9,16 +9,16 @@ import pytest
 from msgspec.structs import replace
 from short_runs import begin
 
-from handeye.errors import InvalidInput
-from handeye.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
+from handeye.core.errors import InvalidInput
+from handeye.core.packed import encoded
 from handeye.execution.undo.resistance import ALLOWED, Resistance, allowed
 from handeye.execution.undo.standing import FALLEN
-from handeye.packed import encoded
 from handeye.program.causes import HoldOff, MetEarly, UndoResisted, UndoUnknown
+from handeye.program.events import OperatorCalled, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.program.guards import GuardKind
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.stanford.executor_run import context_of
 from handeye.touch.guards import Reading, Trip
 from handeye.touch.hold import SKEW
 

@@ -3,7 +3,7 @@
 import pytest
 from fake_runs import fake_run
 
-from handeye.events import StageUndone, UndoEnded, UndoOrdered
+from handeye.program.events import StageUndone, UndoEnded, UndoOrdered
 from handeye.runs.snapshot import interfered
 
 TWICE = 'STAGE "A"\nASSIGN N 1\nL: OPEN 2\nSOJG N,L\nUNDO STAGE TIMES 2\nSTAGE "B"\nOPEN 1'

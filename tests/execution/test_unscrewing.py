@@ -11,18 +11,18 @@ from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.state import CellState
+from handeye.core.mutable_records import copied
+from handeye.core.pose import translated
+from handeye.core.units import INCH, OUNCE_INCH
 from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Undoing
 from handeye.execution.undo.resistance import Resistance
 from handeye.execution.undo.way import Way, packed, unpacked
-from handeye.mutable_records import copied
-from handeye.pose import translated
 from handeye.program.causes import ScrewFast, ScrewLost, UndoResisted
 from handeye.program.guards import GuardKind
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.threads import holes_of
 from handeye.touch.guards import Reading, Trip
-from handeye.units import INCH, OUNCE_INCH
 
 pytestmark = pytest.mark.slow
 

@@ -6,9 +6,9 @@ from fake_runs import FakeRun, fake_run
 from fakes import FakeCamera
 from synthetic import part
 
-from handeye.events import AnyEvent, CameraBusy, CameraStarted, PictureTaken
 from handeye.ports.camera import COLUMNS, DIGITISE, ROWS, Picture
-from handeye.report.summary import overlapped
+from handeye.program.events import AnyEvent, CameraBusy, CameraStarted, PictureTaken
+from handeye.results.summary import overlapped
 
 MECHANISM = 3.0
 """s that turret, mount and focus of the fake camera take one after another."""

@@ -15,11 +15,12 @@ from running_notebooks import SCRIPTS, runs_to_its_end
 from stepping_walk import SAID, commands, of_command, pieces, stands
 from whole_runs import STAGES, Whole, whole_in
 
+from handeye.core.errors import NO_FORCE
+from handeye.core.fault_options import by_number, faults
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.formatting import MOST, as_text
 from handeye.debugger.stepper import Stepper
-from handeye.errors import NO_FORCE
-from handeye.events import (
+from handeye.program.events import (
     AnyEvent,
     ErrorRaised,
     FrictionMeasured,
@@ -31,7 +32,6 @@ from handeye.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.fault_options import by_number, faults
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS

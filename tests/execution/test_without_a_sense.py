@@ -5,12 +5,15 @@ import pytest
 from fakes import FakeCell
 from short_runs import FEEL, GRASP, plan_of
 
-from handeye import errors
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cli.world_options import ErrorOptions
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.core import errors
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import Overrides, WorldSpec
+from handeye.execution.context import ExecutionContext
+from handeye.execution.executor import ACTIONS
+from handeye.program.events import (
     AnyEvent,
     ErrorRaised,
     GuardTripped,
@@ -19,19 +22,16 @@ from handeye.events import (
     Saved,
     SearchAdvanced,
 )
-from handeye.execution.context import ExecutionContext
-from handeye.execution.executor import ACTIONS
 from handeye.program.senses import SENSES, Sense
 from handeye.program.vision_operations import General, Inspect, Match, Specific
 from handeye.runs.advance import advance, ended
 from handeye.runs.checkpoint_file import decode, encode
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.stanford.executor_run import context_of
 from handeye.tasks import task
 from handeye.trials.assembly import run_plan
-from handeye.variation import Overrides, WorldSpec
 
 WORLD = WorldSpec(seed=3)
 ASIDE = WorldSpec(seed=3, overrides=Overrides(set={"fixtures.pin_holder.y": 0.003}))

@@ -10,15 +10,15 @@ from msgspec.structs import replace
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.resources import plans
+from handeye.core.source import Source
+from handeye.core.units import INCH
 from handeye.inspection.difference import Difference, difference
 from handeye.inspection.difference_text import difference_text
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught
-from handeye.resources import plans
-from handeye.source import Source
-from handeye.units import INCH
 
 SCRIPT = """\
         TRANS   T [25 38 4 90 90 0]

@@ -9,6 +9,8 @@ from conftest import Command
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.resources import plans
+from handeye.core.source import Source
 from handeye.inspection.drawing import flow_svg
 from handeye.inspection.flow import Flow, flow, flow_dot
 from handeye.inspection.layout import Layout, layout
@@ -16,8 +18,6 @@ from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught
-from handeye.resources import plans
-from handeye.source import Source
 
 PUMP = str(plans() / "water_pump.plan.json")
 

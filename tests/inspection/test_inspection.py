@@ -8,6 +8,9 @@ from conftest import Command
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.resources import plans
+from handeye.core.source import Source
+from handeye.core.units import OUNCE_FORCE
 from handeye.inspection.dependence import dependences
 from handeye.inspection.inspection import InspectedStep, depends_text, inspection, inspection_text
 from handeye.inspection.wording import direction
@@ -16,9 +19,6 @@ from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.program import Program
 from handeye.program.taught import Taught
-from handeye.resources import plans
-from handeye.source import Source
-from handeye.units import OUNCE_FORCE
 
 PLACE = "        TRANS   T [25 38 4 90 90 0]\n"
 

@@ -7,13 +7,13 @@ import pytest
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.resources import plans
+from handeye.core.source import Source, read_source
 from handeye.planfile.plan import VERSION, Plan
 from handeye.planfile.store import decode, encode, read_plan, write_plan
 from handeye.planning.planner import make_plan
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
-from handeye.source import Source, read_source
 
 SCRIPT = """\
         TRANS   T [25 38 4 90 90 0]

@@ -5,8 +5,9 @@ import pytest
 
 from handeye.al import AL, compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import Diagnostic
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source
 from handeye.inspection.difference import difference
 from handeye.inspection.difference_text import difference_text
 from handeye.inspection.flow import flow, flow_dot
@@ -15,7 +16,6 @@ from handeye.planfile.plan import Plan
 from handeye.planfile.store import decode, encode
 from handeye.planning.scripts import plan_program
 from handeye.program.taught import Taught
-from handeye.source import Source
 
 SCRIPT = "        REQUIRE lib/look.al\n        MOVE    T\n        RESTORE D\n"
 LOOK = "        TRANS   T [25 38 4 90 90 0]\n        MOVE    T\n        SAVE    D\n"

@@ -9,7 +9,8 @@ import pytest
 
 from handeye.arm.model import digest
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.resources import plans
 from handeye.inspection.difference import difference
 from handeye.planfile import migrations
 from handeye.planfile.plan import VERSION
@@ -17,7 +18,6 @@ from handeye.planfile.schema import plan_schema
 from handeye.planfile.store import decode, encode, read_plan
 from handeye.planfile.version_1 import to_version_2
 from handeye.program.guards import Against, Force, Guards, Moment, Torque, Touch
-from handeye.resources import plans
 
 VERSIONS = Path(__file__).parent / "versions"
 PRESENT = VERSIONS / f"{VERSION}.plan.json"

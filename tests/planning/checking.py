@@ -2,12 +2,12 @@
 
 from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
+from handeye.core.units import DEGREE, INCH
 from handeye.planning.scripts import plan_program
 from handeye.program.program import Fixture, Held, Position
 from handeye.program.taught import Taught
-from handeye.source import Source
-from handeye.units import DEGREE, INCH
 
 
 def place(x: float, y: float, z: float) -> Position:

@@ -9,16 +9,16 @@ from handeye.al import AL, compile_text
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.robots import register
-from handeye.diagnostics import Diagnostic
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source
+from handeye.core.units import INCH
 from handeye.inspection.difference import difference
 from handeye.inspection.difference_text import difference_text
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_program
 from handeye.program.taught import Taught
-from handeye.source import Source
 from handeye.tasks import task
-from handeye.units import INCH
 
 Y = 0.95 / INCH
 """Where all of them reach, in."""

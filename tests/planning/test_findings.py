@@ -8,7 +8,9 @@ import pytest
 
 from handeye.al import AL, compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import Diagnostic, Label
+from handeye.core.diagnostics import Diagnostic, Label
+from handeye.core.source import Source, Span
+from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.planning.planner import make_plan
 from handeye.planning.scripts import plan_source
 from handeye.program.findings import (
@@ -24,8 +26,6 @@ from handeye.program.program import Program
 from handeye.program.reason_text import NamedArm
 from handeye.program.reasons import OutOfReach
 from handeye.program.taught import Taught
-from handeye.source import Source, Span
-from handeye.units import INCH, OUNCE_FORCE
 
 T = "TRANS T [25 38 4 90 90 0]\nMOVE T\n"
 

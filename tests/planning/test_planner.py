@@ -7,14 +7,14 @@ from handeye.al import AL, compile_text
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.pose import hand
+from handeye.core.source import Source
+from handeye.core.units import INCH
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_program
-from handeye.pose import hand
 from handeye.program.motion_operations import Change
 from handeye.program.taught import Taught
-from handeye.source import Source
-from handeye.units import INCH
 
 MIDDLE = (STANFORD.lower + STANFORD.upper) / 2
 

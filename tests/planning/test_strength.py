@@ -8,9 +8,9 @@ from handeye.arm.dynamics import gravity
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import jacobian
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import hand
+from handeye.core.units import INCH, OUNCE_FORCE
 from handeye.planning.strength import weakness
-from handeye.pose import hand
-from handeye.units import INCH, OUNCE_FORCE
 
 DOWN = (np.pi / 2, np.pi / 2, 0.0)
 

@@ -6,9 +6,9 @@ import re
 import pytest
 from fakes import FakeClock
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import JIFFY
 from handeye.ports.clock import whole_steps
-from handeye.units import JIFFY
 
 STEPS = [0.001, 1 / 960, 1 / 3000, 7e-5]
 

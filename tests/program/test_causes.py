@@ -6,12 +6,12 @@ from typing import get_args
 import msgspec
 import pytest
 
-from handeye import errors
+from handeye.core import errors
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
 from handeye.program import causes as c
 from handeye.program.cause_text import call_sentence, cause_sentence, error_sentence, inspection_sentence
 from handeye.program.guards import GuardKind
 from handeye.program.reasons import HeldJoint, InnerCylinder, JointLimit, Reason
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
 ARM = c.ArmNames(
     name="toy",

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
+from handeye.core.resources import plans
 from handeye.inspection.drawing import flow_svg
 from handeye.inspection.flow import flow
 from handeye.planfile.store import read_plan
-from handeye.resources import plans
 
 DOCS = Path(__file__).parents[2] / "docs"
 PUMP = plans() / "water_pump.plan.json"

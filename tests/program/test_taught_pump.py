@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from handeye.pose import planar
+from handeye.core.pose import planar
+from handeye.core.resources import plans
 from handeye.program.program import Part
 from handeye.program.taught import load_taught
-from handeye.resources import plans
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, dispenser_places, screw_holes, standard
 

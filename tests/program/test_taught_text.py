@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.resources import plans
+from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Position
 from handeye.program.taught_text import with_position
-from handeye.resources import plans
-from handeye.units import DEGREE, INCH
 
 PUMP = (plans() / "water_pump.toml").read_text(encoding="utf-8")
 

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from handeye.errors import InvalidInput
-from handeye.pose import planar
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import planar
 from handeye.program.program import Part, Position
 from handeye.program.world_model import WorldModel
 

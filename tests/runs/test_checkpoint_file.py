@@ -9,7 +9,7 @@ import pytest
 from forged_checkpoints import changed, sealed
 from short_runs import GRASP, begin, history, through
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.runs import checkpoint_file
 from handeye.runs.checkpoint_file import (
     decode,

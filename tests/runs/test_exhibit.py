@@ -6,13 +6,13 @@ import pytest
 from block_task import BLOCK
 from toy_system import begin_toy
 
-from handeye.errors import InvalidInput
-from handeye.report.exported_scene import scene_files
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
+from handeye.results.exported_scene import scene_files
 from handeye.runs.advance import advance
 from handeye.runs.exhibit import Exhibit, kept
 from handeye.runs.folder import open_new
 from handeye.runs.runner import Runner
-from handeye.variation import WorldSpec
 
 
 def test_a_run_of_a_system_without_a_cell_has_nothing_to_show(tmp_path: Path) -> None:

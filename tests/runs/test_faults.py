@@ -7,9 +7,9 @@ import pytest
 from short_runs import begin, history, through
 
 from handeye.cell.lines import DefectState, LinesState
-from handeye.errors import InvalidInput
-from handeye.events import RunStarted
-from handeye.faults import Fault
+from handeye.core.errors import InvalidInput
+from handeye.core.faults import Fault
+from handeye.program.events import RunStarted
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import read_checkpoint, write_checkpoint
 from handeye.runs.folder import open_new

@@ -12,9 +12,9 @@ import pytest
 from forged_checkpoints import changed
 from short_runs import GRASP, begin, history, plan_of
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, WentBack
+from handeye.core.errors import InvalidInput
 from handeye.planfile.store import write_plan
+from handeye.program.events import AnyEvent, WentBack
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.checkpoint_store import CheckpointStore

@@ -4,15 +4,15 @@ import msgspec
 import pytest
 from short_runs import begin, plan_of, through
 
-from handeye.events import AnyEvent, FrictionMeasured, GuardFaint, RunStarted
-from handeye.report.summary import timing, warnings
+from handeye.core.variation import Overrides, WorldSpec
+from handeye.program.events import AnyEvent, FrictionMeasured, GuardFaint, RunStarted
+from handeye.results.summary import timing, warnings
 from handeye.runs.host_seconds import HostSeconds
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.stanford.executor_run import context_of
 from handeye.trials.brakes import brakes_hold
-from handeye.variation import Overrides, WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from toy_system import begin_toy
 
-from handeye.errors import InvalidInput
-from handeye.host_time import HostTimer
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import encode
 from handeye.runs.folder import HOST, open_again, open_new

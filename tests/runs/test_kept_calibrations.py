@@ -9,15 +9,15 @@ import msgspec
 import pytest
 from short_runs import begin
 
-from handeye.errors import InvalidInput
-from handeye.packed import packed, sealed
+from handeye.core.errors import InvalidInput
+from handeye.core.packed import packed, sealed
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import Renderer
-from handeye.runs.conditions import Conditions
-from handeye.runs.kept_calibrations import LARGEST, MAGIC, VERSION, KeptCalibrations
-from handeye.runs.preparation import Preparation, preparation_of
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
-from handeye.variation import Overrides, WorldSpec
+from handeye.systems.stanford.conditions import Conditions
+from handeye.systems.stanford.executor_run import context_of
+from handeye.systems.stanford.kept_calibrations import LARGEST, MAGIC, VERSION, KeptCalibrations
+from handeye.systems.stanford.preparation import Preparation, preparation_of
 
 pytestmark = pytest.mark.slow  # for its file: a cell is built once
 

@@ -5,11 +5,11 @@ from msgspec.structs import replace
 from short_runs import begin, history, plan_of
 from stepper_bench import AIR, reset
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.choices import choices
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.program.events import (
     OperatorAnswered,
     OperatorCalled,
     StageFinished,
@@ -18,14 +18,14 @@ from handeye.events import (
     StepStarted,
     UndoOrdered,
 )
-from handeye.report.pauses import pause_sentence
+from handeye.results.pauses import pause_sentence
 from handeye.runs.advance import Pause
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Abort, Back, Retry, UnwindOnce, attend, beginnings, parse_policy
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import AfterStage
+from handeye.systems.stanford.executor_run import context_of
 
 SEARCHED = AfterStage(stage=1, name="search in the air")
 

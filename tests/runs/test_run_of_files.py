@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 from short_runs import begin, plan_of
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
 from handeye.debugger.listing import excerpt, excerpt_lines, listing_text
 from handeye.debugger.reply import Reply
 from handeye.debugger.stepper import Stepper
-from handeye.errors import InvalidInput
 from handeye.planfile.plan import Plan
-from handeye.report.pauses import stop_name
+from handeye.results.pauses import stop_name
 from handeye.runs.runner import Runner
 from handeye.runs.stops import AtSteps
 

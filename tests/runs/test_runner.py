@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from short_runs import GRASP, begin, history, through
 
-from handeye.errors import InvalidInput
-from handeye.events import ExperimentMade, OperatorCalled, PanicStopped, Restored
+from handeye.core.errors import InvalidInput
 from handeye.execution.servo import Halted
-from handeye.runs.programs import context_of
+from handeye.program.events import ExperimentMade, OperatorCalled, PanicStopped, Restored
 from handeye.runs.runner import Runner
+from handeye.systems.stanford.executor_run import context_of
 
 pytestmark = pytest.mark.slow
 

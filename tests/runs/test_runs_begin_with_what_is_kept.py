@@ -9,20 +9,20 @@ import pytest
 from block_task import BLOCK
 from short_runs import plan_of
 
+from handeye.core.variation import WorldSpec
 from handeye.execution.camera_calibration import CalibrationFailed
 from handeye.ports.camera import WIDE, Renderer
-from handeye.report.cautions import cautions
-from handeye.runs import programs
+from handeye.results.cautions import cautions
 from handeye.runs.advance import advance
-from handeye.runs.conditions import conditions_of
 from handeye.runs.folder import TRACE, open_new
-from handeye.runs.kept_calibrations import KeptCalibrations
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.stanford import executor_run as programs
+from handeye.systems.stanford.conditions import conditions_of
+from handeye.systems.stanford.kept_calibrations import KeptCalibrations
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.task import WaterPump
-from handeye.variation import WorldSpec
 from handeye.vision.calibration import Calibration
 
 pytestmark = pytest.mark.slow

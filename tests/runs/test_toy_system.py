@@ -8,12 +8,12 @@ import pytest
 from short_runs import begin, history
 from toy_system import TOY, Lines, Registers, begin_toy
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.formatting import as_text
 from handeye.debugger.stepper import Stepper
-from handeye.errors import InvalidInput
-from handeye.report.pauses import pause_sentence
-from handeye.report.summary import summary
+from handeye.results.pauses import pause_sentence
+from handeye.results.summary import summary
 from handeye.runs import systems
 from handeye.runs.advance import advance
 from handeye.runs.checkpoint_file import decode, encode, read_checkpoint

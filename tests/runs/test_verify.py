@@ -7,10 +7,10 @@ from short_runs import begin
 
 from handeye.runs.advance import advance
 from handeye.runs.folder import open_new
-from handeye.runs.programs import context_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.verify import difference
+from handeye.systems.stanford.executor_run import context_of
 from handeye.trace.reading import Trace, read_trace
 
 pytestmark = pytest.mark.slow

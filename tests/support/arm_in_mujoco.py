@@ -5,7 +5,7 @@ import numpy as np
 
 from handeye.arm.dynamics import GRAVITY
 from handeye.arm.model import ArmModel, Joint
-from handeye.pose import rotation_x, rotation_z
+from handeye.core.pose import rotation_x, rotation_z
 
 
 def build(arm: ArmModel, *, damping: bool = True, timestep: float = 1 / 960) -> mujoco.MjModel:

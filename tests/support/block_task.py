@@ -17,7 +17,10 @@ from handeye.cell.device_errors import ArmErrors, HandErrors
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
-from handeye.distributions import Normal, Range, Uniform
+from handeye.core.distributions import Normal, Range, Uniform
+from handeye.core.source import Source, read_source
+from handeye.core.units import INCH, OUNCE_FORCE
+from handeye.core.variation import Overrides, Quantity, Variation, World, WorldSpec
 from handeye.judge.finding import Findings, at_most
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
@@ -25,10 +28,7 @@ from handeye.program.taught import load_taught
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.source import Source, read_source
 from handeye.tasks.interface import Task, Words
-from handeye.units import INCH, OUNCE_FORCE
-from handeye.variation import Overrides, Quantity, Variation, World, WorldSpec
 
 SCRIPT: Final = Path(__file__).with_name("block.al")
 EDGE: Final = 1.2

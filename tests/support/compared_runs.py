@@ -5,14 +5,14 @@ from typing import Final
 
 from block_task import block_plan
 
+from handeye.core.variation import Overrides, WorldSpec
+from handeye.report.recorded import Recorded
 from handeye.runs.advance import advance
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.see.recorded import Recorded
 from handeye.trace.reading import read_trace
-from handeye.variation import Overrides, WorldSpec
 
 SCRIPT: Final = """TRANS ABOVE [20 24 1.2 90 90 0]
         STAGE   "reach"

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
+from handeye.core.pose import Array
+from handeye.core.units import JIFFY
 from handeye.ports.workcell import Sensed, Workcell
-from handeye.pose import Array
-from handeye.units import JIFFY
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,18 +9,18 @@ from fakes import FakeCell
 from handeye.al import compile_text
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
-from handeye.events import ErrorRaised, Event, StepStarted
+from handeye.core.pose import Array, hand
+from handeye.core.source import Source
+from handeye.core.units import DEGREE, INCH
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.planning.planner import make_plan
-from handeye.pose import Array, hand
 from handeye.program.cause_text import call_sentence
+from handeye.program.events import ErrorRaised, Event, StepStarted
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught
-from handeye.source import Source
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.park import PARK
-from handeye.units import DEGREE, INCH
 
 Kind = TypeVar("Kind", bound=Event)
 

@@ -9,6 +9,7 @@ import numpy as np
 from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import Array
 from handeye.ports.arm import ArmPort, ArmReading
 from handeye.ports.axes import Axes, AxesReading, AxisSpec
 from handeye.ports.camera import COLUMNS, ROWS, Picture, Renderer, TvCamera
@@ -17,7 +18,6 @@ from handeye.ports.hand import HandPort, HandReading
 from handeye.ports.lamp import LampPort
 from handeye.ports.screwdriver import ScrewdriverPort
 from handeye.ports.workcell import Workcell
-from handeye.pose import Array
 
 STEP = 1 / 960  # s, of the fake clock
 STIFFNESS = 20e3  # N/m of whatever the hand meets

@@ -4,9 +4,9 @@ import numpy as np
 from fake_runs import FakeRun, fake_run
 from synthetic import Canvas, draw_base, part, view
 
+from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import Picture
 from handeye.program.program import Position
-from handeye.units import DEGREE, INCH
 
 PART = part()
 POSE = (43.0 * INCH, 26.0 * INCH, 70 * DEGREE)

@@ -17,23 +17,23 @@ from driving import Drive, tick
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
-from handeye.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
+from handeye.core.pose import Array, Pose, planar, pose, translated
+from handeye.core.resources import plans
+from handeye.core.source import Source
+from handeye.core.units import DEGREE, INCH
 from handeye.execution.context import ExecutionContext
 from handeye.execution.executor import Executor
 from handeye.execution.friction_measurement import measure_joints
 from handeye.planning.planner import make_plan
-from handeye.pose import Array, Pose, planar, pose, translated
 from handeye.program.cause_text import call_sentence
+from handeye.program.events import ErrorRaised, Event, OperatorCalled, SearchAdvanced
 from handeye.program.program import Part, Position
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
-from handeye.source import Source
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
-from handeye.units import DEGREE, INCH
 
 Kind = TypeVar("Kind", bound=Event)
 

@@ -11,20 +11,22 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from handeye import events as happened
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
-from handeye.events import Event, RunStarted, StageFinished
+from handeye.core.pose import Array
+from handeye.core.source import Source
+from handeye.core.units import JIFFY
+from handeye.core.variation import WorldSpec
 from handeye.execution.servo_period import ServoPeriod
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import encode, plan_digest
 from handeye.planning.planner import make_plan
 from handeye.ports.camera import Picture, Renderer
 from handeye.ports.workcell import Sensed
-from handeye.pose import Array
+from handeye.program import events as happened
+from handeye.program.events import Event, RunStarted, StageFinished
 from handeye.program.guards import GuardKind
 from handeye.program.taught import Taught
-from handeye.source import Source
 from handeye.touch.guards import ActiveGuard
 from handeye.trace import mcap_writer
 from handeye.trace.channels import CHANNELS, NEWER
@@ -32,8 +34,6 @@ from handeye.trace.frames import Frames
 from handeye.trace.mcap_writer import GrowingFile
 from handeye.trace.messages import Poses
 from handeye.trace.recorder import Looks, Recorder
-from handeye.units import JIFFY
-from handeye.variation import WorldSpec
 from handeye.vision.marks import GREEN, RED, Disc, Line, Loop, Mark
 
 SCRIPT: Final = 'STAGE "open"\nOPEN 1\nSTAGE "close"\nCLOSE .1\nSTAGE "again"\nOPEN 2\n'

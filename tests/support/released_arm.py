@@ -9,10 +9,10 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
+from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
 from handeye.execution.friction_measurement import measure_joints
 from handeye.execution.state import DriveState
-from handeye.pose import Array
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import ARM, add_arm

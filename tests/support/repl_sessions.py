@@ -3,13 +3,13 @@
 from pathlib import Path
 from typing import Any
 
+from handeye.core.resources import plans
+from handeye.core.variation import WorldSpec
 from handeye.program.taught import Taught, load_taught
-from handeye.resources import plans
 from handeye.teaching.answers import Answer, text
 from handeye.teaching.commands import ReplSession
 from handeye.teaching.repl import Repl
 from handeye.teaching.workplace import Workplace
-from handeye.variation import WorldSpec
 
 TAUGHT = load_taught(plans() / "water_pump.toml")
 

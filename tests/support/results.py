@@ -1,7 +1,7 @@
 """Results of runs that nobody has carried out."""
 
-from handeye.report.result import CameraReport, Check, Result, Timing
-from handeye.variation import WorldSpec
+from handeye.core.variation import WorldSpec
+from handeye.results.result import CameraReport, Check, Result, Timing
 
 
 def result(

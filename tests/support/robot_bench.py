@@ -11,10 +11,10 @@ from handeye.arm.model import ArmModel, constants
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.device_errors import ArmErrors
 from handeye.cell.simulated import SimulatedCell
+from handeye.core.pose import Array, hand
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
-from handeye.pose import Array, hand
 
 TOP = 0.1
 """Height of a plate on the table, m."""

@@ -13,9 +13,9 @@ import numpy as np
 from handeye.arm.hand import GraspModel, HandModel
 from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel, Structure
 from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import Pose, pose
-from handeye.resources import scenes
-from handeye.units import DEGREE
+from handeye.core.pose import Pose, pose
+from handeye.core.resources import scenes
+from handeye.core.units import DEGREE
 
 Triple = tuple[float, float, float]
 

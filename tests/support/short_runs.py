@@ -6,19 +6,19 @@ from pathlib import Path
 
 from handeye.al import compile_text, sewn_of
 from handeye.arm.robots.stanford import STANFORD
-from handeye.events import AnyEvent, to_line
+from handeye.core.resources import plans
+from handeye.core.source import Source
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.planning.planner import make_plan
+from handeye.program.events import AnyEvent, to_line
 from handeye.program.taught import load_taught
-from handeye.resources import plans
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
-from handeye.source import Source
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
-from handeye.variation import WorldSpec
 
 GRASP = """
         STAGE   "go to the pin"

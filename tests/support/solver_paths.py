@@ -10,7 +10,7 @@ from typing import Final
 import mujoco
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 SPARSE, DENSE = int(mujoco.mjtJacobian.mjJAC_SPARSE), int(mujoco.mjtJacobian.mjJAC_DENSE)
 CG: Final = int(mujoco.mjtSolver.mjSOL_CG)

@@ -5,10 +5,10 @@ import math
 import cv2
 import numpy as np
 
+from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.program import Hole, Part
 from handeye.tasks.water_pump.eye import DRAWING
-from handeye.units import DEGREE, INCH
 from handeye.vision.camera_model import View
 from handeye.vision.holes import hole_places
 

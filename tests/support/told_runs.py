@@ -6,9 +6,9 @@ from functools import partial
 from recordings import started
 from short_runs import GRASP, plan_of
 
-from handeye.events import AnyEvent, Saved, StepFinished, StepStarted
 from handeye.planfile.store import encode
-from handeye.see.recorded import Recorded
+from handeye.program.events import AnyEvent, Saved, StepFinished, StepStarted
+from handeye.report.recorded import Recorded
 from handeye.trace.trace import Trace
 
 Happening = Callable[..., AnyEvent]

@@ -7,8 +7,12 @@ from typing import ClassVar
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.events import (
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
+from handeye.planfile.store import written_digest
+from handeye.ports.camera import Renderer
+from handeye.program.events import (
     Choice,
     OperatorAnswered,
     OperatorCalled,
@@ -19,15 +23,11 @@ from handeye.events import (
     StepFinished,
     StepStarted,
 )
-from handeye.planfile.store import written_digest
-from handeye.ports.camera import Renderer
-from handeye.record import Record
+from handeye.program.system_state import SystemState
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.system import Settable, Surroundings, System, SystemKind
 from handeye.runs.systems import register
-from handeye.system_state import SystemState
-from handeye.variation import WorldSpec
 
 
 class Line(Record, frozen=True, kw_only=True):
@@ -142,7 +142,7 @@ class CounterMachine(System):
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, Registers) or (state.at or 0) >= len(self._lines.steps):
             raise InvalidInput("the state of the run does not fit this plan")
-        from handeye.mutable_records import put_back
+        from handeye.core.mutable_records import put_back
 
         put_back(self._state, state)
 

@@ -5,7 +5,7 @@ import signal
 import threading
 from pathlib import Path
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 
 
 def process(item: object) -> tuple[object, int]:

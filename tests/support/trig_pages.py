@@ -8,14 +8,14 @@ import re
 from collections.abc import Callable
 from typing import Final
 
-from handeye.errors import InvalidInput
-from handeye.trig.full_display import full_display
-from handeye.trig.hearing import hear
-from handeye.trig.no_arm import NoArm
-from handeye.trig.partial_display import partial_display
-from handeye.trig.script import Script
-from handeye.trig.session import Session
-from handeye.trig.styled import plain
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.full_display import full_display
+from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.no_arm import NoArm
+from handeye.systems.trig.language.partial_display import partial_display
+from handeye.systems.trig.language.script import Script
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.styled import plain
 
 WIDTH: Final = 78
 _BLOCK: Final = re.compile(r"^```(trig|begin|told|partial|full)\n(.*?)^```$", re.MULTILINE | re.DOTALL)

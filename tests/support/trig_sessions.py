@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from handeye.trig.hearing import hear
-from handeye.trig.no_arm import NoArm
-from handeye.trig.node import Node
-from handeye.trig.script import Script, type_script
-from handeye.trig.session import Session
-from handeye.trig.soundness import faults
+from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.no_arm import NoArm
+from handeye.systems.trig.language.node import Node
+from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.soundness import faults
 
 PLANS = Path(__file__).parent.parent.parent / "plans"
 PALLETISE = (PLANS / "palletise.trig").read_text(encoding="utf-8")

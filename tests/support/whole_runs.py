@@ -6,7 +6,9 @@ from pathlib import Path
 
 import msgspec
 
-from handeye.events import (
+from handeye.core.variation import WorldSpec
+from handeye.planfile.plan import Plan
+from handeye.program.events import (
     AnyEvent,
     CameraBusy,
     GuardTripped,
@@ -14,12 +16,10 @@ from handeye.events import (
     StageStarted,
     StepStarted,
 )
-from handeye.planfile.plan import Plan
-from handeye.report.result import Result
+from handeye.results.result import Result
 from handeye.runs.folder import RESULT, open_again
 from handeye.runs.runner import Runner
 from handeye.trials.assembly import run_plan
-from handeye.variation import WorldSpec
 
 STAGES = (
     "find the base", "feel for the grasp", "put the base in its standard position", "insert the aligning pins",

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from handeye.core.pose import Pose, pose
 from handeye.judge.finding import Findings, all_right
-from handeye.pose import Pose, pose
-from handeye.tasks.blocks.referee import (
+from handeye.systems.trig.jobs.referee import (
     judge_back,
     judge_dropped,
     judge_hand,
     judge_placed,
     judge_program,
 )
-from handeye.tasks.blocks.world import BlocksWorld
-from handeye.trig.place import Place
+from handeye.systems.trig.jobs.world import BlocksWorld
+from handeye.systems.trig.language.place import Place
 
 PLACES = (Place(x=-0.05, y=-0.1), Place(x=0.0, y=-0.1))
 

@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 
 from handeye.cell.bench import Bench
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.axes import AxisSpec
-from handeye.tasks.blocks.bench import NOMINAL, purbrick
-from handeye.tasks.blocks.machine import PERIOD, SPECS, machine, scene
-from handeye.tasks.blocks.table import HEIGHT, BlockTable
-from handeye.trig.axes_arm import ACCELERATION, OPEN
-from handeye.trig.no_arm import BLOCK, TRAVEL
-from handeye.trig.place import Place
+from handeye.systems.trig.jobs.bench import NOMINAL, purbrick
+from handeye.systems.trig.jobs.machine import PERIOD, SPECS, machine, scene
+from handeye.systems.trig.jobs.table import HEIGHT, BlockTable
+from handeye.systems.trig.language.axes_arm import ACCELERATION, OPEN
+from handeye.systems.trig.language.no_arm import BLOCK, TRAVEL
+from handeye.systems.trig.language.place import Place
 
 
 @pytest.fixture

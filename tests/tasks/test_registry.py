@@ -12,7 +12,7 @@ from short_runs import begin
 from handeye import tasks
 from handeye.arm import robots
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.runs.runner import Runner
 from handeye.tasks import DEFAULT, register, task
 from handeye.tasks.water_pump.task import WaterPump

@@ -9,17 +9,17 @@ from whole_runs import STAGES, Whole, whole_run
 
 from handeye.al import compile_text
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.resources import plans
+from handeye.core.source import Source
+from handeye.core.units import DEGREE, INCH
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import read_plan
 from handeye.planning.planner import make_plan
 from handeye.program.program import Position
 from handeye.program.taught import load_taught
-from handeye.resources import plans
-from handeye.source import Source
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import holes_of
 from handeye.tasks.water_pump.variation import SEVENTH
-from handeye.units import DEGREE, INCH
 
 pytestmark = pytest.mark.slow
 

@@ -8,16 +8,16 @@ import pytest
 from conftest import Command
 from repl_sessions import TAUGHT, workplace
 
-from handeye.pose import rotation, rotation_z
+from handeye.core.pose import rotation, rotation_z
+from handeye.core.resources import plans
+from handeye.core.source import Source
+from handeye.core.units import DEGREE, INCH
 from handeye.program.taught import load_taught
-from handeye.resources import plans
 from handeye.runs.snapshot import Checkpoint
-from handeye.source import Source
 from handeye.teaching.answers import text
 from handeye.teaching.teach_commands import TEACH_COMMANDS, TeachSession
 from handeye.teaching.teacher import Teacher
 from handeye.teaching.workplace import Workplace
-from handeye.units import DEGREE, INCH
 
 FILE = (plans() / "water_pump.toml").read_text(encoding="utf-8")
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from repl_sessions import Console, workplace
 
-from handeye.events import StepFinished
-from handeye.source import Source
+from handeye.core.source import Source
+from handeye.program.events import StepFinished
 from handeye.teaching import workplace as workplaces
 from handeye.teaching.commands import COMMANDS
 from handeye.teaching.workplace import Workplace

@@ -2,10 +2,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from handeye.errors import NOTHING_HELD
+from handeye.core.errors import NOTHING_HELD
+from handeye.core.units import INCH, JIFFY
 from handeye.touch.centring import Centring
 from handeye.touch.hold import least_gap
-from handeye.units import INCH, JIFFY
 
 SPEED = 0.5 * INCH
 TRAVEL = 0.00025

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
+from handeye.core.units import OUNCE_FORCE
 from handeye.program.guards import Against, AnyGuard, Force, GuardKind, Moment, Torque, Touch
 from handeye.touch.guards import Monitor, Reading, Trip, monitor
-from handeye.units import OUNCE_FORCE
 
 DOWN = np.array([0.0, 0.0, -1.0])
 HELD = 4

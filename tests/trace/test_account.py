@@ -1,11 +1,11 @@
 """The account says what happened and why, as somebody who knows the language would tell it."""
 
-from handeye import events as happened
-from handeye.events import AnyEvent
+from handeye.core.variation import WorldSpec
 from handeye.ports.camera import Renderer
+from handeye.program import events as happened
 from handeye.program.causes import GapTooSmall
+from handeye.program.events import AnyEvent
 from handeye.trace.account import account
-from handeye.variation import WorldSpec
 
 BEGUN = happened.RunStarted(
     time=10.0, program="pins", steps=5, plan="0123456789abcdef", arm="Stanford", arm_digest="0" * 16,

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from recordings import EVENTS
 
-from handeye.errors import InvalidInput
-from handeye.events import WentBack, to_line
+from handeye.core.errors import InvalidInput
+from handeye.program.events import WentBack, to_line
 from handeye.trace.eventlist import effective, read_events
 
 

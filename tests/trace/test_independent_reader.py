@@ -11,8 +11,8 @@ from mcap.reader import DecodedMessageTuple, make_reader
 from mcap_protobuf.decoder import DecoderFactory
 from recordings import EVENTS, HISTORY, PLAN, record
 
-from handeye.events import to_line
 from handeye.ports.workcell import Sensed
+from handeye.program.events import to_line
 
 TYPES = {
     "/joint_states": "foxglove.JointStates",

@@ -8,12 +8,12 @@ import pytest
 from conftest import Command
 from recordings import EVENTS, record
 
-from handeye.errors import InvalidInput
-from handeye.events import GuardTripped
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
+from handeye.program.events import GuardTripped
 from handeye.trace.plot import Plot, plot
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
-from handeye.units import DEGREE, INCH, OUNCE_FORCE
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,15 @@
 
 import pytest
 
-from handeye.events import FrictionMeasured, GuardTripped, HandTold, JointFriction, PartSeen, PictureTaken
 from handeye.program.causes import JointName
+from handeye.program.events import (
+    FrictionMeasured,
+    GuardTripped,
+    HandTold,
+    JointFriction,
+    PartSeen,
+    PictureTaken,
+)
 from handeye.program.guards import GuardKind
 from handeye.trace.quantities import Differing, Value, differing_events
 from handeye.trace.quantity_text import quantity_text, values_text

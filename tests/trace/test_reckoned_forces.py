@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from short_runs import FEEL, plan_of, traced
 
-from handeye.errors import InvalidInput
-from handeye.runs.programs import context_of
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
+from handeye.systems.stanford.executor_run import context_of
 from handeye.trace.channels import HAND
 from handeye.trace.forces import Forces
 from handeye.trace.trace import Trace
-from handeye.variation import Overrides, WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from recordings import BOUNDARIES, EVENTS, HISTORY, PLAN, Recording, between, record, started
 
-from handeye.errors import InvalidInput
-from handeye.events import StepStarted, WentBack
+from handeye.core.errors import InvalidInput
 from handeye.ports.workcell import Sensed
+from handeye.program.events import StepStarted, WentBack
 from handeye.trace import mcap_writer
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace

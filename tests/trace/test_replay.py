@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from recordings import HISTORY, Recording, record
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.ports.workcell import Sensed
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace

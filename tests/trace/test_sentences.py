@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from handeye import events as happened
-from handeye.events import AnyEvent, Event
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import Renderer
+from handeye.program import events as happened
 from handeye.program.causes import ArmNames, BeyondArm, JointName
+from handeye.program.events import AnyEvent, Event
 from handeye.program.reasons import BelowTable, HeldJoint, JointLimit
 from handeye.trace.sentences import LEVELS, inches, sentence
-from handeye.variation import Overrides, WorldSpec
 
 KINDS = typing.get_args(AnyEvent)
 overrides = st.builds(Overrides, without=st.just(("arm",)), set=st.dictionaries(st.text(), st.floats()))

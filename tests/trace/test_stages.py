@@ -2,7 +2,7 @@
 
 import pytest
 
-from handeye.events import (
+from handeye.program.events import (
     AnyEvent,
     OperatorCalled,
     RunFinished,

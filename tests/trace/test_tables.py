@@ -12,8 +12,8 @@ import pytest
 from conftest import Command
 from recordings import EVENTS, record
 
-from handeye.door.table_page import LETTERS, SHOWN
-from handeye.errors import InvalidInput
+from handeye.api.table_page import LETTERS, SHOWN
+from handeye.core.errors import InvalidInput
 from handeye.trace.reading import read_trace
 from handeye.trace.sentences import sentence
 from handeye.trace.table import Column, Table

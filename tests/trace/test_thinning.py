@@ -9,7 +9,7 @@ from mcap.writer import Writer
 from recordings import in_format_2, record
 from zstandard import compress
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.runs.verify import difference
 from handeye.trace import thinning
 from handeye.trace.channels import (

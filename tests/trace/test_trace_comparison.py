@@ -7,7 +7,7 @@ import msgspec
 import pytest
 from recordings import EVENTS, Recording, in_format_2
 
-from handeye.events import Event
+from handeye.program.events import Event
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from recordings import HISTORY, Recording, in_format_2, record
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.workcell import Sensed
 from handeye.program.guards import GuardKind

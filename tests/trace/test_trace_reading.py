@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 from mcap.writer import Writer
 from recordings import BOUNDARIES, EVENTS, PLAN, Recording, record
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
 from handeye.trace.channels import FORMAT, METADATA
 from handeye.trace.events_read import read_event
 from handeye.trace.reading import read_trace
 from handeye.trace.records import Unsound, check
 from handeye.trace.sentences import sentence
-from handeye.variation import WorldSpec
 
 
 @pytest.fixture(scope="module")

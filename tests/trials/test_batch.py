@@ -12,12 +12,13 @@ from conftest import Command
 from results import result
 from short_runs import FEEL, plan_of
 
-from handeye.errors import SEARCH_EXHAUSTED, InvalidInput
-from handeye.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
+from handeye.core.errors import SEARCH_EXHAUSTED, InvalidInput
+from handeye.core.resources import plans
+from handeye.core.variation import WorldSpec
 from handeye.planfile.store import read_plan, write_plan
+from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
 from handeye.program.taught import load_taught
-from handeye.report.result import Check
-from handeye.resources import plans
+from handeye.results.result import Check
 from handeye.tasks import task
 from handeye.trace.table_files import check_tables, csv_bytes, write_tables
 from handeye.trials.batch.batch import carry_out, head_of, jobs_of
@@ -33,7 +34,6 @@ from handeye.trials.batch.row import Row
 from handeye.trials.batch.tables import tables
 from handeye.trials.batch.trial import Job, Trial, row_of
 from handeye.trials.workers import Answer
-from handeye.variation import WorldSpec
 
 WORLD = WorldSpec(seed=5)
 TRIAL = Trial(plan=plan_of(FEEL), camera="ray")

@@ -8,18 +8,18 @@ import pytest
 from conftest import Command
 from short_runs import begin
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
 from handeye.execution.drive import ArmDrive
 from handeye.judge.finding import at_most
-from handeye.runs.programs import ProgramSystem
-from handeye.system_state import SystemState
+from handeye.program.system_state import SystemState
+from handeye.systems.stanford.executor_run import ProgramSystem
 from handeye.tasks import task
 from handeye.trials.chaos import trial
 from handeye.trials.chaos.invariants import wrong
 from handeye.trials.chaos.schedule import Break, Schedule, draw, parse_schedule
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
 from handeye.trials.chaos.trial import Broken, Tried, shrunk, try_schedule
-from handeye.variation import WorldSpec
 
 SCHEDULE = Schedule(
     seed=3,

@@ -7,14 +7,14 @@ import pytest
 from results import result
 from short_runs import plan_of
 
-from handeye.errors import ERRORS, InvalidInput
-from handeye.report.result import Check
+from handeye.core.errors import ERRORS, InvalidInput
+from handeye.core.variation import WorldSpec
+from handeye.results.result import Check
 from handeye.trials.batch.batch import head_of, jobs_of
 from handeye.trials.batch.dismantling import DismantlingTrial, dismantling_figures
 from handeye.trials.batch.folder import BatchFolder
 from handeye.trials.batch.row import Row
 from handeye.trials.batch.trial import Trial
-from handeye.variation import WorldSpec
 
 WORLD = WorldSpec(seed=5)
 PLAN = plan_of('STAGE "open"\nOPEN 2\nSTAGE "shut"\nOPEN 1\n')

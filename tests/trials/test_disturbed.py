@@ -9,12 +9,12 @@ from msgspec.structs import replace
 from short_runs import plan_of
 
 from handeye.cell.simulated import SimulatedCell
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.tasks import task
 from handeye.tasks.water_pump.disturbances import FAR, THIN, bystanders
 from handeye.trials import disturbing
 from handeye.trials.disturbing import Disturbed, disturbances_of, disturbed
-from handeye.variation import WorldSpec
 
 TAKE = """
         STAGE   "take the pin"

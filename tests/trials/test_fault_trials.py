@@ -13,12 +13,13 @@ import pytest
 from conftest import Command
 from results import result
 
-from handeye.errors import InvalidInput
-from handeye.events import StageStarted, StepStarted
+from handeye.core.errors import InvalidInput
+from handeye.core.faults import Catalogue, Expected, Fault, FaultKind
+from handeye.core.variation import WorldSpec
 from handeye.execution.servo_period import ServoPeriod
-from handeye.faults import Catalogue, Expected, Fault, FaultKind
-from handeye.report.pauses import pause_sentence
-from handeye.report.result import Result
+from handeye.program.events import StageStarted, StepStarted
+from handeye.results.pauses import pause_sentence
+from handeye.results.result import Result
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
 from handeye.tasks import task
@@ -34,7 +35,6 @@ from handeye.trials.faults import (
     with_panic,
 )
 from handeye.trials.panic import PanicInStage
-from handeye.variation import WorldSpec
 
 STOPPED = result(completed=False, assembled=None, message="the gasket is not on properly")  # with error 32
 CALLED = msgspec.structs.replace(STOPPED, error=None, message="THE ROTOR IS HARD TO TURN")

@@ -7,10 +7,10 @@ import pytest
 from conftest import Command
 
 from handeye.al import AL
+from handeye.core.source import Source
 from handeye.planning.scripts import plan_source
 from handeye.program.taught import load_taught
 from handeye.runs.scripts import default_script
-from handeye.source import Source
 from handeye.tasks import task
 from handeye.trials.growth import Growth
 from handeye.trials.growth_costs import cells, script, statements

@@ -10,14 +10,14 @@ from conftest import Command
 from msgspec.structs import replace
 
 from handeye.al import AL
+from handeye.core.random_streams import random_numbers
+from handeye.core.resources import plans
+from handeye.core.source import Source
 from handeye.planfile.plan import Plan
 from handeye.planning.scripts import plan_source
-from handeye.random_streams import random_numbers
-from handeye.resources import plans
-from handeye.runs import programs
 from handeye.runs.runner import Runner
 from handeye.runs.scripts import taught_beside
-from handeye.source import Source
+from handeye.systems.stanford import executor_run as programs
 from handeye.tasks.insertion.task import INSERTION
 from handeye.touch.spiral import spiral
 from handeye.trials import insertion

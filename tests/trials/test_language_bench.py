@@ -8,8 +8,8 @@ import pytest
 from conftest import Command
 
 from handeye.al import compile_text
+from handeye.core.source import Source
 from handeye.program.taught import Taught
-from handeye.source import Source
 from handeye.trials.keystrokes import typed
 from handeye.trials.language import Waiting, script
 

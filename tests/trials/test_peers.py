@@ -9,10 +9,10 @@ from conftest import Command
 from synthetic import Canvas, draw_base, part, view
 
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.units import DEGREE, INCH
 from handeye.tasks.interface import Sight
 from handeye.trials import inverse_kinematics, vision
 from handeye.trials.peers import Comparison, Outcome, Way
-from handeye.units import DEGREE, INCH
 
 POSE = (44.5 * INCH, 28 * INCH, 90 * DEGREE)
 OURS = Way(

@@ -10,9 +10,10 @@ from conftest import Command
 from results import result
 
 import handeye
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
 from handeye.planfile.store import read_plan
-from handeye.report.result import Check
+from handeye.results.result import Check
 from handeye.tasks.interface import Predicted
 from handeye.trials.batch import batch as carrying_out
 from handeye.trials.batch.batch import head_of
@@ -23,7 +24,6 @@ from handeye.trials.batch.trial import Trial
 from handeye.trials.prediction import predicting
 from handeye.trials.prediction.figures import figures, worst_of
 from handeye.trials.prediction.predicting import Prediction, predict
-from handeye.variation import WorldSpec
 
 WORLD = WorldSpec(seed=10)
 PIN = Predicted(

@@ -3,7 +3,7 @@
 import pytest
 
 import handeye
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.touch.spiral import spiral
 
 pytestmark = pytest.mark.slow

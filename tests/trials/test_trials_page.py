@@ -6,10 +6,10 @@ from types import ModuleType
 
 import pytest
 
-from handeye.faults import Fault
+from handeye.core.faults import Fault
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.trials.batch.folder import Head
 from handeye.trials.batch.row import Row
-from handeye.variation import Overrides, WorldSpec
 
 DOCS = Path(__file__).parents[2] / "docs"
 FILES = sorted((DOCS / "trials").glob("*.csv"))

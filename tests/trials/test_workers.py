@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from trial_functions import hung, killed_always, killed_once, process, refused
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.trials.seeds import WorkerLost, in_processes
 from handeye.trials.workers import answers
 

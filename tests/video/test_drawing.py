@@ -8,7 +8,7 @@ import pytest
 from short_runs import begin, through
 
 from handeye.cell.opengl import context
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.runs.folder import TRACE, open_new
 from handeye.runs.runner import Runner
 from handeye.trace.reading import read_trace

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from handeye.cell.photograph import Photograph
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.video.formats import format_of
 from handeye.video.frames import RATE
 from handeye.video.webm import webm

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from recordings import record, started
 
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, CameraBusy, StageFinished, StageStarted
+from handeye.core.errors import InvalidInput
+from handeye.program.events import AnyEvent, CameraBusy, StageFinished, StageStarted
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 from handeye.video.passages import Passage, at_speed, passage_at, passages, within

@@ -8,9 +8,9 @@ import pytest
 from recordings import record
 from report_pages import renamed
 
-from handeye.errors import InvalidInput
-from handeye.events import OperatorCalled, StageFinished, StageUndone, UndoOrdered, UndoStarted
-from handeye.see.recorded import Recorded
+from handeye.core.errors import InvalidInput
+from handeye.program.events import OperatorCalled, StageFinished, StageUndone, UndoOrdered, UndoStarted
+from handeye.report.recorded import Recorded
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 from handeye.video import storyboard as module

@@ -9,8 +9,8 @@ import pytest
 from recordings import record, started
 
 from handeye.cell.photograph import Near
-from handeye.errors import InvalidInput
-from handeye.events import AnyEvent, StageFinished, StageStarted, StepFinished
+from handeye.core.errors import InvalidInput
+from handeye.program.events import AnyEvent, StageFinished, StageStarted, StepFinished
 from handeye.trace.reading import read_trace
 from handeye.trace.trace import Trace
 from handeye.video.views import views

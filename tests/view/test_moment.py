@@ -5,13 +5,13 @@ import pytest
 from short_runs import begin
 from toy_system import begin_toy
 
-from handeye.events import ErrorRaised
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.workcell import Sensed
+from handeye.program.events import ErrorRaised
+from handeye.report.facts.seen import SeenPicture
 from handeye.runs.advance import advance
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
-from handeye.see.facts.seen import SeenPicture
 from handeye.trace.frames import Frames
 from handeye.view.moment import FIGURES, Moment, Newest
 from handeye.view.television import Television

@@ -8,9 +8,9 @@ from fake_runs import FakeRun, fake_run
 from looked_runs import PART, SCRIPT, looked
 from toy_system import begin_toy
 
-from handeye.events import ErrorRaised, PartSeen
+from handeye.program.events import ErrorRaised, PartSeen
+from handeye.report.facts.seen import SeenPicture
 from handeye.runs.runner import Runner
-from handeye.see.facts.seen import SeenPicture
 from handeye.view.moment import Newest
 from handeye.view.television import Television, shown
 

@@ -14,10 +14,10 @@ from toy_system import begin_toy
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
+from handeye.core.errors import InvalidInput
 from handeye.debugger.stepper import Stepper
-from handeye.errors import InvalidInput
+from handeye.report.facts.seen import SeenPicture
 from handeye.runs.runner import Runner
-from handeye.see.facts.seen import SeenPicture
 from handeye.view.driving import drive
 from handeye.view.link import Link
 from handeye.view.moment import Newest

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from synthetic import FINE, Canvas, draw_base, part, view
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import COLUMNS, ROWS
 from handeye.program.causes import NoHoles, NoOutline, OutsidePicture
-from handeye.units import DEGREE, INCH
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
 
 PART = part()

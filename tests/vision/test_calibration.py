@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH
 from handeye.tasks.water_pump.eye import DRAWING
-from handeye.units import DEGREE, INCH
 from handeye.vision.calibration import Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.units import DEGREE, INCH
 from handeye.tasks.water_pump.eye import DRAWING
-from handeye.units import DEGREE, INCH
 from handeye.vision.camera_model import CENTRE, CameraModel, LensModel
 
 TILTED = CameraModel(

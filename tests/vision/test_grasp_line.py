@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from synthetic import part, view
 
-from handeye.pose import hand
-from handeye.units import DEGREE, INCH
+from handeye.core.pose import hand
+from handeye.core.units import DEGREE, INCH
 from handeye.vision.grasp_line import grasp_line
 
 PART = part()

@@ -6,12 +6,12 @@ It is large, so the ordinary suite does without it: `pip install distributed`, t
 import pytest
 from short_runs import FEEL, plan_of
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.variation import WorldSpec
 from handeye.trials.batch.batch import carry_out, jobs_of
 from handeye.trials.batch.dask_engine import dask_workers
 from handeye.trials.batch.engines import processes
 from handeye.trials.batch.trial import Trial
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.filterwarnings("default")  # those of others
 TRIAL = Trial(plan=plan_of(FEEL), camera="ray")

@@ -9,7 +9,7 @@ import roboticstoolbox
 
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import inverse
+from handeye.core.pose import inverse
 from handeye.trials.inverse_kinematics import measure, toolbox_chain
 
 

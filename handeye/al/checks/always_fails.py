@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Final
 
+from handeye.core.units import INCH
 from handeye.program.flow_operations import Tool, Undo, Wait
 from handeye.program.graph import Graph
 from handeye.program.guards import Force, GuardKind
 from handeye.program.motion_operations import Center, Change, Close, Open, Travel
-from handeye.units import INCH
 
 _TIME: Final = re.compile(r"[\d.]+ *(?:m?s|secs?|seconds?)?", re.ASCII | re.IGNORECASE)
 LEAST: Final = 1e-6

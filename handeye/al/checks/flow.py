@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from handeye.al.checks.always_fails import in_vain
 from handeye.al.checks.loops import stale_rounds
 from handeye.al.syntax import Name, Statement
-from handeye.diagnostics import Diagnostic, Label
-from handeye.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
+from handeye.core.diagnostics import Diagnostic, Label
+from handeye.core.errors import ERRORS, NO_FORCE, NO_TORQUE, NO_TOUCH, WRONG_THICKNESS
+from handeye.core.source import Span
 from handeye.program.flow_operations import Advance, Jump, Save, Search, Test, Wait
 from handeye.program.graph import Graph
 from handeye.program.motion_operations import Change, Height, Move, Travel
 from handeye.program.operation import Operation
 from handeye.program.vision_operations import General, Specific
-from handeye.source import Span
 
 _CURES = {
     NO_FORCE: "a motion raises error 23 if a `STOP` before it meets no force",

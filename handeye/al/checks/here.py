@@ -8,7 +8,7 @@ from handeye.al.macros import Placed
 from handeye.al.parameters import uses
 from handeye.al.statements import pairs
 from handeye.al.syntax import Name, Statement
-from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import Diagnostic, Label, quoted
 
 _PLACES: Final = (Refers.POSITION, Refers.TARGET)
 

@@ -7,8 +7,8 @@ from handeye.al.definition import DECLARATION, JUMP, MODIFIER, SHIFT
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.syntax import Macro, Name, Script, Statement
 from handeye.al.word_groups import SKIPS
-from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.source import Source
+from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.source import Source
 
 _NO_STEP = frozenset(i.op for i in INSTRUCTIONS.values() if i.role in (DECLARATION, SHIFT))
 """Words that a skip passes over, or takes with the step before."""

@@ -10,8 +10,8 @@ from handeye.al.statements import ByWord, Used, pairs
 from handeye.al.syntax import Name, Number, Statement
 from handeye.al.unitwords import no_units
 from handeye.al.word_groups import SKIPS
-from handeye.diagnostics import LIMIT, Diagnostic, Label, alternatives, quoted, told_names
-from handeye.errors import ERRORS
+from handeye.core.diagnostics import LIMIT, Diagnostic, Label, alternatives, quoted, told_names
+from handeye.core.errors import ERRORS
 from handeye.program.taught import Taught
 
 _CODES = {

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from handeye.al.parameters import braced_in, parameters_in
 from handeye.al.syntax import Macro, Name, Script
-from handeye.diagnostics import Diagnostic, Label, alternatives, quoted, told_names
+from handeye.core.diagnostics import Diagnostic, Label, alternatives, quoted, told_names
 
 
 def check_parameters(script: Script) -> Iterator[Diagnostic]:

@@ -15,10 +15,10 @@ from handeye.al.macros import Placed
 from handeye.al.statements import ByWord, Used
 from handeye.al.syntax import Script, Statement
 from handeye.al.vectors import Vectors
-from handeye.diagnostics import Diagnostic
+from handeye.core.diagnostics import Diagnostic
+from handeye.core.source import Source
 from handeye.program.graph import Graph
 from handeye.program.taught import Taught
-from handeye.source import Source
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,7 +9,7 @@ from functools import cache
 from handeye.al.lower import Lowered
 from handeye.al.parameters import uses
 from handeye.al.syntax import Name, Statement
-from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import Diagnostic, Label, quoted
 from handeye.program.flow_operations import Save
 from handeye.program.graph import Graph
 from handeye.program.motion_operations import Move

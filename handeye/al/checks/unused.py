@@ -9,8 +9,8 @@ from handeye.al.definition import Refers
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.statements import ByWord, Used, all_statements
 from handeye.al.syntax import Name, Script, Statement
-from handeye.diagnostics import Diagnostic, Label, quoted
-from handeye.source import Source
+from handeye.core.diagnostics import Diagnostic, Label, quoted
+from handeye.core.source import Source
 
 _WRITTEN = {
     "TRANS": ("position", (Refers.POSITION, Refers.TARGET)),

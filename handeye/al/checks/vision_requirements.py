@@ -6,7 +6,7 @@ from typing import Final
 from handeye.al.parameters import across
 from handeye.al.statements import ByWord
 from handeye.al.syntax import Name
-from handeye.diagnostics import Diagnostic, Label, quoted
+from handeye.core.diagnostics import Diagnostic, Label, quoted
 from handeye.program.program import Part
 from handeye.program.taught import Taught
 

@@ -13,7 +13,7 @@ from handeye.arm.ik.choice import choose
 from handeye.arm.ik.result import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 from handeye.program.reasons import FixedDirection, FixedOrientation, InLine
 
 _WRITTEN: Final = 1e-5

@@ -21,7 +21,7 @@ from handeye.arm.ik.choice import choose, nearest_turn
 from handeye.arm.ik.result import IKResult
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.model import ArmModel, constants
-from handeye.pose import Array, Pose, rotation_x
+from handeye.core.pose import Array, Pose, rotation_x
 from handeye.program.reasons import InLine
 
 _COLLINEAR: Final = 1e-9

@@ -6,7 +6,7 @@ import msgspec
 import numpy as np
 
 from handeye.arm.model import ArmModel
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.causes import ArmNames, BeyondArm
 from handeye.program.reason_text import sentence
 from handeye.program.reasons import Reason

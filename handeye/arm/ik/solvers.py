@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from handeye.arm.ik import cartesian, gantry, spherical_wrist
 from handeye.arm.ik.result import IKResult
 from handeye.arm.model import ArmModel, Structure
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 from handeye.program.reasons import InLine
 
 

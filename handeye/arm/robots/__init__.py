@@ -4,8 +4,8 @@ from typing import Final
 
 from handeye.arm.model import ArmModel, same_arm
 from handeye.arm.robots.stanford import STANFORD
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
 
 _ROBOTS: Final = {STANFORD.name: STANFORD}
 

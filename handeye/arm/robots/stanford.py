@@ -10,8 +10,8 @@ from typing import Final, Literal
 
 from handeye.arm.hand import GraspModel, HandModel
 from handeye.arm.model import ArmModel, ComplianceModel, Joint, ServoModel
-from handeye.pose import pose, rotation_z
-from handeye.units import DEGREE, GAP, INCH, JIFFY
+from handeye.core.pose import pose, rotation_z
+from handeye.core.units import DEGREE, GAP, INCH, JIFFY
 
 HAND_LENGTH: Final = 10 * INCH
 """Wrist centre to finger tips. Chosen: the published model ends at the wrist centre."""

@@ -4,9 +4,9 @@ from typing import Annotated
 
 import msgspec
 
-from handeye.events import AskedBy
+from handeye.core.record import Record
+from handeye.program.events import AskedBy
 from handeye.program.guards import GuardKind
-from handeye.record import Record
 
 Natural = Annotated[int, msgspec.Meta(ge=0)]
 

@@ -14,8 +14,8 @@ from typing import Final
 
 import numpy as np
 
+from handeye.core.pose import Array
 from handeye.execution.undo.done import Done
-from handeye.pose import Array
 from handeye.program.guards import GuardKind
 
 SAME_GAP: Final = 5e-4

@@ -7,7 +7,7 @@ wider than the thing. Closed on, it is pushed to the middle, or pushes the arm, 
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.causes import MetEarly
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, Reading, Trip

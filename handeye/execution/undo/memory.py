@@ -8,11 +8,11 @@ from typing import Any, Final, get_type_hints
 
 from msgspec.structs import replace
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import MutableRecord, put_back
+from handeye.core.packed import decoded, encoded
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import ExecutionState, check_fits
-from handeye.mutable_records import MutableRecord, put_back
-from handeye.packed import decoded, encoded
 
 REMEMBERED: Final = (
     "pending", "saved", "heights", "counters", "search", "restored", "goal", "travel", "finger_line", "grasping",

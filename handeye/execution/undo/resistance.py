@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, Reading, Trip
 

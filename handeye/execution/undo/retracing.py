@@ -8,9 +8,9 @@ import numpy as np
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.samples import Samples
+from handeye.core.pose import Array
 from handeye.execution.undo.way import Way
 from handeye.planning.motions import GUARDED_SPEED
-from handeye.pose import Array
 
 RAMP: Final = 8
 """Servo periods over which it sets off, and slows down. Chosen: what stopped on a force ended at full speed."""

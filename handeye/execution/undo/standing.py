@@ -11,10 +11,10 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.kinematics import forward
+from handeye.core.units import INCH
 from handeye.execution.context import ExecutionContext
 from handeye.execution.undo.done import Done
 from handeye.execution.undo.way import Way
-from handeye.units import INCH
 
 FALLEN: Final = 0.31 * INCH
 """m that it may have fallen. By the pump's gasket: fingers reach .25 in through it (`[gasket_stand]`), and it is .06 in

@@ -7,10 +7,10 @@ from typing import Final
 import numpy as np
 from msgspec.structs import replace
 
-from handeye import errors
 from handeye.arm.kinematics import forward
-from handeye.errors import InvalidInput
-from handeye.events import GuardTripped, StageUndone, UndoEnded, UndoFinished, UndoStarted
+from handeye.core import errors
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.state import ExecutionState, vector
@@ -24,8 +24,8 @@ from handeye.execution.undo.standing import stands, where_the_hand_is
 from handeye.execution.undo.unscrewing import LOWER, lower, taken_by, unscrew
 from handeye.execution.undo.way import Way, packed, unpacked
 from handeye.planning.motions import Unreachable, directions, move_trajectory
-from handeye.pose import Array
 from handeye.program.causes import BackingOut, Cause, HoldOff, ScrewFast, ScrewLost, UndoResisted, UndoUnknown
+from handeye.program.events import GuardTripped, StageUndone, UndoEnded, UndoFinished, UndoStarted
 from handeye.program.guards import GuardKind
 from handeye.program.motion_operations import Center, Close, Move, Open
 from handeye.program.operation import Operation

@@ -7,13 +7,13 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.kinematics import forward
+from handeye.core.pose import Array
 from handeye.execution.compliance import Course
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
 from handeye.execution.undo.done import Done
 from handeye.execution.undo.resistance import Resistance, allowed
 from handeye.execution.undo.way import Way
-from handeye.pose import Array
 from handeye.program.guards import GuardKind
 from handeye.touch.guards import ActiveGuard, FirstOf, Reading, Trip
 

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 GRAIN: Final = 1e-6
 """rad or m. At the hand a tenth of what the potentiometers tell."""

@@ -6,13 +6,13 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings, at_most
 from handeye.tasks.inserting import Inserting, Witnessed
 from handeye.tasks.insertion.world import VARIATION, BenchWorld
 from handeye.tasks.interface import Words
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.park import PARK
-from handeye.variation import Variation, WorldSpec
 
 if TYPE_CHECKING:
     import mujoco

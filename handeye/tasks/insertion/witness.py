@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.stepper import Stepper
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.tasks.insertion.scene import FACE, PUSH
 from handeye.tasks.water_pump.dimensions import dimensions
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.core.record import Vector3
+from handeye.core.units import DEGREE, INCH
+from handeye.core.variation import WorldSpec
 from handeye.program.cause_text import cause_sentence
-from handeye.record import Vector3
 from handeye.tasks.trial import Attempt, Count, Known, Trial
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
-from handeye.units import DEGREE, INCH
-from handeye.variation import WorldSpec
 
 if TYPE_CHECKING:
     from handeye.program.program import Part

@@ -6,6 +6,7 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.camera import CameraState
+from handeye.core.units import INCH
 from handeye.execution.camera_calibration import calibrate_camera
 from handeye.execution.friction_measurement import measure_joints
 from handeye.execution.state import DriveState
@@ -14,7 +15,6 @@ from handeye.tasks.trial import Known
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.still_pump import StillPump
-from handeye.units import INCH
 from handeye.vision.calibration import Calibration, Sighting, calibrate
 from handeye.vision.camera_model import CameraModel
 

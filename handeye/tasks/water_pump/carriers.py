@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.looks import LATENT, SEEN
-from handeye.pose import Array, Pose, inverse, pose
+from handeye.core.pose import Array, Pose, inverse, pose
 
 STRAIGHTENING: Final = (
     1.33  # rad of turn in which a lean falls to 1/e: a whole turn leaves a hundredth. Chosen.

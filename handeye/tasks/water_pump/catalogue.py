@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Final
 
-from handeye.faults import Catalogue
+from handeye.core.faults import Catalogue
 from handeye.tasks.water_pump.device_faults import device_faults
 from handeye.tasks.water_pump.mishaps import mishap_faults
 from handeye.tasks.water_pump.noticing import expected

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import allow
-from handeye.pose import Array, inverse, pose
-from handeye.record import Record
+from handeye.core.pose import Array, inverse, pose
+from handeye.core.record import Record
 from handeye.tasks.water_pump.threads import Threads
 
 SCREWS: Final = 2

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
-from handeye.errors import InvalidInput
-from handeye.resources import scenes
-from handeye.units import DEGREE, INCH
+from handeye.core.errors import InvalidInput
+from handeye.core.resources import scenes
+from handeye.core.units import DEGREE, INCH
 
 UNITS: Final = {
     "in": INCH,

@@ -13,7 +13,7 @@ import numpy as np
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.sleep import wake
 from handeye.cell.truth import Truth
-from handeye.pose import Array, inverse, pose
+from handeye.core.pose import Array, inverse, pose
 from handeye.tasks.interface import Disturbance
 from handeye.tasks.water_pump.mishaps import Scene
 from handeye.tasks.water_pump.scene.arm import ARM

@@ -3,7 +3,7 @@
 import math
 from functools import cache
 
-from handeye.pose import Pose, planar
+from handeye.core.pose import Pose, planar
 from handeye.tasks.water_pump.dimensions import dimensions
 
 Point = tuple[float, float]

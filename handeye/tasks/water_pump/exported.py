@@ -12,8 +12,8 @@ import mujoco
 
 from handeye.cell.keyframe import add_keyframe, body_pose
 from handeye.cell.truth import Truth
-from handeye.pose import Pose, inverse
-from handeye.resources import scenes
+from handeye.core.pose import Pose, inverse
+from handeye.core.resources import scenes
 from handeye.tasks.interface import ExportedScene
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from handeye.pose import Pose, planar, translated, yaw
+from handeye.core.pose import Pose, planar, translated, yaw
+from handeye.core.units import DEGREE, INCH
+from handeye.core.variation import WorldSpec
 from handeye.tasks.trial import Attempt, Count, Known, Trial
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, standard
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import DEGREE, INCH
-from handeye.variation import WorldSpec
 
 if TYPE_CHECKING:
     from handeye.program.program import Part

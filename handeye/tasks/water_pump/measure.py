@@ -6,8 +6,8 @@ from typing import Final
 import mujoco
 import numpy as np
 
+from handeye.core.pose import inverse, pose
 from handeye.judge.measured import Measured, tilt
-from handeye.pose import inverse, pose
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.limits import ROTOR_SWING, ROTOR_TORQUE

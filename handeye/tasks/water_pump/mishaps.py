@@ -17,12 +17,12 @@ import numpy as np
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
-from handeye.faults import Fault, FaultKind, Size
-from handeye.pose import Array
-from handeye.record import Record
+from handeye.core.faults import Fault, FaultKind, Size
+from handeye.core.pose import Array
+from handeye.core.record import Record
+from handeye.core.units import INCH
 from handeye.tasks.water_pump.part_faults import GONE, OVER
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.units import INCH
 
 PUSH: Final = 2.0
 """s for which somebody pushes the arm."""

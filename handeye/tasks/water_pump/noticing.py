@@ -8,7 +8,7 @@ may be blocked.
 from collections.abc import Iterator
 from typing import Final
 
-from handeye.errors import (
+from handeye.core.errors import (
     CURRENT_WRONG,
     FEATURES_NOT_SEEN,
     FORCE_WRONG,
@@ -26,7 +26,7 @@ from handeye.errors import (
     WATCHDOG,
     WRONG_HEIGHT,
 )
-from handeye.faults import UNKNOWN, Expected
+from handeye.core.faults import UNKNOWN, Expected
 
 SCREWED: Final = (1, 3, 6, 2, 5, 4)
 """The tapped holes in the order in which the program drives screws 1 to 6 into them."""

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.units import DEGREE, INCH
+from handeye.core.units import DEGREE, INCH
 
 PARK: Final = np.array([-19.7, 104.0, 17.5, 0.0, 76.0, 70.3]) * [
     DEGREE, DEGREE, INCH, DEGREE, DEGREE, DEGREE

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from handeye.faults import Fault, FaultKind, Size
-from handeye.pose import rotation_z
+from handeye.core.faults import Fault, FaultKind, Size
+from handeye.core.pose import rotation_z
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point, base_top, web_centre
 from handeye.tasks.water_pump.variation import screws

@@ -7,7 +7,9 @@ import numpy as np
 
 from handeye.cell.device_errors import ArmBuild, ArmErrors, CameraErrors, HandErrors
 from handeye.cell.raster import Raster
-from handeye.pose import Array, Pose, pose, rotation, rotation_x, rotation_z
+from handeye.core.pose import Array, Pose, pose, rotation, rotation_x, rotation_z
+from handeye.core.units import UNITS
+from handeye.core.variation import Overrides, World, WorldSpec
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point, screw_holes
 from handeye.tasks.water_pump.stations import stations
@@ -22,8 +24,6 @@ from handeye.tasks.water_pump.variation import (
     screws,
     variation,
 )
-from handeye.units import UNITS
-from handeye.variation import Overrides, World, WorldSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

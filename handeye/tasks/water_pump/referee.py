@@ -7,15 +7,15 @@ from typing import Final
 import numpy as np
 
 from handeye.cell.truth import Truth
+from handeye.core.pose import yaw
+from handeye.core.units import INCH
 from handeye.judge.finding import Finding, Findings, at_least, at_most, worse
 from handeye.judge.measured import Measured, tilt
-from handeye.pose import yaw
 from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.overlap import Overlap, deepest
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.threads import Thread, holes_of
-from handeye.units import INCH
 
 _MM: Final = 1e3
 _PINS: Final = ("pin0", "pin1")

@@ -6,8 +6,8 @@ it, worlds place it with an error of its own, and the planner keeps every motion
 
 from enum import StrEnum
 
-from handeye.boxes import Box
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.obb import Box
 from handeye.program.program import Fixture
 from handeye.tasks.water_pump.dimensions import dimensions
 

@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from handeye.cell.still_cell import StillCell
+from handeye.core.pose import planar
+from handeye.core.units import DEGREE, INCH
 from handeye.ports.camera import CLOSE_UP, WIDE, Picture, TvCamera
-from handeye.pose import planar
 from handeye.program.program import Hole, Part
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes
@@ -16,7 +17,6 @@ from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.variation import BELT_LINE, BELT_X, BELT_Y
-from handeye.units import DEGREE, INCH
 from handeye.vision.base import Failure, GeneralLocation, SpecificLocation, locate_general, locate_specific
 from handeye.vision.camera_model import CameraModel, View
 

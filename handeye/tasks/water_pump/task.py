@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.faults import Catalogue
+from handeye.core.faults import Catalogue
+from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture, Program
 from handeye.program.senses import Sense
@@ -18,7 +19,6 @@ from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.stations import planned_fixtures
 from handeye.tasks.water_pump.variation import variation
-from handeye.variation import Variation, WorldSpec
 
 if TYPE_CHECKING:
     import mujoco
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from handeye.cell.rendering import RendererMaker
     from handeye.cell.simulated import SimulatedCell
     from handeye.cell.truth import Truth
-    from handeye.pose import Array
+    from handeye.core.pose import Array
 
 PERIOD: Final = Period(
     year=1973,

@@ -22,8 +22,8 @@ from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.sleep import wake
 from handeye.cell.state import finite
 from handeye.cell.truth import Truth
-from handeye.pose import Array, Pose, pose, translated
-from handeye.record import Record
+from handeye.core.pose import Array, Pose, pose, translated
+from handeye.core.record import Record
 from handeye.tasks.water_pump.carriers import Carriers
 from handeye.tasks.water_pump.part_faults import crossing_threads, scarred_threads, slipping_screws
 from handeye.tasks.water_pump.pump_world import PumpWorld

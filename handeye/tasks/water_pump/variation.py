@@ -11,10 +11,10 @@ import numpy as np
 
 from handeye.arm.converters import SENSE_BITS, TORQUE_BITS, position_step, rate_step, torque_step
 from handeye.arm.robots.stanford import STANFORD
-from handeye.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Step, Uniform
+from handeye.core.distributions import Distribution, Fixed, Noise, Normal, Phase, Range, Step, Uniform
+from handeye.core.units import UNITS
+from handeye.core.variation import Quantity, Variation
 from handeye.tasks.water_pump.stations import stations
-from handeye.units import UNITS
-from handeye.variation import Quantity, Variation
 
 JOINT_UNITS: Final = ("deg", "deg", "in", "deg", "deg", "deg")
 ARM_PERIOD: Final = (60.0, 60.0, 8.0, 60.0, 60.0, 60.0)

@@ -5,13 +5,13 @@ from contextlib import closing
 
 import msgspec
 
+from handeye.core.variation import WorldSpec
+from handeye.core.versions import code_digest, versions
 from handeye.planfile.store import plan_digest
 from handeye.trials.batch.engines import Engine
 from handeye.trials.batch.folder import BatchFolder, Head
 from handeye.trials.batch.row import Row
 from handeye.trials.batch.trial import Job, Trial, row_of
-from handeye.variation import WorldSpec
-from handeye.versions import code_digest, versions
 
 
 def jobs_of(world: WorldSpec, numbers: Sequence[int]) -> list[Job]:

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 from typing import NamedTuple
 
-from handeye.errors import InvalidInput
-from handeye.record import Record
-from handeye.report.result import Result
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Record
+from handeye.results.result import Result
 from handeye.trials.batch.folder import Head
 from handeye.trials.batch.rates import mcnemar, signed_rank
 from handeye.trials.batch.row import Row, Verdict

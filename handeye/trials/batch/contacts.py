@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from handeye.errors import SEARCH_EXHAUSTED
-from handeye.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
+from handeye.core.errors import SEARCH_EXHAUSTED
+from handeye.core.record import Record
+from handeye.program.events import AnyEvent, ErrorRaised, SearchAdvanced, StepStarted
 from handeye.program.flow_operations import Search
 from handeye.program.motion_operations import Move
 from handeye.program.program import Program
-from handeye.record import Record
 
 
 class Contact(Record, frozen=True, kw_only=True):

@@ -4,13 +4,13 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, Final
 
-from handeye.errors import InvalidInput
-from handeye.extras import MissingExtra
+from handeye.core.errors import InvalidInput
+from handeye.core.extras import MissingExtra
+from handeye.core.versions import code_digest
 from handeye.trials.batch.engines import Engine
 from handeye.trials.batch.row import Row
 from handeye.trials.batch.trial import Job, Trial
 from handeye.trials.workers import TRIES, Answer
-from handeye.versions import code_digest
 
 HOST: Final = "127.0.0.1"
 """Workers here listen on this computer alone."""

@@ -4,12 +4,13 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from handeye.events import UndoFinished
-from handeye.host_time import HostTimer
+from handeye.core.host_time import HostTimer
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
 from handeye.judge.finding import all_right
-from handeye.record import Record
-from handeye.report.finishing import finished
-from handeye.report.judging import findings
+from handeye.program.events import UndoFinished
+from handeye.results.finishing import finished
+from handeye.results.judging import findings
 from handeye.runs.advance import Pause, advance
 from handeye.runs.host_seconds import Meter
 from handeye.runs.runner import Runner
@@ -22,7 +23,6 @@ from handeye.trials.batch.figures import Cause, Failure, causes_of, failures_of
 from handeye.trials.batch.rates import rate
 from handeye.trials.batch.row import Row
 from handeye.trials.batch.trial import Trial, Watch, facts
-from handeye.variation import WorldSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

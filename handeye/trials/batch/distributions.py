@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from handeye.record import Record
-from handeye.report.result import Check
+from handeye.core.record import Record
+from handeye.results.result import Check
 from handeye.trials.batch.row import Row
 
 ALIKE: Final = 1e-3

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Sequence
 
-from handeye.record import Record
+from handeye.core.record import Record
 from handeye.trials.batch.distributions import (
     Margin,
     SearchPlaces,

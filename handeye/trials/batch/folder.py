@@ -5,17 +5,17 @@ from typing import Final, Literal, TypeVar
 
 import msgspec
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.files import read_whole
-from handeye.line_file import LineFile
-from handeye.plain_text import counted
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.core.line_file import LineFile
+from handeye.core.plain_text import counted
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
 from handeye.planfile.store import plan_digest, read_plan, write_plan
 from handeye.program.senses import Sense
-from handeye.record import Record
 from handeye.trials.batch.row import Row
-from handeye.variation import WorldSpec
 
 R = TypeVar("R", bound=Record)
 

@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 from typing import Final
 
-from handeye.files import Kind
-from handeye.markup import Markup
-from handeye.see.page.document import head, resource
-from handeye.see.page.elements import (
+from handeye.core.files import Kind
+from handeye.core.markup import Markup
+from handeye.report.page.document import head, resource
+from handeye.report.page.elements import (
     cell,
     element,
     figure_cell,
@@ -16,7 +16,7 @@ from handeye.see.page.elements import (
     section,
     table,
 )
-from handeye.see.page.plots import Scale, bar, dot, drawing, rule
+from handeye.report.page.plots import Scale, bar, dot, drawing, rule
 from handeye.trials.batch.distributions import margin_of
 from handeye.trials.batch.figures import Figures
 from handeye.trials.batch.row import Row

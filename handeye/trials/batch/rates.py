@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from handeye.record import Record
+from handeye.core.record import Record
 
 CONFIDENCE: Final = 0.95
 

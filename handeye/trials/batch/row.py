@@ -4,9 +4,9 @@ from typing import Annotated, Final, Literal
 
 import msgspec
 
-from handeye.errors import ERRORS
-from handeye.record import Record
-from handeye.report.result import Result
+from handeye.core.errors import ERRORS
+from handeye.core.record import Record
+from handeye.results.result import Result
 from handeye.trials.batch.contacts import Contact, SearchEnd
 
 Ended = Literal["ended", "raised", "killed", "simulated limit", "wall limit", "not built"]

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from handeye.report.result import Result
+from handeye.results.result import Result
 from handeye.trace.table import Column, Table
 from handeye.trials.batch.figures import Figures
 from handeye.trials.batch.row import Row

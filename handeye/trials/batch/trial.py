@@ -8,9 +8,10 @@ from typing import Final
 
 import msgspec
 
-from handeye.events import AnyEvent, StepStarted, to_line
-from handeye.host_time import HostTimer
+from handeye.core.host_time import HostTimer
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
+from handeye.program.events import AnyEvent, StepStarted, to_line
 from handeye.program.senses import Sense
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
@@ -21,7 +22,6 @@ from handeye.trials.assembly import Finished, run_plan
 from handeye.trials.batch.contacts import contacts, searches
 from handeye.trials.batch.row import Ended, Row
 from handeye.trials.workers import Answer
-from handeye.variation import WorldSpec
 
 SIMULATED_LIMIT_S: Final = 3600.0
 """Of the cell's clock: five times what a whole pump takes."""

@@ -8,20 +8,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from handeye.events import OperatorAnswered, OperatorCalled
+from handeye.core.files import write_whole
 from handeye.execution.servo_period import ServoPeriod
-from handeye.files import write_whole
-from handeye.report.outcome import outcome
-from handeye.report.result import to_json
+from handeye.program.events import OperatorAnswered, OperatorCalled
+from handeye.results.outcome import outcome
+from handeye.results.result import to_json
 from handeye.runs.advance import Pause, keep, paused_before
 from handeye.runs.folder import EVENTS, RESULT, open_again, open_new
 from handeye.runs.host_seconds import Meter
 from handeye.runs.observer import Observer
 from handeye.runs.operator import Operator, OperatorChoice, attend
-from handeye.runs.programs import cell_of
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.stops import StopCondition
+from handeye.systems.stanford.executor_run import cell_of
 from handeye.trials.brakes import brakes_hold
 from handeye.trials.chaos.schedule import Answer, Break, Schedule
 

@@ -6,9 +6,9 @@ from typing import Final
 
 import msgspec
 
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
 from handeye.judge.finding import Findings
-from handeye.report.result import Result
+from handeye.results.result import Result
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.folder import CHECKPOINTS, EVENTS, RESULT, TRACE
 from handeye.runs.snapshot import Snapshot

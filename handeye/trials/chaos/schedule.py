@@ -10,12 +10,12 @@ from typing import Annotated, Final, Literal, get_args
 
 import msgspec
 
-from handeye.diagnostics import quoted
-from handeye.errors import InvalidInput
-from handeye.fault_options import by_number, faults
-from handeye.faults import Catalogue, Fault, FaultKind
-from handeye.record import Record
-from handeye.variation import Level, checked_seed
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.fault_options import by_number, faults
+from handeye.core.faults import Catalogue, Fault, FaultKind
+from handeye.core.record import Record
+from handeye.core.variation import Level, checked_seed
 
 BreakKind = Literal["panic", "pause", "back", "kill"]
 """Panic button, behind so many servo periods; a pause behind so many steps, from which the run is taken up again from

@@ -7,18 +7,18 @@ from typing import Final
 
 import msgspec
 
-from handeye.errors import InvalidInput
-from handeye.events import RunStarted
-from handeye.faults import Fault
-from handeye.files import write_whole
+from handeye.core.errors import InvalidInput
+from handeye.core.faults import Fault
+from handeye.core.files import write_whole
+from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
+from handeye.program.events import RunStarted
 from handeye.runs.checkpoint_store import CheckpointStore
 from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.runs.systems import listing_of
 from handeye.tasks import task
-from handeye.variation import WorldSpec
 
 EVERY: Final = 3
 """Steps from one checkpoint to the next."""

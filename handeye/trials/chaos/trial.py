@@ -4,9 +4,9 @@ import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from handeye.events import OperatorAnswered, StageFinished
-from handeye.record import Record
-from handeye.report.judging import findings_so_far
+from handeye.core.record import Record
+from handeye.program.events import OperatorAnswered, StageFinished
+from handeye.results.judging import findings_so_far
 from handeye.runs.advance import advance
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint

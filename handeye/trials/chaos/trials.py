@@ -5,14 +5,14 @@ from functools import partial
 from pathlib import Path
 from typing import Final
 
+from handeye.core.record import Record
+from handeye.core.variation import Level, WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.record import Record
 from handeye.tasks import task
 from handeye.trials.chaos.schedule import Schedule, draw
 from handeye.trials.chaos.sound_run import SoundRun, sound_run
 from handeye.trials.chaos.trial import Tried, shrunk, try_schedule
 from handeye.trials.seeds import in_processes
-from handeye.variation import Level, WorldSpec
 
 LEVELS: Final[tuple[Level, ...]] = ("nominal", "low", "high")
 

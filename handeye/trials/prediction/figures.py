@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from handeye.pose import Array
-from handeye.record import Record
+from handeye.core.pose import Array
+from handeye.core.record import Record
 from handeye.tasks.interface import Predicted
 from handeye.trials.batch.row import Row
 from handeye.trials.prediction.predicting import Prediction

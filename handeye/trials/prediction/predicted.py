@@ -6,20 +6,20 @@ from typing import Final
 
 import numpy as np
 
-from handeye.diagnostics import quoted
-from handeye.door.arguments import given_count, given_names
-from handeye.door.plans import FileName, Planned, plan
-from handeye.door.worlds import World
-from handeye.errors import InvalidInput
-from handeye.plain_text import counted
-from handeye.pose import Array
+from handeye.api.arguments import given_count, given_names
+from handeye.api.plans import FileName, Planned, plan
+from handeye.api.worlds import World
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import counted
+from handeye.core.pose import Array
+from handeye.core.variation import WorldSpec, checked_seed
 from handeye.program.senses import SENSES, Sense
 from handeye.runs.scripts import default_script
 from handeye.trace.table import Table
 from handeye.trials.prediction.figures import figures
 from handeye.trials.prediction.predicting import Prediction, predict
 from handeye.trials.prediction.tables import operations, worlds
-from handeye.variation import WorldSpec, checked_seed
 
 _SENSES: Final[dict[str, Sense]] = {sense: sense for sense in SENSES}
 

@@ -7,13 +7,13 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
+from handeye.core.variation import WorldSpec
 from handeye.program.program import Program
 from handeye.program.senses import Sense
 from handeye.tasks import task
 from handeye.tasks.interface import Predicted
 from handeye.trials.seeds import in_processes
-from handeye.variation import WorldSpec
 
 CHUNK: Final = 250
 """Worlds that a process predicts at a time."""

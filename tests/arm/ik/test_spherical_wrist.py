@@ -6,11 +6,11 @@ from arm_in_mujoco import postures
 from handeye.arm.ik import IKResult, branches, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import hand, pose, rotation_z
+from handeye.core.pose import hand, pose, rotation_z
+from handeye.core.units import DEGREE, INCH
 from handeye.program.cause_text import cause_sentence
 from handeye.program.causes import BeyondArm
 from handeye.program.reasons import InnerCylinder, JointLimit, OutOfReach, TooNear
-from handeye.units import DEGREE, INCH
 
 
 def at(x: float, y: float, z: float, yaw: float = 90.0) -> np.ndarray:

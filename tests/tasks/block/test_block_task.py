@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from block_task import BLOCK, block_plan
 
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.debugger.stepper import Stepper
 from handeye.judge.finding import all_right
 from handeye.planfile.store import decode, encode
@@ -17,7 +18,6 @@ from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint, Setup
 from handeye.runs.verify import difference
 from handeye.trace.reading import read_trace
-from handeye.variation import Overrides, WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -7,9 +7,9 @@ from handeye.arm.dynamics import bias, mass_matrix
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import Array, hand
+from handeye.core.units import DEGREE, INCH, JIFFY
 from handeye.ports.workcell import Workcell
-from handeye.pose import Array, hand
-from handeye.units import DEGREE, INCH, JIFFY
 
 STIFFNESS = 25.0  # rad/s, of the servo
 

@@ -10,8 +10,9 @@ from driving import tick
 
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.truth import Truth
+from handeye.core.pose import Pose, planar, pose, translated
+from handeye.core.units import JIFFY
 from handeye.judge.measured import Measured
-from handeye.pose import Pose, planar, pose, translated
 from handeye.runs.exhibit import Exhibit
 from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.cell import build_cell
@@ -19,7 +20,6 @@ from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, standard
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Threads
-from handeye.units import JIFFY
 
 TIGHTENING = 0.30  # N m
 

@@ -14,12 +14,12 @@ from finished import put
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.truth import Truth
-from handeye.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
+from handeye.core.pose import Pose, hand, inverse, planar, pose, rotation, rotation_x, translated
+from handeye.core.units import DEGREE
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import screw_holes, standard
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.threads import ThreadsState, holes_of
-from handeye.units import DEGREE
 
 MM = 1e-3
 PUMP = ("base", "gasket", "top")

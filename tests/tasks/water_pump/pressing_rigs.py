@@ -18,16 +18,16 @@ from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.arm import SimulatedArm
 from handeye.cell.hand import SimulatedHand
 from handeye.cell.simulated import SimulatedCell
+from handeye.core.pose import Array, Pose, hand
+from handeye.core.units import DEGREE, INCH
 from handeye.execution.compliance import Course
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.state import DriveState
-from handeye.pose import Array, Pose, hand
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import specification
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.units import DEGREE, INCH
 
 STIFFNESS: Final = 2000.0  # N/m
 PRESS: Final = 20.0  # N

@@ -11,8 +11,8 @@ import mujoco
 import numpy as np
 
 from handeye.arm.dynamics import GRAVITY
-from handeye.pose import Array
-from handeye.resources import scenes
+from handeye.core.pose import Array
+from handeye.core.resources import scenes
 
 SLIDING: Final = 0.2  # friction of the parts: scenes/water_pump/workcell.xml
 TABLE: Final = '<geom class="solid" type="box" size="1 1 .05" pos="0 0 -.05"/>'

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from handeye.core.pose import rotation_z
 from handeye.judge.finding import Findings, all_right
-from handeye.pose import rotation_z
 from handeye.tasks.water_pump.apart import judge_apart
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld

@@ -4,8 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from handeye.boxes import depths
-from handeye.pose import Pose, hand
+from handeye.core.obb import depths
+from handeye.core.pose import Pose, hand
 
 FINGER, BLOCK = np.array([0.012, 0.02, 0.05]), np.array([0.1, 0.03, 0.02])  # half lengths, m
 MODEL = f"""

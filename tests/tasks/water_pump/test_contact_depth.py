@@ -10,7 +10,7 @@ from functools import cache
 import mujoco
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 

@@ -9,19 +9,19 @@ from driving import Drive, tick
 
 from handeye.cell.lines import LinesState
 from handeye.cell.sleep import asleep
-from handeye.errors import ERRORS, FEATURES_NOT_SEEN, PART_NOT_SEEN, SEARCH_EXHAUSTED, SWITCH_WRONG
-from handeye.faults import UNKNOWN, Fault
+from handeye.core.errors import ERRORS, FEATURES_NOT_SEEN, PART_NOT_SEEN, SEARCH_EXHAUSTED, SWITCH_WRONG
+from handeye.core.faults import UNKNOWN, Fault
+from handeye.core.resources import plans
+from handeye.core.variation import WorldSpec
 from handeye.planfile.store import read_plan
 from handeye.program.flow_operations import Wait
 from handeye.program.motion_operations import Move
-from handeye.resources import plans
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.device_faults import defects, device_faults
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.noticing import EXPECTED, PINNED, SCREWED, expected
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.task import WATER_PUMP
-from handeye.variation import WorldSpec
 
 PROGRAM = read_plan(plans() / "water_pump.plan.json").program
 CALLS = {step.operation.message for step in PROGRAM.steps if isinstance(step.operation, Wait)}

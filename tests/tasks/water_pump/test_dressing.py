@@ -13,10 +13,10 @@ from handeye.cell.photograph import SHOWN
 from handeye.cell.posed import as_it_stands
 from handeye.cell.renderers import make_renderer
 from handeye.cell.vidicon import Luminance
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
 from handeye.ports.camera import CLOSE_UP, WIDE
-from handeye.pose import Array
-from handeye.see.player.surfaces import surface
+from handeye.report.player.surfaces import surface
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.eye import DRAWING
 from handeye.tasks.water_pump.pump_world import PumpWorld

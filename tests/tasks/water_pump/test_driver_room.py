@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scene_bench import Bench
 
-from handeye.pose import translated
+from handeye.core.pose import translated
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import screw_holes
 

@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 from finished import exhibit, finished, finished_cell, put
 
-from handeye.folders import write_folder
-from handeye.pose import Array, planar
-from handeye.report.exported_scene import scene_files
-from handeye.report.exported_solids import exported_solids
+from handeye.core.folders import write_folder
+from handeye.core.pose import Array, planar
+from handeye.core.variation import WorldSpec
+from handeye.results.exported_scene import scene_files
+from handeye.results.exported_solids import exported_solids
 from handeye.runs.exhibit import drawn
 from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.dimensions import dimensions
@@ -23,7 +24,6 @@ from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.exported import RENAMED
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.referee import judge
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 

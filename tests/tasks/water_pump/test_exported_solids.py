@@ -9,9 +9,9 @@ import trimesh
 from finished import exhibit, finished, finished_cell, put
 
 from handeye.cell.solid_scene import SolidScene, Weighed
-from handeye.errors import InvalidInput
-from handeye.pose import Array, planar
-from handeye.report.exported_solids import ExportedSolids, agrees, checks, exported_solids
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array, planar
+from handeye.results.exported_solids import ExportedSolids, agrees, checks, exported_solids
 from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from finished import put, stacked
 
-from handeye.pose import pose, translated
+from handeye.core.pose import pose, translated
 from handeye.tasks.water_pump.dimensions import dimensions
 
 AIR = translated(np.eye(4), (0.5, 0.2, 0.5))  # m, where the driver is held, with nothing near

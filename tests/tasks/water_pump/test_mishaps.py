@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from handeye.cell.simulated import SimulatedCell
-from handeye.errors import InvalidInput
-from handeye.pose import Array
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.mishaps import LIFTED, MOVE, PUSH, MishapsState, mishap_faults
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.task import WATER_PUMP
-from handeye.variation import WorldSpec
 
 PERIOD = 1 / 60
 

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from thread_bench import SPEED, STOP, ThreadBench
 
-from handeye.faults import Fault
-from handeye.pose import Array
+from handeye.core.faults import Fault
+from handeye.core.pose import Array
+from handeye.core.units import DEGREE, INCH
+from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.part_faults import GONE, METAL, part_faults, scarred_threads
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.variation import SEVENTH
-from handeye.units import DEGREE, INCH
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 

@@ -12,9 +12,10 @@ import handeye
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array, hand, inverse, planar, pose, translated
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.planfile.plan import Plan
-from handeye.pose import Array, hand, inverse, planar, pose, translated
 from handeye.program.program import Program
 from handeye.runs.scripts import default_script, plan_script
 from handeye.tasks import task
@@ -30,7 +31,6 @@ from handeye.tasks.water_pump.prediction.things import drawn_on_stand, standing_
 from handeye.tasks.water_pump.prediction.worlds import Worlds
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.variation import variation
-from handeye.variation import Overrides, WorldSpec
 from handeye.vision.calibration import Sighting, calibrate, moved
 
 HIGH = WorldSpec(seed=3, level="high")

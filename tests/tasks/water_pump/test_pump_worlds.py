@@ -9,15 +9,15 @@ import pytest
 from handeye.arm.ik import solve
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import Array, hand
+from handeye.core.units import DEGREE, INCH
+from handeye.core.variation import Level, Overrides, WorldSpec
 from handeye.judge.measured import Measured, tilt
-from handeye.pose import Array, hand
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.overlap import deepest
 from handeye.tasks.water_pump.pump_world import Placing, PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.variation import BELT_X, BELT_Y, DRILLED, SEVENTH, STOOD, variation
-from handeye.units import DEGREE, INCH
-from handeye.variation import Level, Overrides, WorldSpec
 
 NEAR = np.array([-25.0, 105.0, 0.0, 0.0, 75.0, 20.0]) * DEGREE + np.array([0, 0, 31 * INCH, 0, 0, 0])
 

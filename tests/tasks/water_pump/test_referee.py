@@ -9,9 +9,9 @@ import pytest
 from finished import finished, put
 
 from handeye.cell.truth import Truth
+from handeye.core.pose import planar, pose, rotation_x, translated
 from handeye.judge.finding import all_right
 from handeye.judge.measured import Measured
-from handeye.pose import planar, pose, rotation_x, translated
 from handeye.tasks.water_pump import limits
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.referee import judge

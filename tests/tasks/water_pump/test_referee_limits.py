@@ -17,17 +17,17 @@ import pytest
 from finished import put, rested
 
 from handeye.cell.truth import Truth
+from handeye.core.pose import Array, Pose, inverse, planar, pose, rotation_x, translated
+from handeye.core.resources import plans
+from handeye.core.units import DEGREE
 from handeye.judge.finding import Findings
 from handeye.judge.measured import Measured
-from handeye.pose import Array, Pose, inverse, planar, pose, rotation_x, translated
-from handeye.resources import plans
 from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.measure import head_force
 from handeye.tasks.water_pump.referee import judge
 from handeye.tasks.water_pump.threads import ThreadsState, holes_of
-from handeye.units import DEGREE
 
 pytestmark = pytest.mark.slow
 

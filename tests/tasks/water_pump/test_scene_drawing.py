@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from scene_bench import Bench
 
-from handeye.errors import InvalidInput
-from handeye.pose import planar
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import planar
+from handeye.core.units import INCH
 from handeye.tasks.water_pump.dimensions import dimensions, parse
 from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.pump_world import PumpWorld
@@ -14,7 +15,6 @@ from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.arm import ARM
 from handeye.tasks.water_pump.scene.shapes import Bore
 from handeye.tasks.water_pump.stations import Station
-from handeye.units import INCH
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scene_bench import FREE, Bench, pinned_base, shift
 
-from handeye.pose import planar, translated
+from handeye.core.pose import planar, translated
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, pin_seat, screw_holes, standard
 from handeye.tasks.water_pump.pump_world import PumpWorld

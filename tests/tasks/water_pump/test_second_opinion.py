@@ -10,6 +10,7 @@ from finished import finished, finished_cell
 from short_runs import plan_of, through
 
 from handeye.cli import app
+from handeye.core.variation import WorldSpec
 from handeye.judge.measured import Measured
 from handeye.runs.checkpoint_file import write_checkpoint
 from handeye.runs.runner import Runner
@@ -17,7 +18,6 @@ from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.tasks.water_pump import limits, measure
 from handeye.tasks.water_pump.referee import judge
-from handeye.variation import WorldSpec
 
 pytestmark = pytest.mark.slow
 

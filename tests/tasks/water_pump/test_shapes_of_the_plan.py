@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 from handeye.arm.robots.stanford import STANFORD
-from handeye.boxes import Box
-from handeye.pose import Array, Pose, hand, inverse, planar, pose
+from handeye.core.obb import Box
+from handeye.core.pose import Array, Pose, hand, inverse, planar, pose
+from handeye.core.resources import plans
+from handeye.core.units import INCH
 from handeye.program.taught import load_taught
 from handeye.program.world_model import WorldModel
-from handeye.resources import plans
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene import build
 from handeye.tasks.water_pump.scene.arm import ARM
-from handeye.units import INCH
 
 TAUGHT = load_taught(plans() / "water_pump.toml")
 WORLD = WorldModel(parts=TAUGHT.parts, positions=TAUGHT.positions)

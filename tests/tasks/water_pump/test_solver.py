@@ -20,12 +20,12 @@ from solver_paths import CG, Solved, solved
 from handeye.arm.ik import solve
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.simulated import SimulatedCell
-from handeye.pose import Array, hand, planar, translated
+from handeye.core.pose import Array, hand, planar, translated
+from handeye.core.units import INCH
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, screw_holes, standard, web_centre
 from handeye.tasks.water_pump.pump_world import PumpWorld
-from handeye.units import INCH
 
 pytestmark = pytest.mark.slow
 

@@ -7,19 +7,19 @@ import numpy as np
 import pytest
 
 from handeye.al import compile_text
-from handeye.errors import InvalidInput
+from handeye.core.errors import InvalidInput
+from handeye.core.resources import plans, scenes
+from handeye.core.source import Source
+from handeye.core.units import INCH
+from handeye.core.variation import Overrides, WorldSpec
 from handeye.planning.planner import make_plan
 from handeye.program.findings import RunsInto
 from handeye.program.taught import Taught
-from handeye.resources import plans, scenes
 from handeye.runs.scripts import taught
-from handeye.source import Source
 from handeye.tasks import task
 from handeye.tasks.water_pump import stations, variation
 from handeye.tasks.water_pump.dimensions import Dimensions, parse
 from handeye.tasks.water_pump.drawing import Point
-from handeye.units import INCH
-from handeye.variation import Overrides, WorldSpec
 
 ENTRY = """
 [stations.tool_tray]

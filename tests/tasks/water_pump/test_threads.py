@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from thread_bench import HEAD, LENGTH, MOUTH, SPEED, STOP, Outcome, ThreadBench, drive_screw
 
-from handeye.faults import Fault
-from handeye.units import JIFFY
+from handeye.core.faults import Fault
+from handeye.core.units import JIFFY
 
 
 @cache

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from handeye.resources import scenes
+from handeye.core.resources import scenes
 from handeye.tasks.water_pump.variation import variation
 
 pytestmark = pytest.mark.slow

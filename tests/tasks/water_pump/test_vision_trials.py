@@ -6,10 +6,10 @@ from collections.abc import Iterator
 import pytest
 from conftest import Command
 
+from handeye.core.units import DEGREE, INCH
+from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.base_trial import BaseAttempt, BaseTrial
 from handeye.tasks.water_pump.gasket_trial import ABSENT, DOUBLED, RIGHT, SHIFTED, GasketAttempt, GasketTrial
-from handeye.units import DEGREE, INCH
-from handeye.variation import WorldSpec
 
 CASES = (RIGHT, SHIFTED, ABSENT, DOUBLED)
 

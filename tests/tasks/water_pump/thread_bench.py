@@ -9,11 +9,11 @@ import mujoco
 
 from handeye.cell.screwdriver import SimulatedScrewdriver
 from handeye.cell.watchdog import Watchdog
-from handeye.faults import Fault
-from handeye.pose import Pose, pose
+from handeye.core.faults import Fault
+from handeye.core.pose import Pose, pose
+from handeye.core.units import JIFFY
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.threads import Thread, Threads
-from handeye.units import JIFFY
 
 MOUTH = 0.05  # m, height of the hole's mouth
 LENGTH, HEAD = 0.01905, 0.004  # m, screw under the head; head

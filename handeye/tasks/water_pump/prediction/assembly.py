@@ -5,7 +5,7 @@ from typing import Final, TypeVar
 
 import numpy as np
 
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 from handeye.program.flow_operations import Search
 from handeye.program.motion_operations import Height, Travel
 from handeye.program.program import Program

@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.pose import Array, hand
 from handeye.ports.camera import CLOSE_UP
-from handeye.pose import Array, hand
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.prediction.hands import Hands
 from handeye.tasks.water_pump.prediction.poses import points

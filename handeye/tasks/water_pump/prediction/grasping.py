@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array, inverse, planar
+from handeye.core.pose import Array, inverse, planar
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top
 from handeye.tasks.water_pump.prediction.assembly import Assembly

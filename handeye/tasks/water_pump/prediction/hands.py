@@ -8,7 +8,7 @@ from handeye.arm.dynamics import mass_matrix
 from handeye.arm.ik import branches, solve
 from handeye.arm.kinematics import forward, jacobian
 from handeye.arm.robots.stanford import STANFORD
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 from handeye.tasks.water_pump.park import PARK
 from handeye.tasks.water_pump.prediction.poses import moved
 from handeye.tasks.water_pump.prediction.worlds import Worlds

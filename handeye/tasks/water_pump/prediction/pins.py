@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.motion_operations import Travel
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import base_top, pin_seat

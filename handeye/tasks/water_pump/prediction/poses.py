@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from handeye.pose import Array, Pose
+from handeye.core.pose import Array, Pose
 from handeye.tasks.water_pump.prediction.worlds import Worlds
 
 _AXES = {"roll": (1, 2), "pitch": (2, 0), "yaw": (0, 1)}

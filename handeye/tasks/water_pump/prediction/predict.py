@@ -5,8 +5,10 @@ from typing import Final
 
 import numpy as np
 
-from handeye.errors import InvalidInput
-from handeye.pose import Array
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.units import INCH
+from handeye.core.variation import WorldSpec
 from handeye.program.motion_operations import Travel
 from handeye.program.program import Program
 from handeye.program.senses import Sense
@@ -18,8 +20,6 @@ from handeye.tasks.water_pump.prediction.assembly import Assembly
 from handeye.tasks.water_pump.prediction.poses import points
 from handeye.tasks.water_pump.prediction.things import standing_base
 from handeye.tasks.water_pump.prediction.worlds import Worlds
-from handeye.units import INCH
-from handeye.variation import WorldSpec
 
 GOALS: Final = (
     "A", "B", *(goal for pin in pins.PINS for goal in pin.positions), "GUP", "GON", "TOPON", "FACE", "D",

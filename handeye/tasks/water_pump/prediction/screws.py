@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.program.motion_operations import Height, Travel
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.prediction.assembly import Assembly

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from handeye.pose import Array, planar
+from handeye.core.pose import Array, planar
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import (
     Point,

@@ -7,11 +7,11 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.device_errors import ArmErrors
-from handeye.pose import Array
-from handeye.random_streams import streams
+from handeye.core.pose import Array
+from handeye.core.random_streams import streams
+from handeye.core.units import UNITS
+from handeye.core.variation import WorldSpec
 from handeye.tasks.water_pump.variation import ARM_CENTRE, ARM_PERIOD, JOINT_UNITS, variation
-from handeye.units import UNITS
-from handeye.variation import WorldSpec
 
 
 class Worlds:

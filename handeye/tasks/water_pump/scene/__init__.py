@@ -4,7 +4,7 @@ from typing import Final
 
 import mujoco
 
-from handeye.resources import scenes
+from handeye.core.resources import scenes
 from handeye.tasks.water_pump.part_faults import break_parts
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.arm import add_arm

@@ -8,8 +8,8 @@ import numpy as np
 
 from handeye.arm.robots.stanford import STANFORD
 from handeye.cell.device_errors import ArmBuild
-from handeye.pose import Array, yaw
-from handeye.resources import scenes
+from handeye.core.pose import Array, yaw
+from handeye.core.resources import scenes
 from handeye.tasks.water_pump.pump_world import PumpWorld
 
 ARM: Final = "stanford/"

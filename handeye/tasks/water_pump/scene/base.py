@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.looks import LATENT
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.tasks.water_pump.dimensions import Dimensions, dimensions
 from handeye.tasks.water_pump.drawing import Point, base_top, screw_holes
 from handeye.tasks.water_pump.pump_world import PumpWorld

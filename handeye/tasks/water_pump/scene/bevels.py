@@ -7,7 +7,7 @@ import numpy as np
 from manifold3d import Manifold  # type: ignore[import-not-found]  # stubs, but no marker
 
 from handeye.cell.looks import BOX, PLAIN, SEEN
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.tasks.water_pump.scene import solids
 from handeye.tasks.water_pump.scene.shapes import Shaper
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.looks import MESH
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import dispenser_places, pin_seat
 from handeye.tasks.water_pump.pump_world import PumpWorld

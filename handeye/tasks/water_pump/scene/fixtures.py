@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.looks import SEEN
-from handeye.pose import Array, Pose, planar
+from handeye.core.pose import Array, Pose, planar
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point
 from handeye.tasks.water_pump.pump_world import Placing, PumpWorld

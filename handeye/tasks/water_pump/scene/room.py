@@ -6,8 +6,8 @@ from itertools import product
 import mujoco
 import numpy as np
 
+from handeye.core.pose import Array
 from handeye.ports.camera import COLUMNS, ROWS
-from handeye.pose import Array
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.scene.shapes import Shaper

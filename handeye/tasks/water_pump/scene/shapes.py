@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.looks import BOX, CYLINDER, MESH, SPHERE
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 Vector = Sequence[float]
 _MARK = 1e-4

@@ -13,7 +13,7 @@ import numpy as np
 from manifold3d import CrossSection, Manifold, OpType  # type: ignore[import-not-found]  # stubs, but no marker
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 from handeye.tasks.water_pump.dimensions import dimensions
 from handeye.tasks.water_pump.drawing import Point, base_top, screw_holes, web_centre
 

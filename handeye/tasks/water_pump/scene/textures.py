@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.pose import Array
+from handeye.core.pose import Array
 
 _SIZE: Final = 512
 _BENCH: Final = 1024

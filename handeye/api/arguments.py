@@ -1,0 +1,74 @@
+"""Arguments that people give: checked where they come in, so that a wrong one is told in one sentence."""
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.whole_numbers import whole
+
+
+def given_file(given: object, what: str) -> Path:
+    """The path that a file or folder was given by.
+
+    Args:
+        what: what can be given, as the beginning of a sentence.
+
+    Raises:
+        InvalidInput: it is no name of a file.
+    """
+    if not isinstance(given, (str, os.PathLike)):
+        raise InvalidInput(f"{what}, not {given!r}")
+    name = os.fspath(given)
+    if not isinstance(name, str) or not name:
+        raise InvalidInput(f"{what}, not {given!r}")
+    _check_name(name)
+    return Path(name)
+
+
+def _check_name(name: str) -> None:
+    """Raises InvalidInput if no file can have this name: it is too long, or has a NUL in it."""
+    try:
+        os.lstat(name)
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InvalidInput(f"{quoted(name)} cannot be used as a file: {reason}") from None
+
+
+def given_names(given: object, what: str) -> tuple[str, ...]:
+    """Names that were given one after the other; a single one may stand by itself.
+
+    Raises:
+        InvalidInput: something among them is none.
+    """
+    names = (given,) if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
+    for name in names:
+        if not isinstance(name, str):
+            raise InvalidInput(f"{what} takes names, not {name!r}")
+    return names
+
+
+def given_count(given: object, what: str) -> int:
+    """A whole number from 1 up.
+
+    Raises:
+        InvalidInput: it is none.
+    """
+    count = whole(given)
+    if count is None or count < 1:
+        raise InvalidInput(f"{what} are a whole number from 1 up, not {given!r}")
+    return count
+
+
+def given_place(given: object) -> str:
+    """A place in a program, as text; a line may be given as a number.
+
+    Raises:
+        InvalidInput: it is neither.
+    """
+    if isinstance(given, bool) or not isinstance(given, (str, int)):
+        raise InvalidInput(f"a place is a text or the number of a line, not {given!r}")
+    return str(given)

@@ -1,0 +1,220 @@
+"""Runs are begun, taken up, and carried out to their end."""
+
+import warnings
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from handeye import tasks
+from handeye.api.arguments import given_file, given_place
+from handeye.api.parts import Camera, limits_of, parts_of, referee_of
+from handeye.api.plans import FileName, Planned
+from handeye.api.run import Keeping, Place, Run
+from handeye.api.starts import Start, Wanted, start_of
+from handeye.api.worlds import World
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
+from handeye.core.variation import WorldSpec
+from handeye.debugger.breakpoints import stage_number
+from handeye.debugger.stepper import Stepper
+from handeye.results.cautions import cautions, losses
+from handeye.results.judging import Limits, Referee, check_limits
+from handeye.runs.folder import PICTURES, HoldsRun, RunFolder, open_new
+from handeye.runs.host_seconds import Meter
+from handeye.runs.observer import Observer
+from handeye.runs.operator import Operator, parse_policy
+from handeye.runs.parts import Parts, name_of
+from handeye.runs.runner import Runner
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.systems import listing_of
+from handeye.touch.spiral import SearchPattern
+
+
+def begin(
+    script: FileName | Planned | None = None,
+    seed: int | None = None,
+    *,
+    at: Place | None = None,
+    world: World | WorldSpec | None = None,
+    camera: Camera = "auto",
+    search: SearchPattern | None = None,
+    referee: Referee | Limits | None = None,
+    judge: bool | None = None,
+    taught: FileName | None = None,
+    task: str = tasks.DEFAULT,
+    out: FileName | None = None,
+    overwrite: bool = False,
+) -> Run:
+    """Begin a run, or take one up; it pauses before its first step, or before a stage.
+
+    Args:
+        script: what `handeye.plan` takes, or a plan; by default the script of the task. Or a state that was kept: a
+            checkpoint, or the folder of a run, which stands for its newest checkpoint.
+        seed: draws the world, 0 by default.
+        at: a stage to begin with, by its name, a part of it that no other has, or its number from 1. The stages before
+            it are carried out, from the nearest checkpoint if there is a folder of a run.
+        world: the world, in the place of a seed.
+        camera: how pictures are made: `gl` (OpenGL), `ray` (ray casting, everywhere the same) or `auto`; or a class
+            or function that is called with a copy of the scene (`mujoco.MjModel`) and gives an object whose
+            `render(data, view)` works out the light on the target, shape (256, 333), 1 for white in full light.
+        search: the places that a `SEARCH` tries, in the place of its square spiral: called with the number of a
+            place, from 0, it gives x and y in steps of the search (table coordinates). It is called once for each
+            number, and again where the run is taken up: it must give the same then. A search ends with error 6 where it
+            gives None or raises StopIteration, and after as many places as the `SEARCH` has, 49 if it does not say;
+            one `ALONG` a line tries its own. Tries are events `SearchAdvanced`, and `run.state.memory.place` is the
+            number it has come to.
+        referee: called with the truth of the cell, gives findings by their names; or limits alone, by the names of the
+            findings that the task's referee has, as `{"screws_clamp": 60}`, each in the unit of its finding. A run that
+            was kept is judged again by `handeye.begin(folder, referee=...).result`.
+        judge: the referee is called at the end; by default if one is given, or the run was begun so.
+        taught: as for `handeye.plan`.
+        task: name of the task.
+        out: folder for plan, events, trace, checkpoints, pictures and result; nothing else is written to. To go on in
+            the folder of a run, give it here as well.
+        overwrite: a run that is in that folder may be lost.
+
+    Limits are kept with the run. Code in the place of a part cannot be: checkpoints, trace and result name it,
+    `handeye resume` and `handeye trace verify` refuse such a run, and it is taken up here with a part of the same name.
+
+    Raises:
+        ScriptError: the script has errors.
+        InvalidInput: an argument cannot be used, or the run stopped before it came to the stage.
+
+    >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", seed=3, camera="ray")
+    >>> run
+    <Run script, seed 3: 0 steps done, 0.00 s, program, line 1: OPEN 1; ready>
+    """
+    timer = HostTimer()
+    parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
+    wanted = Wanted(
+        seed=seed,
+        world=world,
+        camera=camera if isinstance(camera, str) and camera != "auto" else None,
+        task=task,
+        judged=(referee is not None) if judge is None else judge,
+        limits=limits,
+        replaced=parts.names | ({} if umpire is None else {"referee": name_of(umpire)}),
+    )
+    stage = None if at is None else given_place(at)
+    start = start_of(script, wanted, stage=stage, taught=taught, out=out)
+    number = None if stage is None else stage_number(stage, listing_of(start.state.setup))
+    folder = start.folder
+    if folder is None and out is not None:
+        folder = _new_folder(given_file(out, "a run is kept in a folder"), start.state, overwrite)
+    judged = start.state.setup.judged if judge is None else judge
+    spent = None if start.folder is None else start.folder.spent
+    meter = Meter(timer=timer, planning_cpu_s=start.planning_cpu_s, before=spent)
+    keeping = Keeping(folder=folder, judged=judged, referee=umpire, meter=meter)
+    run = _built(start, parts, keeping)
+    if number is not None:
+        run.reach(number)
+    return run
+
+
+def assemble(
+    seed: int | None = None,
+    *,
+    script: FileName | Planned | None = None,
+    world: World | WorldSpec | None = None,
+    camera: Camera = "auto",
+    search: SearchPattern | None = None,
+    referee: Referee | Limits | None = None,
+    taught: FileName | None = None,
+    task: str = tasks.DEFAULT,
+    out: FileName | None = None,
+    overwrite: bool = False,
+    on_stop: str = "abort",
+) -> Run:
+    """Carry out a script to its end, and have the referee judge the result: what `handeye assemble` does.
+
+    Args:
+        on_stop: what is done when the operator is called: `abort`; `retry:N`: the stage again, N times at
+            most; or `unwind`: the arm undoes what it did in that stage, and the program begins it anew, once for each.
+
+    The other arguments are those of `handeye.begin`.
+
+    Returns:
+        the closed run; its `assembled`, `completed`, `result`, `events` tell what came of it.
+
+    Raises:
+        ScriptError: the script has errors.
+        InvalidInput: an argument cannot be used.
+
+    >>> run = handeye.assemble(seed=3, script="OPEN 1\\nCLOSE 2\\n", camera="ray")
+    >>> run.completed, run.result.error
+    (False, 2)
+    """
+    operator = _rule(on_stop)
+    run = begin(
+        script,
+        seed,
+        world=world,
+        camera=camera,
+        search=search,
+        referee=referee,
+        judge=True,
+        taught=taught,
+        task=task,
+        out=out,
+        overwrite=overwrite,
+    )
+    with run:
+        run.attend(operator)
+    return run
+
+
+def _rule(on_stop: object) -> Operator:
+    """The operator that a word stands for. Raises InvalidInput if it needs somebody to ask, or is none."""
+    operator = None
+    with suppress(InvalidInput):  # whose sentence speaks of the command line
+        operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
+    if operator is None:
+        raise InvalidInput(f"on_stop is `abort`, `retry:N` with N from 1 up, or `unwind`; not {on_stop!r}")
+    return operator
+
+
+def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
+    """A folder for a run that begins so. Raises InvalidInput if it cannot be had."""
+    try:
+        return open_new(path, state, overwrite=overwrite)
+    except HoldsRun:
+        name = repr(str(path))
+        raise InvalidInput(
+            f"{path} holds a run: overwrite=True replaces it, another folder keeps it, and "
+            f"handeye.begin({name}, out={name}) goes on with it"
+        ) from None
+
+
+def _built(start: Start, parts: Parts, keeping: Keeping) -> Run:
+    """The run, ready for its first step.
+
+    Raises:
+        InvalidInput: its cell cannot be built so; a new folder is as if nobody had asked for it.
+    """
+    folder, state = keeping.folder, start.state
+
+    def looking(runner: Runner) -> Sequence[Observer]:
+        check_limits(runner)
+        again = start.folder is not None
+        return [] if folder is None else [folder.watch(runner, state, again=again, meter=keeping.meter)]
+
+    try:
+        runner = Runner(state, observers=looking, parts=parts)
+    except BaseException:
+        if folder is not None:
+            folder.close()
+            folder.discard()
+        raise
+    doubts = cautions(runner, judged=keeping.judged and keeping.referee is None)
+    lost = () if folder is None else losses(folder, runner)
+    for sentence in (*doubts, *lost):
+        warnings.warn(sentence, stacklevel=3)
+    stepper = Stepper(
+        runner,
+        kept=(lambda _: None) if folder is None else folder.kept.at_or_before,
+        keep=(lambda _: None) if folder is None else folder.kept.save,
+        pictures=None if folder is None else folder.path / PICTURES,
+    )
+    why = "ready" if state.position < 1 else f"taken up after {counted(state.position, 'step')}"
+    return Run(stepper, keeping, why)

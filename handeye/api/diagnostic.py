@@ -1,0 +1,84 @@
+"""Diagnostics as a caller from Python sees them: placed, and able to show themselves."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Self
+
+from handeye.core import diagnostics
+from handeye.core.codes import Severity
+from handeye.core.errors import InvalidInput
+from handeye.core.source import Source
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Diagnostic:
+    """One mistake in a script, or something doubtful in it; `print` shows it with the line it is on.
+
+    >>> try:
+    ...     handeye.plan("OPNE 1\\n")
+    ... except handeye.ScriptError as error:
+    ...     found = error.diagnostics[0]
+    >>> found.code, found.line, found.help
+    ('unknown-instruction', 1, 'did you mean `OPEN`?')
+    """
+
+    code: str
+    """Its kind, as `handeye explain` takes it."""
+    severity: Severity
+    """`error` or `warning`."""
+    message: str
+    file: str
+    """Name of the text it is in: the script, or a file that it requires."""
+    line: int
+    """From 1."""
+    column: int
+    """First character, from 1."""
+    end: int
+    """Character behind the last one."""
+    help: str | None
+    """What to do about it."""
+    shown: str = field(repr=False)
+    """All of it, with the line of the text."""
+
+    def __str__(self) -> str:
+        return self.shown
+
+    @classmethod
+    def of(cls, found: diagnostics.Diagnostic, source: Source) -> Self:
+        """The diagnostic of a source, placed."""
+        span = found.primary.span
+        text, offset = source.find(span.start)
+        line, column = text.position(offset)
+        return cls(
+            code=found.code,
+            severity=found.severity,
+            message=found.message,
+            file=text.name,
+            line=line,
+            column=column,
+            end=column + span.end - span.start,
+            help=found.help,
+            shown=diagnostics.render(found, source),
+        )
+
+
+class ScriptError(InvalidInput):
+    """A script has errors, so that there is no plan; `str` shows all of them with their lines.
+
+    >>> try:
+    ...     handeye.plan("OPEN 1\\nMOVE NOWHERE\\n")
+    ... except handeye.ScriptError as error:
+    ...     print(len(error.diagnostics), error.diagnostics[0].message)
+    1 position `NOWHERE` is neither taught nor defined by `TRANS`
+    """
+
+    diagnostics: tuple[Diagnostic, ...]
+    """Errors and warnings, in the order of the text."""
+
+    def __init__(self, found: Iterable[Diagnostic]) -> None:
+        self.diagnostics = tuple(found)
+        super().__init__("\n\n".join(map(str, self.diagnostics)))
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows: the mistakes with their places, and not where in handeye they were found."""
+        return str(self).splitlines()

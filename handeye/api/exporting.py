@@ -1,0 +1,29 @@
+"""Runs and worlds are handed to other programs."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from handeye.api.arguments import given_file
+from handeye.core.errors import InvalidInput
+from handeye.core.folders import Taken
+from handeye.runs.exhibit import Exhibit
+
+if TYPE_CHECKING:
+    from handeye.results.export import Export
+
+
+def exported(given: object, shown: Callable[[], Exhibit], part: object, *, overwrite: bool) -> "Export":
+    """Write what is shown to where somebody says; arguments are those of `Run.export`.
+
+    Raises:
+        InvalidInput: it cannot be written there, or there is no such part.
+    """
+    from handeye.results.export import export  # with libraries that take a while to load
+
+    path = given_file(given, "an export is written to a folder, or to a file that ends in .glb")
+    if part is not None and not isinstance(part, str):
+        raise InvalidInput(f"a part is given by its name, not {part!r}")
+    try:
+        return export(path, shown, part=part, overwrite=overwrite)
+    except Taken:
+        raise InvalidInput(f"{path} holds an export of handeye already; overwrite=True replaces it") from None

@@ -1,0 +1,105 @@
+"""Replaceable parts as people give them: checked, and wrapped so that what they give back is checked as well."""
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any, Final, TypeVar
+
+import numpy as np
+
+from handeye.cell.rendering import RendererMaker
+from handeye.cell.replaced_camera import CameraMaker, ReplacedCamera
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import InvalidInput
+from handeye.results.judging import Limits, Referee, checked_findings, checked_limits
+from handeye.runs.parts import Parts, name_of
+from handeye.touch.spiral import SearchPattern
+
+CAMERAS: Final = ("auto", "gl", "ray")
+
+
+Camera = str | CameraMaker
+"""`auto`, `gl` (OpenGL), `ray` (ray casting), or what makes a maker of pictures for a scene: a class will do."""
+
+Code = TypeVar("Code", bound=Callable[..., Any])
+
+
+def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
+    """Parts of a run that are not handeye's own.
+
+    Raises:
+        InvalidInput: one of them cannot be called, or there is no such camera.
+    """
+    if isinstance(camera, str):
+        if camera not in CAMERAS:
+            near = suggestion(camera, CAMERAS)
+            raise InvalidInput(f"there is no camera {quoted(camera)}; {near}")
+        maker = None
+    else:
+        maker = _checked_camera(camera)
+    return Parts(search=None if search is None else _checked_search(search), camera=maker)
+
+
+def limits_of(given: Referee | Limits | None) -> dict[str, float] | None:
+    """Limits, where they alone were given in the place of a referee; None: they were not.
+
+    Raises:
+        InvalidInput: a limit is no number.
+    """
+    return checked_limits(given) if isinstance(given, Mapping) else None
+
+
+def referee_of(given: Referee | Limits | None) -> Referee | None:
+    """A referee that is not the task's own; None: it is, though maybe with other limits.
+
+    Raises:
+        InvalidInput: it is no referee, and no table of limits.
+    """
+    if given is None or isinstance(given, Mapping):
+        return None
+    if not callable(given):
+        raise InvalidInput(
+            f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"
+        )
+    name = name_of(given)
+    return _named(lambda truth: checked_findings(name, given(truth)), given)
+
+
+def _checked_search(search: SearchPattern) -> SearchPattern:
+    if not callable(search):
+        raise InvalidInput(f"a search is called with the number of a place and gives it; not {search!r}")
+
+    name = name_of(search)
+
+    @cache  # a place is asked for by AOJ, by each MOVE and by whoever shows it
+    def place(number: int) -> tuple[float, float] | None:
+        try:
+            given = search(number)
+        except StopIteration:
+            given = None
+        return None if given is None and number > 0 else _checked_place(name, number, given)
+
+    return _named(place, search)
+
+
+def _checked_place(name: str, number: int, given: object) -> tuple[float, float]:
+    """Raises InvalidInput if a search gave something else than a place."""
+    try:
+        x, y = (float(each) for each in np.asarray(given, dtype=object))
+    except (TypeError, ValueError):
+        x = y = np.nan
+    if not np.isfinite([x, y]).all():
+        raise InvalidInput(f"the search `{name}` must give two numbers for place {number}, not {given!r}")
+    return x, y
+
+
+def _checked_camera(camera: CameraMaker) -> RendererMaker:
+    if not callable(camera):
+        raise InvalidInput(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
+    name = name_of(camera)
+    return _named(lambda model: ReplacedCamera(name, camera, model), camera)
+
+
+def _named(wrapped: Code, code: Any) -> Code:
+    """Code that goes by the name of other code."""
+    wrapped.__module__, _, wrapped.__qualname__ = name_of(code).partition(".")
+    return wrapped

@@ -1,0 +1,168 @@
+"""Plans: what a script makes the arm do, as a value that shows itself."""
+
+import os
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Final
+
+from handeye import tasks
+from handeye.api.arguments import given_file, given_place
+from handeye.api.diagnostic import Diagnostic, ScriptError
+from handeye.api.flow import FlowDrawing, flow_drawing
+from handeye.api.plan_page import plan_page
+from handeye.core.diagnostics import has_errors
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.core.plain_text import counted
+from handeye.core.source import Source
+from handeye.inspection.inspection import InspectedStage, InspectedStep, Inspection, inspection
+from handeye.planfile import plan as planfile
+from handeye.planfile.store import decode, plan_digest, write_plan
+from handeye.program.stage_names import stage_index
+from handeye.program.taught import Taught, load_taught, read_taught
+from handeye.runs.scripts import plan_script, plan_text
+
+DRAWN: Final = 30
+"""Steps of a plan up to which a notebook shows its flow with it; of a longer one it shows `flow(stage)`."""
+FileName = str | os.PathLike[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """A script compiled, and the motions that one arm makes of it. Two plans are equal if they do the same.
+
+    In a notebook it shows its stages, how long they take, what is doubtful about the script, and if short its flow.
+
+    >>> plan = handeye.plan('STAGE "a hand"\\nOPEN 1\\nOPEN 2\\n')
+    >>> plan
+    <Plan script: 1 stage, 2 steps, 0 motions>
+    >>> plan.stages[0].name, [step.text for step in plan.steps]
+    ('a hand', ['OPEN 1', 'OPEN 2'])
+    """
+
+    record: planfile.Plan
+    """All of it, as it is on disk, in SI units."""
+    diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
+    """Warnings about the script it was made from; none if it was read from a file of plans."""
+
+    @property
+    def name(self) -> str:
+        """Name of its program: that of the script's file."""
+        return self.record.program.name
+
+    @property
+    def stages(self) -> tuple[InspectedStage, ...]:
+        """Its stages: `number` from 1, `name`, `seconds` of planned motion, and `steps`."""
+        return self._laid_open.stages
+
+    @property
+    def steps(self) -> tuple[InspectedStep, ...]:
+        """Its steps in the order of the text: `step`, its number; `line`, `text`, `seconds`, `conditions`, `next`."""
+        return tuple(step for stage in self.stages for step in stage.steps)
+
+    @property
+    def seconds(self) -> float:
+        """Seconds of planned motion, each step counted once. Fingers and pictures count nothing."""
+        return self._laid_open.seconds
+
+    @property
+    def digest(self) -> str:
+        """Sixteen hexadecimal digits that stand for the plan; runs and traces name it by them."""
+        return plan_digest(self.record)
+
+    def save(self, path: FileName) -> Path:
+        """Write it as a file of JSON, which `handeye run` and `handeye.plan` read.
+
+        Returns:
+            the file.
+
+        Raises:
+            InvalidInput: it cannot be written there, or a file that is no plan is there.
+        """
+        file = given_file(path, "a plan is saved in a file")
+        write_plan(file, self.record)
+        return file
+
+    def flow(self, stage: str | int | None = None) -> FlowDrawing:
+        """Draw its steps, and the ways from one to the next: by themselves, and (red) on an error.
+
+        Args:
+            stage: one stage alone: its number from 1, its name, or a piece of it that no other name has.
+
+        Raises:
+            InvalidInput: there is no such stage.
+
+        >>> handeye.plan("OPEN 1\\nOPEN 2\\n").flow()
+        <FlowDrawing flow of script: 2 steps>
+        """
+        if stage is None:
+            return flow_drawing(self.record)
+        return flow_drawing(self.record, stage_index(given_place(stage), self.record.program.stages) + 1)
+
+    @cached_property
+    def _laid_open(self) -> Inspection:
+        return inspection(self.record)
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __repr__(self) -> str:
+        counts = {"stage": self.stages, "step": self.steps, "motion": self.record.motions}
+        return f"<Plan {self.name}: {', '.join(counted(len(these), each) for each, these in counts.items())}>"
+
+    def _repr_html_(self) -> str:
+        small = 0 < len(self.steps) <= DRAWN
+        return plan_page(self._laid_open, self.diagnostics, self.flow() if small else None)
+
+
+Planned = Plan | planfile.Plan
+"""A plan, or its record."""
+
+
+def plan(script: FileName | Planned, *, taught: FileName | None = None, task: str = tasks.DEFAULT) -> Plan:
+    """Compile and plan a script; nothing moves.
+
+    Args:
+        script: a file (`.al`), with what is taught for it beside it (`.toml`); or a text, which is a `str` with a
+            line end in it; or a plan that was saved, whose name ends in .json.
+        taught: positions (in, deg) of the script: a TOML file, or the text of one. A text has none by default.
+        task: name of the task whose arm is planned for.
+
+    Raises:
+        ScriptError: the script has errors; they are its `diagnostics`.
+        InvalidInput: a file cannot be read, or what is in it cannot be used.
+
+    >>> handeye.plan("MOVE P\\nOPEN 2\\n", taught="[positions]\\nP = { at = [25, 38, 6, 90, 90, 0] }\\n").seconds > 1
+    True
+    """
+    if isinstance(script, Plan | planfile.Plan):
+        _check_untaught(script, taught)
+        return script if isinstance(script, Plan) else Plan(record=script)
+    work, known = tasks.task(task), None if taught is None else _taught(taught)
+    if isinstance(script, str) and "\n" in script:
+        made = plan_text(script, known or Taught(), work)
+    else:
+        file = given_file(script, "a script is a file or a text")
+        if file.suffix == ".json":
+            _check_untaught(file, taught)
+            return Plan(record=decode(read_whole(file), str(file)))
+        if isinstance(script, str) and not file.exists():
+            raise InvalidInput(f"{script}: there is no such file; a text has a line end in it")
+        made = plan_script(file, known, work)
+    found = tuple(Diagnostic.of(each, made.source) for each in made.diagnostics)
+    if made.plan is None or has_errors(made.diagnostics):
+        raise ScriptError(found)
+    return Plan(record=made.plan, diagnostics=found)
+
+
+def _check_untaught(made: object, taught: object) -> None:
+    """Raises InvalidInput if something is taught for what is planned already."""
+    if taught is not None:
+        raise InvalidInput(f"{made} is a plan, which has its positions; nothing can be taught for it")
+
+
+def _taught(given: FileName) -> Taught:
+    if isinstance(given, str) and "\n" in given:
+        return read_taught(Source(name="taught.toml", text=given))
+    return load_taught(given_file(given, "what is taught is a file or a text"))

@@ -1,0 +1,433 @@
+"""A run in the hands of a Python program: it goes on, goes back, and tells where it stands."""
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.api.answer import Answer, answer
+from handeye.api.arguments import given_count, given_file, given_place
+from handeye.api.exporting import exported
+from handeye.api.plans import Plan
+from handeye.api.run_page import run_page
+from handeye.api.state import State, state_of
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place
+from handeye.core.plain_text import counted
+from handeye.debugger.breakpoints import breakpoint, stage_number
+from handeye.debugger.reachability import is_ahead
+from handeye.debugger.reply import Break
+from handeye.debugger.stepper import Stepper
+from handeye.debugger.views import last_picture
+from handeye.program.events import AnyEvent
+from handeye.results.finishing import finished
+from handeye.results.judging import Referee
+from handeye.results.outcome import outcome
+from handeye.results.pauses import pause_sentence
+from handeye.results.pictures import annotated_webp
+from handeye.results.result import Result
+from handeye.runs.advance import Pause
+from handeye.runs.checkpoint_file import CHECKPOINT, write_checkpoint
+from handeye.runs.exhibit import present
+from handeye.runs.folder import TRACE, RunFolder
+from handeye.runs.host_seconds import Meter
+from handeye.runs.operator import Operator, attend, beginnings
+from handeye.runs.setup import plan_of
+from handeye.runs.stops import AfterSteps, AnyStop, AtStage, BrokenOff
+from handeye.runs.undo_orders import stage_began
+from handeye.systems.stanford.executor_run import context_of
+from handeye.trace.reading import read_trace
+from handeye.trace.trace import Trace
+
+if TYPE_CHECKING:
+    from handeye.results.export import Export
+
+Place = str | int
+"""A stage or a part of its name, a label, an instruction, `error:N`, or a line of the script."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Keeping:
+    """What is done with a run when it ends."""
+
+    folder: RunFolder | None
+    judged: bool
+    referee: Referee | None
+    meter: Meter
+    """Measures what the run costs this computer."""
+
+
+class Run:
+    """A run of a plan in a world, which pauses wherever it is told to; `handeye.begin` begins one.
+
+    What moves it returns the `State` in which it pauses, which says why. As a context manager it closes itself.
+
+    `CLOSE .5` asks for something at least half an inch thick: on an empty hand it calls the operator.
+
+    >>> with handeye.begin("OPEN 1\\nL1: CLOSE .5\\nOPEN 2\\n", camera="ray") as run:
+    ...     state = run.until("L1")
+    ...     print(state.line, state.why)
+    ...     print(run.until().why)
+    2 breakpoint at label L1
+    the operator is called: ...
+    """
+
+    def __init__(self, stepper: Stepper, keeping: Keeping, why: str) -> None:
+        """Use `handeye.begin`."""
+        self._stepper, self._hands = stepper, stepper.hands
+        self._runner, self._keeping = stepper.hands.runner, keeping
+        self._why: str | None = why
+        self._closed: Result | None = None
+        self._outcome: tuple[int, Result] | None = None
+        self._broken: BrokenOff | None = None
+
+    # -- going on -------------------------------------------------------------------------------------
+
+    def step(self, n: int = 1) -> State:
+        """Do the next `n` steps, fewer if something stops the run before.
+
+        Raises:
+            InvalidInput: the run cannot go on, or `n` is no whole number from 1 up.
+        """
+        return self._go(steps=given_count(n, "steps"))
+
+    def until(self, place: Place | None = None) -> State:
+        """Go on to a place, or to the end; a breakpoint or a call of the operator stops the run before, too.
+
+        Args:
+            place: a stage, by its name or a part that no other has; a label; an instruction (`"AOJ"`: the next step
+                that begins with it); a line (58, `"pins.al:3"`); or `"error:23"`: after the step that raises it.
+
+        Raises:
+            InvalidInput: the run cannot go on, there is no such place, or the run never comes to it from here.
+        """
+        stops: list[AnyStop] = []
+        if place is not None:
+            stops.append(breakpoint(given_place(place), self._runner.listing))
+            if not is_ahead(stops[0], self._runner.checkpoint()):
+                raise InvalidInput(f"the run never comes to {place} from here")
+        return self._go(stops)
+
+    def back(self, steps: Place = 1) -> State:
+        """Be again where some steps were not done: arm, parts, program and clock; what was undone leaves the events.
+
+        Args:
+            steps: how many to undo; or a stage, by its name or a part of it: back to where it last began.
+
+        Raises:
+            InvalidInput: the run has not come so far, or nothing is left of the state it was in then.
+        """
+        self._check_open()
+        if isinstance(steps, str):
+            stage = stage_number(steps, self._runner.listing)
+            if stage not in beginnings(self._runner):
+                raise InvalidInput(f"stage {self._runner.stages[stage]} has not begun yet")
+            position = beginnings(self._runner)[stage]
+        else:
+            position = self._runner.position - given_count(steps, "steps")
+            if position < 0:
+                raise InvalidInput(f"{steps} steps cannot be undone; {self._runner.position} are done")
+        self._hands.back_to(position)
+        return self._stand("gone back")
+
+    def undo(self, steps: Place = 1) -> State:
+        """Have the arm undo what it did, the last step first, under guards; the program can go on from there.
+
+        `back` puts the simulator back; here the arm does it, so that it could be done on a real one. What was undone
+        stays in the events. Where something resists, or the hand holds something else than then, the operator is
+        called.
+
+        Args:
+            steps: how many executed steps to undo; or a stage, by its name or a part of it: to where it last began.
+
+        Raises:
+            InvalidInput: so much was not executed, or the run cannot go on.
+
+        >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
+        >>> run.until().why
+        'the program came to its end'
+        >>> run.undo().line
+        2
+        """
+        self._check_open()
+        executed = self._runner.system.executed
+        if isinstance(steps, str):
+            stage = stage_number(steps, self._runner.listing)
+            left = stage_began(executed, self._runner.listing, stage)
+        else:
+            left = len(executed) - given_count(steps, "steps")
+            if left < 0:
+                raise InvalidInput(f"{steps} steps cannot be undone; {len(executed)} were executed")
+        return self._stand(reason(self._hands.have_undone(left)))
+
+    def dismantle(self) -> State:
+        """Have the arm undo all that it did; the run ends there, and `result.apart` is the word of the referee.
+
+        Raises:
+            InvalidInput: nothing was done that it could undo.
+        """
+        self._check_open()
+        pause = self._hands.have_undone(0, halts=True)
+        self._keeping = replace(self._keeping, judged=True)
+        return self._stand(reason(pause))
+
+    def break_at(self, place: Place) -> Break:
+        """Pause at a place whenever the run comes to it; places are those of `until`.
+
+        Returns:
+            the breakpoint and its `number`, by which `run.say("delete 1")` takes it away.
+
+        Raises:
+            InvalidInput: there is no such place, or the run is closed.
+        """
+        self._check_open()
+        return self._hands.add_break(given_place(place))
+
+    def say(self, line: str) -> Answer:
+        """Say a command of the stepper (`handeye run --step`), as `"show force"`, `"set saved H 0 0 .1"`, `"retry"`.
+
+        Returns:
+            the answer as a record; `print` shows it as the stepper does. A command that is wrong changes nothing, and
+            its answer says so in `error`.
+
+        Raises:
+            InvalidInput: the line is no text, or the run is closed.
+
+        >>> run = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray")
+        >>> print(run.say("show gap"))
+        ── stage 1, program, step 0; 0 steps done, 0.00 s
+        gap       -0.002 in
+        """
+        self._check_open()
+        if not isinstance(line, str):
+            raise InvalidInput(f"a command of the stepper is a text, not {line!r}")
+        reply = self._stepper.do(line)
+        self._why = None if reply.pause is None else reason(reply.pause)
+        if self._stepper.over:
+            self.close()
+        return answer(reply)
+
+    def _go(self, stops: list[AnyStop] | None = None, steps: int | None = None) -> State:
+        self._check_open()
+        self._why = None
+        return self._stand(reason(self._hands.go(stops or [], steps)))
+
+    def reach(self, stage: int) -> State:
+        """Go on until a stage, given by its index, is about to begin; a run that is there already stays.
+
+        Raises:
+            InvalidInput: the run never comes to it, or stopped before it; it is closed.
+        """
+        name = self._runner.stages[stage]
+        begins = AtStage(stage=stage, name=name)
+        if begins.met_before(self._runner) or (stage == 0 and not self._runner.position):
+            return self.state
+        try:
+            if not is_ahead(begins, self._runner.checkpoint()):
+                raise InvalidInput(f"the run never comes to “{name}” from where it begins")
+            state = self._go([begins])
+            if not begins.met_before(self._runner):
+                raise InvalidInput(f"the run stopped before “{name}”: {state.why}")
+        except BaseException:
+            self.close()
+            raise
+        return state
+
+    def attend(self, operator: Operator) -> State:
+        """Go on to the end, with somebody or a rule to answer when the operator is called."""
+        self._check_open()
+        try:
+            pause = attend(self._runner, operator, [], self._hands.kept)
+        except BaseException:
+            self._runner.undo()
+            raise
+        return self._stand(reason(pause))
+
+    def _stand(self, why: str) -> State:
+        self._why = why
+        return self.state
+
+    # -- knowing --------------------------------------------------------------------------------------
+
+    @property
+    def plan(self) -> Plan:
+        """The plan that is carried out."""
+        return Plan(record=plan_of(self._runner.setup))
+
+    @property
+    def state(self) -> State:
+        """Where the run now pauses."""
+        stage = self._hands.stage
+        name = None if stage is None else self._runner.stages[stage]
+        why = reason(self._hands.pause) if self.ended else self._why
+        return state_of(self._runner, name, why or "paused")
+
+    @property
+    def events(self) -> tuple[AnyEvent, ...]:
+        """Everything that has happened and was not undone, as records of `handeye.program.events`."""
+        return tuple(self._runner.events)
+
+    @property
+    def picture(self) -> NDArray[np.uint8] | None:
+        """The last picture that the program took, shape (256, 333), 0 (black) to 15; None if it took none."""
+        name = last_picture(self._runner)
+        return None if name is None else context_of(self._runner.system).state.shots[name].picture.copy()
+
+    @property
+    def ended(self) -> bool:
+        """No step can be done unless the operator answers, or the run goes back."""
+        return self._runner.ended
+
+    @property
+    def out(self) -> Path | None:
+        """The folder that keeps the run."""
+        return None if self._keeping.folder is None else self._keeping.folder.path
+
+    @property
+    def trace(self) -> Trace:
+        """The trace of the run, once it is closed.
+
+        Raises:
+            InvalidInput: the run has no folder, or is not closed.
+        """
+        if self.out is None:
+            raise InvalidInput("the run has no folder, and so no trace; begin it with out=...")
+        if self._closed is None:
+            raise InvalidInput(
+                "the trace is complete when the run is closed: leave its `with`, or close() it"
+            )
+        return read_trace(self.out / TRACE)
+
+    @property
+    def result(self) -> Result:
+        """What has come of the run so far; the referee judges one that has come to the end of its program."""
+        if self._closed is not None:
+            return self._closed
+        happened = len(self._runner.events)
+        if self._outcome is None or self._outcome[0] != happened:
+            self._outcome = happened, self._ended(outcome)
+        return self._outcome[1]
+
+    @property
+    def completed(self) -> bool:
+        """The program has come to its end, or the arm to the end of what it was to undo."""
+        return self.result.completed
+
+    @property
+    def assembled(self) -> bool | None:
+        """What the referee says: the work is as it should be; None if it was not asked, or not yet."""
+        return self.result.assembled
+
+    # -- keeping --------------------------------------------------------------------------------------
+
+    def checkpoint(self, path: str | os.PathLike[str] | None = None) -> Path:
+        """Keep the present state: `handeye.begin` and `handeye resume` go on from it.
+
+        Args:
+            path: the file to write; by default one in the folder of the run, under a name of its own.
+
+        Returns:
+            the file.
+
+        Raises:
+            InvalidInput: it cannot be written, the run is closed, or it has no folder and no file is named.
+        """
+        self._check_open()
+        kept = self._runner.checkpoint()
+        if path is None:
+            folder = self._keeping.folder
+            if folder is None:
+                raise InvalidInput("this run has no folder for checkpoints; name a file")
+            return folder.kept.save(kept)
+        file = given_file(path, "a checkpoint is kept in a file")
+        check_place(file, CHECKPOINT)
+        write_checkpoint(file, kept)
+        return file
+
+    def export(
+        self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
+    ) -> "Export":
+        """Hand the cell as it now is to other programs, whether the run is closed or not.
+
+        Args:
+            path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
+            part: what of the solids: `cell`, as by default, or `pump`.
+            overwrite: an export that is in the folder may be replaced.
+
+        Returns:
+            what was written, and what was found out about it; a run that is not finished is marked so.
+
+        Raises:
+            InvalidInput: it cannot be written there, there is no such part, or the run is on no cell.
+
+        >>> run = handeye.begin("OPEN 1\\n", camera="ray")
+        >>> run.export(folder).moment
+        'unfinished'
+        """
+        return exported(path, lambda: present(self._runner), part, overwrite=overwrite)
+
+    def close(self) -> None:
+        """End the run, and complete its folder: trace, pictures, result, and a checkpoint if it can go on."""
+        if self._closed is not None:
+            return
+        folder = self._keeping.folder
+        try:
+            if folder is not None and not self.ended:
+                folder.checkpoint(self._runner.checkpoint())
+            self._closed = self._ended(finished, folder=folder)
+        finally:
+            if folder is not None:
+                folder.close()
+
+    def _ended(self, make: Callable[..., Result], **more: Any) -> Result:
+        """The result of the run as it now pauses."""
+        keeping, pause = self._keeping, self._hands.pause
+        if self._broken is not None and pause.kind == "break":
+            pause = msgspec.structs.replace(pause, met=self._broken)
+        return make(
+            self._runner,
+            pause,
+            keeping.meter,
+            judged=keeping.judged,
+            referee=keeping.referee,
+            **more,
+        )
+
+    def _check_open(self) -> None:
+        if self._closed is not None:
+            raise InvalidInput("the run is closed; begin another, or go on from a checkpoint of it")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is not None:
+            self._broken = BrokenOff(exception=kind.__name__)
+        self.close()
+
+    # -- showing --------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        setup = self._runner.setup
+        return f"<Run {self._runner.listing.name}, {setup.world}: {self.state}>"
+
+    def _repr_html_(self) -> str:
+        name = last_picture(self._runner)
+        webp = None if name is None else annotated_webp(context_of(self._runner.system), name)
+        return run_page(self.result, self.state, name, webp)
+
+
+def reason(pause: Pause) -> str:
+    """Why a run pauses, in words that stand behind those of where."""
+    if isinstance(pause.met, AfterSteps):
+        return f"paused after {counted(pause.met.count, 'step')}"
+    said = pause_sentence(pause)
+    return f"the operator is called: {said}" if pause.kind == "operator" else said

@@ -1,0 +1,105 @@
+"""The page of a run for notebooks."""
+
+from typing import Final
+
+from handeye.api.html import heading, inked, line, page, picture, table
+from handeye.api.state import State
+from handeye.core.markup import Markup, markup
+from handeye.results.page import cell_times, clock, period, told_faults, verdict
+from handeye.results.result import Check, Result
+
+_INKS: Final = {
+    "done": "good",
+    "under way": "doubtful",
+    "skipped": "doubtful",
+    "stopped": "bad",
+    "not reached": "quiet",
+}
+"""Colours of the states of a stage."""
+
+
+def run_page(result: Result, state: State, name: str | None, webp: bytes | None) -> str:
+    """A run: where it stands or what came of it, its stages, times, the referee's findings, and its last picture."""
+    pieces = [heading(f"{result.program}, {result.world}"), line(_standing(result, state)), _stages(result)]
+    if not result.paused:
+        pieces.append(_times(result))
+    if result.referee:
+        pieces.append(_findings(result))
+    pieces += [line(inked(f"broken: {told}", "doubtful")) for told in told_faults(result)]
+    limits = (result.limits or {}).items()
+    pieces += [
+        line(inked(f"limit of {name} set by the caller: {limit:g}", "doubtful")) for name, limit in limits
+    ]
+    pieces += [line(inked(f"by a person: {each}", "doubtful")) for each in result.interventions]
+    pieces += [
+        line(inked(f"{part}: the caller's own, {code}", "doubtful")) for part, code in own_parts(result)
+    ]
+    if name is not None and webp is not None:
+        pieces += [line(f"last picture: {name}"), picture(webp, f"picture {name}")]
+    return page(*pieces)
+
+
+def own_parts(result: Result) -> list[tuple[str, str]]:
+    """Parts of a run that were not handeye's own, with the names of their code."""
+    return [*(result.replaced or {}).items()]
+
+
+def _standing(result: Result, state: State) -> Markup:
+    """The verdict on a run that is over; where any other stands."""
+    if result.paused:
+        return inked(str(state), "plain")
+    good = result.completed and result.assembled is not False
+    return inked(verdict(result).plain, "good" if good else "bad")
+
+
+def _stages(result: Result) -> Markup:
+    rows = [
+        (
+            number,
+            each.name,
+            inked(each.status, _INKS[each.status]),
+            each.arm_s if each.status != "not reached" else None,
+        )
+        for number, each in enumerate(result.stages, 1)
+    ]
+    return table(("", "stage", "status", "arm time, s"), rows)
+
+
+def _times(result: Result) -> Markup:
+    """What passed on the cell's clock, the same each time; beside what did in its day, if somebody timed it."""
+    then = period(result)
+    years = () if then is None else (str(then.year),)
+    rows = cell_times(result, {} if then is None else then.times)
+    cells = ((_indented(name), *map(_clock, seconds[: 1 + len(years)])) for name, *seconds in rows)
+    return table(("on the cell's clock", "this run", *years), cells)
+
+
+def _indented(name: str) -> Markup:
+    """A name with its place under another kept."""
+    words = name.lstrip()
+    return Markup("&emsp;" * ((len(name) - len(words)) // 2) + markup(words))
+
+
+def _clock(seconds: float | None) -> str:
+    return "" if seconds is None else clock(seconds)
+
+
+def _mark(check: Check) -> Markup:
+    if check.ok:
+        return inked("✓", "good")
+    return inked("✗", "bad") if check.refuses else inked("!", "doubtful")
+
+
+def _findings(result: Result) -> Markup:
+    rows = [
+        (
+            _mark(each),
+            name,
+            each.subject,
+            f"{each.value:.3g}",
+            f"{each.relation} {each.limit:.3g}",
+            each.unit,
+        )
+        for name, each in result.referee.items()
+    ]
+    return table(("", "", "referee", "value", "limit", "unit"), rows)

@@ -1,0 +1,198 @@
+"""Where a run begins: at the beginning of a plan, or in a state that was kept."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+
+from handeye import tasks
+from handeye.api.arguments import given_file
+from handeye.api.plans import FileName, Planned, plan
+from handeye.api.worlds import World
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
+from handeye.core.variation import WorldSpec, checked_seed
+from handeye.debugger.breakpoints import stage_number
+from handeye.planfile.plan import Plan
+from handeye.ports.camera import Renderer
+from handeye.program.events import RunStarted
+from handeye.results.kept_run import has_ended
+from handeye.runs.checkpoint_file import ENDING, read_checkpoint
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.folder import CHECKPOINTS, RunFolder, open_again
+from handeye.runs.scripts import default_script
+from handeye.runs.setup import Setup
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.systems import listing_of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wanted:
+    """What somebody says of a run besides its plan; None: nothing."""
+
+    seed: object
+    world: object
+    camera: str | None
+    task: str
+    judged: bool
+    limits: dict[str, float] | None
+    """Limits for the findings of the task's referee."""
+    replaced: dict[str, str]
+    """Parts of the caller's own, with the names of their code."""
+
+    @property
+    def spec(self) -> WorldSpec | None:
+        """The world that is wanted.
+
+        Raises:
+            InvalidInput: there is none such, or seed and world are both given.
+        """
+        if self.world is None:
+            return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
+        if self.seed is not None:
+            raise InvalidInput("give a seed or a world, not both: a world has its seed")
+        if isinstance(self.world, World):
+            return self.world.spec
+        if isinstance(self.world, WorldSpec):
+            checked_seed(self.world.seed)
+            return self.world
+        raise InvalidInput(f"a world is a handeye.World, not {self.world!r}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Start:
+    """What a run begins with."""
+
+    state: Checkpoint
+    folder: RunFolder | None = None
+    """Its own folder, if it goes on there."""
+    planning_cpu_s: float = 0.0
+    """Seconds of this computer's processor for the planning phase."""
+
+
+def start_of(
+    script: FileName | Planned | None,
+    wanted: Wanted,
+    *,
+    stage: str | None,
+    taught: FileName | None,
+    out: FileName | None,
+) -> Start:
+    """What a run begins with that somebody asks for; arguments are those of `handeye.begin`.
+
+    Raises:
+        InvalidInput: there is no such script, state or world, or they do not go together.
+    """
+    if isinstance(script, (str, os.PathLike)) and _is_kept(script):
+        if taught is not None:
+            raise InvalidInput("a run that is taken up has its positions; nothing can be taught for it")
+        if out is not None and stage is None and os.path.realpath(out) == os.path.realpath(script):
+            return _again(script, wanted)
+        return Start(state=_kept(script, stage, wanted))
+    timer = HostTimer()
+    made = plan(
+        default_script(tasks.task(wanted.task)) if script is None else script, taught=taught, task=wanted.task
+    )
+    return Start(state=_new(made.record, wanted), planning_cpu_s=timer.cpu_s)
+
+
+def _is_kept(given: FileName) -> bool:
+    """A name is that of a checkpoint, or of the folder of a run."""
+    name = os.fspath(given)
+    return bool(name) and "\n" not in name and (name.endswith(ENDING) or os.path.isdir(name))
+
+
+def _new(plan: Plan, wanted: Wanted) -> Checkpoint:
+    """A run that has not begun.
+
+    Raises:
+        InvalidInput: there is no such world.
+    """
+    setup = Setup(
+        plan=plan,
+        world=wanted.spec or WorldSpec(seed=0),
+        camera=wanted.camera or "auto",
+        task=wanted.task,
+        judged=wanted.judged,
+        limits=wanted.limits or {},
+        replaced=wanted.replaced,
+    )
+    return Checkpoint(setup=setup)
+
+
+def _kept(given: FileName, at: str | None, wanted: Wanted) -> Checkpoint:
+    """A state that was kept: that of a checkpoint, the newest of a folder, or the one nearest before a stage.
+
+    Raises:
+        InvalidInput: there is none, or it is of another world, camera or other parts than are wanted.
+    """
+    path = given_file(given, "a run is taken up from a file or a folder")
+    start = open_again(path)[1] if path.is_dir() else read_checkpoint(path)
+    if at is not None and path.is_dir():
+        number = stage_number(at, listing_of(start.setup))
+        found = CheckpointStore(path / CHECKPOINTS).for_stage(start.setup, number)
+        start = found or Checkpoint(setup=start.setup)
+    _check_same(path, start.setup, wanted)
+    return _with_parts(start, wanted)
+
+
+def _again(given: FileName, wanted: Wanted) -> Start:
+    """The folder of a run and its newest state, to go on in the same folder.
+
+    Raises:
+        InvalidInput: there is none, or the run was begun otherwise than is wanted.
+    """
+    path = given_file(given, "a run is taken up from a folder")
+    folder, start, _ = open_again(path)
+    if has_ended(path, start, judged=start.setup.judged):
+        raise InvalidInput(f"the run in {path} has ended; without out=..., it can be taken up and go back")
+    _check_same(path, start.setup, wanted)
+    if wanted.replaced or wanted.limits not in (None, start.setup.limits):
+        raise InvalidInput(
+            f"parts of a run that is in {path} cannot be replaced there; choose another folder as out=..."
+        )
+    return Start(state=start, folder=folder)
+
+
+def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
+    """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
+    if not isinstance(begun.plan, Plan):
+        raise InvalidInput(
+            f"{path} is of a run of the system {quoted(begun.system)}; from Python only runs of plans are taken up"
+        )
+    if wanted.spec is not None and wanted.spec != begun.world:
+        raise InvalidInput(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
+    if wanted.camera is not None and wanted.camera != begun.camera:
+        raise InvalidInput(f"the run in {path} has the camera `{begun.camera}`, not `{wanted.camera}`")
+
+
+def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
+    """The same with parts of the caller's from here on: what is told of its beginning says so."""
+    if not wanted.replaced and not wanted.judged and wanted.limits is None:
+        return start
+    setup = start.setup
+    replaced = setup.replaced | wanted.replaced
+    for part, name in setup.replaced.items():
+        if part != "referee" and part in wanted.replaced and wanted.replaced[part] != name:
+            raise InvalidInput(
+                f"the run was begun with `{name}` as its {part}; `{wanted.replaced[part]}` is another"
+            )
+    events = start.events
+    if wanted.replaced and events and isinstance(events[0], RunStarted):
+        camera = wanted.replaced.get("camera")
+        eye = events[0].camera if camera is None else Renderer(method="replaced", platform=camera)
+        events = (msgspec.structs.replace(events[0], replaced=replaced, camera=eye), *events[1:])
+    changed = msgspec.structs.replace(setup, replaced=replaced, judged=setup.judged or wanted.judged)
+    return msgspec.structs.replace(start, setup=_with_referee(changed, wanted), events=events)
+
+
+def _with_referee(setup: Setup, wanted: Wanted) -> Setup:
+    """The same, judged by the caller's code or limits in the place of what judged it before."""
+    if "referee" in wanted.replaced:
+        return msgspec.structs.replace(setup, limits={})
+    if wanted.limits is None:
+        return setup
+    others = {part: name for part, name in setup.replaced.items() if part != "referee"}
+    return msgspec.structs.replace(setup, limits=wanted.limits, replaced=others)

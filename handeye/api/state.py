@@ -1,0 +1,135 @@
+"""The state of a run that pauses, as a caller from Python sees it: SI units, arrays that nobody can change."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from handeye.core.plain_text import counted, one_line
+from handeye.core.pose import Array, Pose
+from handeye.core.source import line_name
+from handeye.runs.runner import Runner
+from handeye.systems.stanford.executor_run import context_of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Memory:
+    """What the program remembers; differences and places are of the frame W."""
+
+    error: int | None
+    """The error that was raised and that the next step may test."""
+    saved: Mapping[str, Array]
+    """Differences that `SAVE` saved, shape (3,), m."""
+    counters: Mapping[str, int]
+    parts: Mapping[str, Pose]
+    """Where parts were measured: X_WP, shape (4, 4), m."""
+    place: int | None
+    """Number of the place that a search has come to, from 0; None if none is under way."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Memory) and _same(_values(self), _values(other))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class State:
+    """Where a run pauses, and how the arm stands by its own sensors. States are equal if all in them is.
+
+    >>> state = handeye.begin("OPEN 1\\nOPEN 2\\n", camera="ray").step()
+    >>> state
+    <State 1 step done, 0.85 s, program, line 2: OPEN 2; paused after 1 step>
+    >>> state.joints.shape, round(state.gap / 0.0254, 2)
+    ((6,), 1.0)
+    """
+
+    position: int
+    """Steps done since the run began."""
+    time: float
+    """Simulated seconds since the run began; the camera was calibrated before."""
+    stage: str | None
+    """The stage under way, or the one about to begin; None after the last."""
+    step: int | None
+    """Number of the step that comes next; None if the run cannot go on by itself."""
+    file: str
+    """The required file that its line is in; empty: the script itself."""
+    line: int | None
+    text: str | None
+    """Its statement, without the `STOP` or what else modifies it."""
+    why: str
+    """Why the run pauses, in words."""
+    joints: Array
+    """Joint positions, shape (n,), rad, and m for joints that slide (joint 3 of the Stanford arm)."""
+    gap: float
+    """Between the fingers, m."""
+    hand: Pose
+    """X_WT, shape (4, 4), m: midway between the finger tips, z along the approach, y along the finger line."""
+    force: Array
+    """Force that the hand exerts on the world, as it was last estimated, in W, shape (3,), N."""
+    memory: Memory
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, State) and _same(_values(self), _values(other))
+
+    def __repr__(self) -> str:
+        return f"<State {self}>"
+
+    def __str__(self) -> str:
+        done = f"{counted(self.position, 'step')} done, {self.time:.2f} s"
+        stage = "" if self.stage is None else f", {self.stage}"
+        line = "" if self.line is None else f", line {line_name(self.line, self.file)}: {self.text}"
+        return f"{done}{stage}{line}; {self.why}"
+
+
+def state_of(runner: Runner, stage: str | None, why: str) -> State:
+    """The state of a run that pauses.
+
+    Raises:
+        InvalidInput: another system than that of plans carries it out.
+    """
+    run, step = context_of(runner.system), runner.next
+    drive = run.drive
+    return State(
+        position=runner.position,
+        time=runner.elapsed,
+        stage=stage,
+        step=runner.at,
+        file="" if step is None else step.file,
+        line=None if step is None else step.line,
+        text=None if step is None else one_line(step.text),
+        why=why,
+        joints=_kept(drive.sensed.q),
+        gap=float(drive.sensed.gap),
+        hand=_kept(drive.hand()),
+        force=_kept(-drive.state.wrench[:3]),
+        memory=_memory(runner),
+    )
+
+
+def _memory(runner: Runner) -> Memory:
+    state = context_of(runner.system).state
+    return Memory(
+        error=None if state.pending is None else state.pending.number,
+        saved={name: _kept(difference) for name, difference in sorted(state.saved.items())},
+        counters=dict(state.counters),
+        parts={name: _kept(X_WP) for name, X_WP in sorted(state.world.measured.items())},
+        place=None if state.search is None else state.search.count,
+    )
+
+
+def _values(record: State | Memory) -> dict[str, object]:
+    return {field.name: getattr(record, field.name) for field in fields(record)}
+
+
+def _same(one: object, other: object) -> bool:
+    """Two values are equal, arrays in them number by number."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other)
+    return one == other
+
+
+def _kept(values: Array) -> Array:
+    """A copy that nobody can change."""
+    copy = np.array(values)
+    copy.flags.writeable = False
+    return copy

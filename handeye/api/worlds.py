@@ -1,0 +1,162 @@
+"""Worlds as a caller from Python chooses them."""
+
+import os
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from handeye import tasks
+from handeye.api.arguments import given_names
+from handeye.api.exporting import exported
+from handeye.api.html import heading, page, table
+from handeye.core import fault_options
+from handeye.core.errors import InvalidInput
+from handeye.core.fault_options import by_number
+from handeye.core.variation import SPREADS, Level, WorldSpec, checked_seed
+from handeye.core.world_options import overrides
+from handeye.results.world_page import QuantityReport, report
+from handeye.runs.exhibit import drawn
+
+if TYPE_CHECKING:
+    from handeye.results.export import Export
+
+
+class World:
+    """A world: where things lie and every error, drawn from a seed. Equal worlds are the same to the last digit.
+
+    Its quantities, their names and their units are those that `handeye world` lists: `values`, `quantities`.
+
+    >>> world = handeye.World(seed=3, level="high", without=["arm.offset"], set={"arm.friction": 0})
+    >>> world
+    World(seed=3, level='high', without=['arm.offset'], set={'arm.friction': 0})
+    >>> world["arm.offset.3"], world.unit("arm.offset.3")
+    (0.0, 'in')
+    """
+
+    def __init__(
+        self,
+        seed: int = 0,
+        *,
+        level: Level = "nominal",
+        without: Iterable[str] = (),
+        set: Mapping[str, float | str] | None = None,
+        faults: Iterable[str] = (),
+        task: str = tasks.DEFAULT,
+    ) -> None:
+        """Choose a world.
+
+        Args:
+            seed: draws it, from 0 up.
+            level: how large its errors are: `low` half as large as `nominal`, `high` twice as large.
+            without: quantities and groups (`arm`, `arm.offset`, `arm.offset.3`) that have their nominal values.
+            set: values of quantities, or of each of a group: a number in the unit of the quantity, or a text with a
+                unit, as `".3 in"`. The quantities of a group may differ in their units: a number for `arm.friction` is
+                N m at joints that turn, and N at the one that slides.
+            faults: what is broken, as `handeye faults --list` shows it: `NAME`, `NAME=VALUE`, or either with `@N`
+                behind it, where it sets in with stage N of the program.
+            task: name of the task whose cell it is.
+
+        Raises:
+            InvalidInput: there is no such seed, level, quantity, fault, unit or value; the nearest name is told.
+        """
+        number = checked_seed(seed)
+        if not isinstance(level, str) or level not in SPREADS:
+            raise InvalidInput(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
+        if not isinstance(set, Mapping | None):
+            raise InvalidInput(f"`set` is a table of values by the names of quantities, not {set!r}")
+        self._without, self._set = given_names(without, "`without`"), dict(set or {})
+        self._faults = given_names(faults, "`faults`")
+        self._table, self._task = tasks.task(task).variation(number), task
+        settings = [f"{name}={value}" for name, value in self._set.items()]
+        self._spec = WorldSpec(
+            seed=number,
+            level=level,
+            overrides=overrides(self._table, self._without, settings),
+            faults=fault_options.faults(tasks.task(task).faults(number), self._faults, by_number),
+        )
+
+    @property
+    def spec(self) -> WorldSpec:
+        """What a run records of it, in SI units."""
+        return self._spec
+
+    @property
+    def seed(self) -> int:
+        """The seed."""
+        return self.spec.seed
+
+    @cached_property
+    def values(self) -> Mapping[str, float]:
+        """The value of each quantity by its name, each in its own unit."""
+        drawn, table = self._table.draw(self.spec), self._table.quantities
+        return MappingProxyType(
+            {name: value / table[name].measure.size for name, value in drawn.values.items()}
+        )
+
+    @cached_property
+    def quantities(self) -> tuple[QuantityReport, ...]:
+        """Each quantity with its `name`, `value`, `unit` and `source`, which says what it is."""
+        return report(self._table, self._table.draw(self.spec)).quantities
+
+    def __getitem__(self, name: str) -> float:
+        """The value of a quantity, in its unit.
+
+        Raises:
+            InvalidInput: there is no such quantity; the nearest name is told.
+        """
+        return self.values[self._quantity(name)]
+
+    def unit(self, name: str) -> str:
+        """The unit of a quantity; empty for a plain number.
+
+        Raises:
+            InvalidInput: there is no such quantity; the nearest name is told.
+        """
+        return self._table.quantities[self._quantity(name)].unit
+
+    def export(
+        self, path: str | os.PathLike[str], *, part: str | None = None, overwrite: bool = False
+    ) -> "Export":
+        """Hand the cell of this world, before anything has happened in it, to other programs.
+
+        Args:
+            path: a folder, for a scene that plain MuJoCo opens; or a file that ends in .glb, for solids.
+            part: what of the solids: `cell`, as by default, or `pump`.
+            overwrite: an export that is in the folder may be replaced.
+
+        Returns:
+            what was written, and what was found out about it.
+
+        Raises:
+            InvalidInput: it cannot be written there, or there is no such part.
+        """
+        return exported(path, lambda: drawn(self.spec, self._task), part, overwrite=overwrite)
+
+    def _repr_html_(self) -> str:
+        rows = [(each.name, f"{each.value:.4g}", each.unit, each.override or "") for each in self.quantities]
+        return page(heading(repr(self)), table(("quantity", "value", "unit", ""), rows))
+
+    def _quantity(self, name: str) -> str:
+        """The name of one quantity."""
+        if not isinstance(name, str):
+            raise InvalidInput(f"a quantity is given by its name, not {name!r}")
+        if name not in self._table.quantities:
+            group = [quantity.name for quantity in self._table.select(name)]
+            raise InvalidInput(f"`{name}` is a group of quantities: {', '.join(group)}")
+        return name
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, World) and (self.spec, self._task) == (other.spec, other._task)
+
+    def __hash__(self) -> int:
+        return hash((self.seed, self.spec.level))
+
+    def __repr__(self) -> str:
+        said = [f"seed={self.seed}"]
+        said += [f"level={self.spec.level!r}"] if self.spec.level != "nominal" else []
+        said += [f"without={list(self._without)}"] if self._without else []
+        said += [f"set={self._set}"] if self._set else []
+        said += [f"faults={list(self._faults)}"] if self._faults else []
+        said += [f"task={self._task!r}"] if self._task != tasks.DEFAULT else []
+        return f"World({', '.join(said)})"

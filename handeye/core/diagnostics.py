@@ -1,0 +1,286 @@
+"""Diagnostics: one mistake of a user's text each, with its place, shown in a code frame.
+
+A wrong text is never an exception: checkers collect `Diagnostic`s, callers render or serialise them.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+from handeye.core.codes import CODES, Severity
+from handeye.core.source import Source, Span
+
+LIMIT: Final = 20
+"""At most so many diagnostics for one text: nobody reads more."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Label:
+    """A place in the text, within one line, and what there is to say about it (may be empty)."""
+
+    span: Span
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SimilarName:
+    """A known name that is like the one that is not known."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class KnownNames:
+    """All known names, where they are few and none is like the one that is not known."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MissingMark:
+    """A mark that is missing behind a word."""
+
+    mark: str
+
+
+Meant = SimilarName | KnownNames | MissingMark
+"""The meaning that a mistake may have had, for a program that mends it; the help tells people."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Diagnostic:
+    """One mistake. `message`: one lower-case sentence, true without the frame."""
+
+    code: str
+    message: str
+    primary: Label
+    secondary: tuple[Label, ...] = ()
+    notes: tuple[str, ...] = ()
+    help: str | None = None
+    meant: Meant | None = None
+    """In the place of what the primary label marks, or behind it."""
+
+    def __post_init__(self) -> None:
+        assert self.code in CODES, self.code
+
+    @property
+    def severity(self) -> Severity:
+        """`error` or `warning`, by its code."""
+        return CODES[self.code].severity
+
+
+def has_errors(diagnostics: Iterable[Diagnostic]) -> bool:
+    """True if any of them is an error."""
+    return any(d.severity == "error" for d in diagnostics)
+
+
+def arranged(diagnostics: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """Each mistake once, by position, at most `LIMIT`; errors are kept before warnings."""
+    once = {(d.code, d.primary.span): d for d in diagnostics}
+    kept = sorted(once.values(), key=lambda d: (d.severity != "error", d.primary.span))[:LIMIT]
+    return sorted(kept, key=lambda d: (d.primary.span, d.code))
+
+
+def as_json(diagnostic: Diagnostic, source: Source) -> dict[str, object]:
+    """The diagnostic as plain data; lines and columns from 1, `end` exclusive."""
+
+    def place(label: Label) -> dict[str, object]:
+        text, offset = source.find(label.span.start)
+        line, column = text.position(offset)
+        end = column + label.span.end - label.span.start
+        return {"file": text.name, "line": line, "column": column, "end": end, "text": label.text}
+
+    return {
+        "code": diagnostic.code,
+        "severity": diagnostic.severity,
+        "message": diagnostic.message,
+        "file": source.find(diagnostic.primary.span.start)[0].name,
+        "primary": place(diagnostic.primary),
+        "secondary": [place(label) for label in diagnostic.secondary],
+        "notes": list(diagnostic.notes),
+        "help": diagnostic.help,
+    }
+
+
+# --- names ---------------------------------------------------------------------------------------
+
+
+LOOKALIKES: Final = str.maketrans("OoIl", "0011")
+"""Letters, to the digits they look like."""
+FEW: Final = 8
+"""Names of which all are told."""
+MOST_COMPARED: Final = 500
+LONGEST_COMPARED: Final = 40
+"""Characters. Finding the nearest name takes as many steps as there are names, times the square of their length."""
+
+
+def quoted(name: str) -> str:
+    """A word of the user's text inside a sentence: in backquotes, shortened, made visible."""
+    short = name if len(name) <= 40 else name[:39] + "…"
+    return f"`{_visible(short)[0]}`"
+
+
+def alternatives(name: str, known: Iterable[str]) -> SimilarName | KnownNames | None:
+    """The nearest known name, at most a third of the length of `name` away; else all, if they are few."""
+    choices = sorted(set(known))
+    if _too_many(name, choices):
+        return None
+    if near := nearest(name, choices, len(name) // 3):
+        return SimilarName(near)
+    return KnownNames(tuple(choices)) if 0 < len(choices) <= FEW else None
+
+
+def suggestion(name: str, known: Iterable[str]) -> str | None:
+    """`did you mean ...`, or `known: ...`, for a name that is not known; None if nothing helps."""
+    return told_names(alternatives(name, known))
+
+
+def told_names(names: SimilarName | KnownNames | None) -> str | None:
+    """The sentence of `suggestion`."""
+    match names:
+        case SimilarName(name):
+            return f"did you mean {quoted(name)}?"
+        case KnownNames(choices):
+            return "known: " + ", ".join(map(quoted, choices))
+    return None
+
+
+def nearest(name: str, known: Iterable[str], farthest: int) -> str | None:
+    """The known name that looks the same, or the one that the fewest changes make of `name`, `farthest` at most."""
+    choices = sorted(set(known))
+    if _too_many(name, choices):
+        return None
+    looks = name.translate(LOOKALIKES)
+    if same := next((choice for choice in choices if choice.translate(LOOKALIKES) == looks), None):
+        return same
+    ranked = [(_distance(name.upper(), choice.upper(), farthest), choice) for choice in choices]
+    changes, near = min(ranked, default=(farthest + 1, ""))
+    return near if changes <= farthest else None
+
+
+def _too_many(name: str, choices: Sequence[str]) -> bool:
+    return len(choices) > MOST_COMPARED or len(name) > LONGEST_COMPARED
+
+
+def _distance(a: str, b: str, farthest: int) -> int:
+    """Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`, or some number beyond
+    `farthest`."""
+    if abs(len(a) - len(b)) > farthest:
+        return farthest + 1
+    before: list[int] = []
+    row = list(range(len(b) + 1))
+    for i, x in enumerate(a, 1):
+        two, before, row = before, row, [i]
+        for j, y in enumerate(b, 1):
+            best = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (x != y))
+            if i > 1 and j > 1 and x == b[j - 2] and y == a[i - 2]:
+                best = min(best, two[j - 2] + 1)
+            row.append(best)
+    return row[-1]
+
+
+# --- code frames ---------------------------------------------------------------------------------
+
+WIDTH: Final = 110
+"""Longest piece of a source line a frame shows."""
+
+
+def render(diagnostic: Diagnostic, source: Source) -> str:
+    """The diagnostic with its code frame, for people; no final newline. Other files come below the primary's."""
+    texts: dict[str, tuple[Source, list[_Mark]]] = {}
+    for label, mark in ((diagnostic.primary, "^"), *((s, "-") for s in diagnostic.secondary)):
+        text, start = source.find(label.span.start)
+        line, column = text.position(start)
+        marked = _Mark(line, column - 1, label.span.end - label.span.start, mark, label.text)
+        texts.setdefault(text.key, (text, []))[1].append(marked)
+    pad = " " * len(str(max(mark.line for _, marks in texts.values() for mark in marks)))
+    out = [f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"]
+    for number, (text, marks) in enumerate(texts.values()):
+        corner, name = "├" if number else "┌", _visible(text.name)[0]
+        out += [f"{pad}{corner}─ {name}:{marks[0].line}:{marks[0].column + 1}", f"{pad}│"]
+        out += _lines(text, marks, pad)
+    out.extend(f"{pad}= note: {_visible(note)[0]}" for note in diagnostic.notes)
+    if diagnostic.help is not None:
+        out.append(f"{pad}= help: {diagnostic.help}")
+    return "\n".join(out)
+
+
+class _Mark(NamedTuple):
+    """Characters of a line to be marked, the first of them counted from 0, and what is said of them."""
+
+    line: int
+    column: int
+    length: int
+    mark: str
+    text: str
+
+
+def _lines(source: Source, marks: Sequence[_Mark], pad: str) -> Iterator[str]:
+    """The marked lines of one text."""
+    previous = None
+    for number in sorted({mark.line for mark in marks}):
+        if previous is not None and number > previous + 1:
+            yield f"{pad}·"
+        text, rows = _frame(source.line(number), [mark for mark in marks if mark.line == number])
+        yield f"{number:>{len(pad)}}│ {text}".rstrip()
+        yield from (f"{pad}│ {row}" for row in rows)
+        previous = number
+
+
+def visible(text: str) -> str:
+    """Lines of text as a terminal may show them: what would steer it is shown as symbols."""
+    return "\n".join(_visible(line)[0] for line in text.split("\n"))
+
+
+def _visible(text: str) -> tuple[str, list[int]]:
+    """`text` as a terminal may show it (tabs expanded, control characters as symbols); column by offset."""
+    shown, columns = "", []
+    for character in text:
+        columns.append(len(shown))
+        if character == "\t":
+            shown += " " * (8 - len(shown) % 8)
+        elif character < " ":
+            shown += chr(0x2400 + ord(character))
+        else:
+            shown += character if character.isprintable() else "\N{REPLACEMENT CHARACTER}"
+    columns.append(len(shown))
+    return shown, columns
+
+
+def _frame(line: str, labels: Sequence[_Mark]) -> tuple[str, list[str]]:
+    """A source line, cut to a width, and the rows of marks and words under it."""
+    shown, columns = _visible(line)
+    marks = []
+    for label in labels:
+        start = min(label.column, len(columns) - 1)
+        end = min(start + label.length, len(columns) - 1)
+        marks.append((columns[start], max(columns[end], columns[start] + 1), label.mark, label.text))
+    marks.sort(key=lambda m: (m[0], m[2] == "^"))
+    cut = max(0, marks[0][0] - WIDTH // 2) if len(shown) > WIDTH else 0
+    text = ("…" if cut else "") + shown[cut : cut + WIDTH] + ("…" if len(shown) > cut + WIDTH else "")
+    shift = cut - (1 if cut else 0)
+    return text, _rows(
+        [(a - shift, min(b - shift, WIDTH + 2), m, t) for a, b, m, t in marks if a - shift <= WIDTH]
+    )
+
+
+def _rows(marks: list[tuple[int, int, str, str]]) -> list[str]:
+    """Marks under a line; the words of the last stand beside it, those of the others below, on stems."""
+    under = [" "] * max(end for _, end, _, _ in marks)
+    for start, end, mark, _ in sorted(marks, key=lambda m: m[2] == "^"):
+        under[start:end] = mark * (end - start)
+    rows = ["".join(under) + (f" {marks[-1][3]}" if marks[-1][3] else "")]
+    below = [(start, text) for start, _, _, text in marks[:-1] if text]
+    if below:
+        rows.append(_stems([start for start, _ in below]))
+    while below:
+        start, text = below.pop()
+        rows.append(_stems([s for s, _ in below]).ljust(start) + text)
+    return rows
+
+
+def _stems(columns: Sequence[int]) -> str:
+    row = ""
+    for column in columns:
+        row = row.ljust(column) + "|" if column >= len(row) else row
+    return row

@@ -1,0 +1,61 @@
+"""Mutable records: the state of a system that runs, the copy of it that is a snapshot, and putting a snapshot back.
+
+A system keeps everything it remembers in one such record, and nowhere else. Values that never change are a `Record`
+(`handeye/core/record.py`).
+
+Structures, dictionaries and lists are copied; numbers, texts, tuples, frozen records and arrays are shared. Therefore
+an array that stands in a record is replaced and never changed in place: a copy makes it read-only.
+"""
+
+from dataclasses import is_dataclass
+from typing import Any, Final, TypeVar
+
+import msgspec
+import numpy as np
+
+_SHARED: Final = (bool, int, float, str, bytes, tuple, frozenset, type(None))
+Kept = TypeVar("Kept", bound="MutableRecord")
+
+
+class MutableRecord(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Base of the states of systems, and of the parts of these; a checkpoint holds a copy."""
+
+
+def copied(record: Kept) -> Kept:
+    """A snapshot of a record: nothing that happens to the record afterwards changes it.
+
+    Raises:
+        TypeError: something in it can be changed and cannot be copied.
+    """
+    return type(record)(**{name: _copied(getattr(record, name)) for name in record.__struct_fields__})
+
+
+def put_back(record: Kept, snapshot: Kept) -> None:
+    """Give a record, and the records in it, the values of a snapshot: whoever holds one of them sees these values."""
+    for name in record.__struct_fields__:
+        here, kept = getattr(record, name), getattr(snapshot, name)
+        if isinstance(here, MutableRecord) and type(here) is type(kept):
+            put_back(here, kept)
+        else:
+            setattr(record, name, _copied(kept))
+
+
+def _copied(value: Any) -> Any:
+    if isinstance(value, MutableRecord):
+        return copied(value)
+    if isinstance(value, dict):
+        return {key: _copied(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_copied(item) for item in value]
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    elif not isinstance(value, (*_SHARED, np.generic)) and not _frozen(value):
+        raise TypeError(f"a {type(value).__name__} in a record can be changed and cannot be copied")
+    return value
+
+
+def _frozen(value: object) -> bool:
+    """A record or dataclass whose fields cannot be given other values."""
+    if isinstance(value, msgspec.Struct):
+        return bool(value.__struct_config__.frozen)
+    return is_dataclass(value) and bool(getattr(type(value), "__dataclass_params__").frozen)  # noqa: B009 - untyped

@@ -1,0 +1,118 @@
+"""Source text and spans of it, for diagnostics and for showing the line that is being executed."""
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import accumulate
+from pathlib import Path
+from typing import Final
+
+import msgspec
+
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.core.plain_text import printable
+
+LARGEST: Final = 1_000_000
+"""Bytes of the largest file taken for a text: the longest program there can be, with a hundred for each statement."""
+
+
+class Span(msgspec.Struct, frozen=True, gc=False, kw_only=True, order=True):
+    """Characters `start` (inclusive) to `end` (exclusive) of a source text."""
+
+    start: int
+    end: int
+
+
+class Located(msgspec.Struct, frozen=True, gc=False):
+    """Something that stands in a source text, from offset `start` to `end`."""
+
+    start: int
+    end: int
+
+    @property
+    def span(self) -> Span:
+        """Where it stands."""
+        return Span(start=self.start, end=self.end)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """A named text, with the texts it requires. Lines and columns count from 1, in its own text."""
+
+    name: str
+    text: str
+    key: str = ""
+    """Path of a required text from the folder of the main text; empty: the main text."""
+    problem: str = ""
+    """Why a required text could not be read."""
+    required: "tuple[Source, ...]" = ()
+    """Offsets of the whole go on through them, in this order, each text one character behind the one before."""
+
+    @property
+    def texts(self) -> "tuple[Source, ...]":
+        """Its own text, and those required."""
+        return self, *self.required
+
+    def find(self, offset: int) -> "tuple[Source, int]":
+        """The text that an offset of the whole lies in, and the offset in that text alone."""
+        if not self.required:
+            return self, offset
+        number = bisect_right(self._begins, offset) - 1
+        return self.texts[number], offset - self._begins[number]
+
+    @cached_property
+    def begins(self) -> dict[str, int]:
+        """The offset of the whole at which each text begins, by its key."""
+        return {text.key: begin for text, begin in zip(self.texts, self._begins, strict=True)}
+
+    @cached_property
+    def _begins(self) -> list[int]:
+        return [0, *accumulate(len(text.text) + 1 for text in self.texts[:-1])]
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return [0, *(found.end() for found in re.finditer("\n", self.text))]
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column of a character offset."""
+        line = bisect_right(self._starts, offset)
+        return line, offset - self._starts[line - 1] + 1
+
+    def line(self, number: int) -> str:
+        """The text of a line, without its end."""
+        start = self._starts[number - 1]
+        end = self._starts[number] - 1 if number < len(self._starts) else len(self.text)
+        return self.text[start:end].rstrip("\r")
+
+    def column(self, offset: int) -> int:
+        """How many characters of its line stand before a character offset."""
+        return offset - self.text.rfind("\n", 0, offset) - 1
+
+    def span(self, key: str, line: int, columns: tuple[int, int]) -> Span:
+        """Characters of a line of one of the texts, as a span of the whole."""
+        text = next(text for text in self.texts if text.key == key)
+        start = self.begins[key] + text._starts[line - 1]
+        return Span(start=start + columns[0], end=start + columns[1])
+
+
+def line_name(line: int, file: str = "") -> str:
+    """`12`, or `pins.al:12` in a required file."""
+    return f"{printable(file)}:{line}" if file else f"{line}"
+
+
+def read_source(path: str | Path) -> Source:
+    """The text in a file, named as the path was given.
+
+    Raises:
+        InvalidInput: no such file, a directory, unreadable, too large, or not UTF-8 (with the byte's offset).
+    """
+    data = read_whole(path, LARGEST)
+    try:
+        return Source(name=str(path), text=data.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        # `utf-8-sig` counts from behind a byte order mark, if there is one.
+        byte = error.object[error.start]
+        offset = error.start + len(data) - len(error.object)
+        raise InvalidInput(f"{path} is not UTF-8 text: byte {offset} is 0x{byte:02x}") from None

@@ -1,0 +1,341 @@
+"""Events of a run, as plain records. Simulated time only, so that two runs with one seed give the same bytes."""
+
+from collections.abc import Iterable
+from typing import Literal
+
+import msgspec
+from msgspec import UNSET, UnsetType
+
+from handeye.core.record import Record
+from handeye.core.source import line_name
+from handeye.core.variation import WorldSpec
+from handeye.ports.camera import Renderer
+from handeye.program.causes import Cause, InspectionCause, JointName, Recorded
+from handeye.program.guards import GuardKind
+from handeye.program.senses import Sense
+
+AskedBy = Literal["person", "program", "job"]
+"""Who has the arm undo what it did; a job does so by itself where its program has ended."""
+Choice = Literal["proceed", "retry", "skip"]
+"""Choices of an operator after a stop: proceed after it, retry the stage, or skip the rest of the stage."""
+
+
+class Event(Record, frozen=True, kw_only=True, tag_field="event", tag=True):
+    """Base of the events; `time` is the cell's clock in seconds, which runs while the camera is calibrated too."""
+
+    time: float
+
+
+class RunStarted(Event, frozen=True, kw_only=True):
+    """The working phase begins; all that the events after it depend on, but for what the operator does."""
+
+    system: str = "program"
+    """The kind of system that carries it out."""
+    program: str
+    steps: int
+    plan: str
+    """Digest of the plan."""
+    arm: str
+    arm_digest: str
+    world: WorldSpec
+    task: str = "water_pump"
+    """Its name; recordings of before there were any others have none."""
+    camera: Renderer
+    """How pictures are made."""
+    versions: dict[str, str]
+    replaced: dict[str, str] | UnsetType = UNSET
+    """Parts that code of whoever began the run took the place of, with the names of that code."""
+    without: tuple[Sense, ...] | UnsetType = UNSET
+    """Senses that the program did without."""
+
+    @property
+    def lacking(self) -> tuple[Sense, ...]:
+        """Senses that the program did without; empty where it had all."""
+        return self.without or ()
+
+    @property
+    def own_parts(self) -> dict[str, str]:
+        """The same; empty where all parts were handeye's own."""
+        return self.replaced or {}
+
+
+class StageStarted(Event, frozen=True, kw_only=True):
+    """A stage begins."""
+
+    stage: str
+
+
+class StageFinished(Event, frozen=True, kw_only=True):
+    """A stage ended."""
+
+    stage: str
+    status: Literal["done", "stopped", "skipped"]
+
+
+class StepStarted(Event, frozen=True, kw_only=True, omit_defaults=True):
+    """A step begins; `line` and `text` are the source's, or those of a required file."""
+
+    step: int
+    file: str = ""
+    line: int
+    text: str
+
+    @property
+    def place(self) -> str:
+        """Its line, as people are told: `12`, or `pins.al:12`."""
+        return line_name(self.line, self.file)
+
+
+class StepFinished(Event, frozen=True, kw_only=True):
+    """A step ended; where the hand is by the arm's own sensors (m), and the finger gap (m)."""
+
+    step: int
+    hand: tuple[float, float, float] | None
+    """None: the system has no hand."""
+    planned: tuple[float, float, float] | None
+    """Where a motion was planned to end (m); a guard or a measured world ends it elsewhere."""
+    gap: float | None
+
+
+class Adjusted(Event, frozen=True, kw_only=True):
+    """A goal was moved off its planned value before the motion began: by how much (m)."""
+
+    goal: str
+    shift: tuple[float, float, float]
+
+
+class JointFriction(Record, frozen=True, kw_only=True):
+    """Coulomb friction of a joint: N m, or N if it slides."""
+
+    joint: JointName
+    friction: float
+
+
+class FrictionMeasured(Event, frozen=True, kw_only=True, omit_defaults=True):
+    """The arm has measured its joints and weighed its links before the working phase, in so many simulated seconds."""
+
+    joints: tuple[JointFriction, ...]
+    links: tuple[float, ...] = ()
+    """How heavy it has found each link to be, over the model's; none in recordings that do not tell."""
+    seconds: float
+
+
+class GuardFaint(Event, frozen=True, kw_only=True):
+    """A guard waits for less than three times what joint friction can be felt as where the motion begins (N, N m)."""
+
+    guard: GuardKind
+    limit: float
+    friction: float
+
+
+class GuardTripped(Event, frozen=True, kw_only=True):
+    """A guard ended a motion."""
+
+    guard: GuardKind
+    value: float
+    limit: float
+
+
+class ErrorRaised(Event, frozen=True, kw_only=True):
+    """An action raised an error."""
+
+    number: int
+    cause: Cause | None
+    """Its cause this time; None: the error says all."""
+
+
+class ErrorTested(Event, frozen=True, kw_only=True):
+    """The program asked for an error; `occurred` is the answer."""
+
+    number: int
+    occurred: bool
+
+
+class SearchAdvanced(Event, frozen=True, kw_only=True):
+    """The search goes on to its place number `count` (0 is the first)."""
+
+    count: int
+    offset: tuple[float, float]
+
+
+class Saved(Event, frozen=True, kw_only=True):
+    """A difference was saved (m)."""
+
+    name: str
+    difference: tuple[float, float, float]
+
+
+class HandTold(Event, frozen=True, kw_only=True):
+    """WHERE: x, y, z (m) of the hand and its angles O, A, T (rad), by the arm's own sensors."""
+
+    at: tuple[float, float, float, float, float, float]
+
+
+class PositionDefined(Event, frozen=True, kw_only=True):
+    """HERE: a position is now x, y, z (m), O, A, T (rad), by the arm's own sensors; relative to the part if `of`."""
+
+    name: str
+    at: tuple[float, float, float, float, float, float]
+    of: str | None
+
+
+class Restored(Event, frozen=True, kw_only=True):
+    """A saved difference was added to a goal (m)."""
+
+    name: str
+    goal: str
+    difference: tuple[float, float, float]
+
+
+class PictureTaken(Event, frozen=True, kw_only=True):
+    """A picture was taken through a lens (focal length in m)."""
+
+    picture: str
+    lens: float
+
+
+class PartSeen(Event, frozen=True, kw_only=True):
+    """Vision measured a part: x, y (m) and yaw (rad), or no yaw from a general look."""
+
+    part: str
+    x: float
+    y: float
+    yaw: float | None
+
+
+class PartInspected(Event, frozen=True, kw_only=True):
+    """Vision compared two pictures."""
+
+    part: str
+    ok: bool
+    cause: InspectionCause | Recorded | None
+    """Why it is not as it should be."""
+
+
+class PartMatched(Event, frozen=True, kw_only=True):
+    """Vision saw how far a part stands in one picture as in another."""
+
+    part: str
+    ok: bool
+    """It does."""
+    off: float
+    """By how much it has moved against what is around it, m."""
+    unlike: float
+    """Share of it, from 0 to 1, that looks otherwise."""
+
+
+class CameraStarted(Event, frozen=True, kw_only=True):
+    """The camera's mechanism set about something: `lens`, `aim` or `focus`, which takes it this long (s).
+
+    It begins when what it does already is done; the arm goes on.
+    """
+
+    action: str
+    seconds: float
+
+
+class CameraBusy(Event, frozen=True, kw_only=True):
+    """The arm stood still for the camera this long (s): `wait` for its mechanism, or `digitise` for a picture."""
+
+    action: str
+    seconds: float
+
+
+class OperatorCalled(Event, frozen=True, kw_only=True):
+    """Brakes are set and the operator is told: the program's own message, or of an error, or of what goes wrong."""
+
+    message: str = ""
+    """The program's own words."""
+    error: int | None = None
+    cause: Cause | None = None
+
+
+class OperatorAnswered(Event, frozen=True, kw_only=True):
+    """Choice of the operator after a stop, and the step the program continues with (None: it ends)."""
+
+    choice: Choice
+    step: int | None
+
+
+class ExperimentMade(Event, frozen=True, kw_only=True):
+    """Somebody at the stepper changed what the program remembers (m, rad): the run is no longer the plan's alone."""
+
+    what: str
+    """The kind of thing: `saved`, `position`, or what else a system lets people set."""
+    name: str
+    value: tuple[float, ...]
+
+
+class PanicStopped(Event, frozen=True, kw_only=True):
+    """The operator hit the panic button: drives off, brakes set, at this servo period."""
+
+
+class WentBack(Event, frozen=True, kw_only=True):
+    """Everything after the first `events` events is undone. In a journal only; a trace leaves out what is undone."""
+
+    events: int
+    why: Literal["back", "resumed"]
+
+
+class UndoOrdered(Event, frozen=True, kw_only=True):
+    """Somebody, the program, or the job has the arm undo what it did, until so many executed steps are left."""
+
+    left: int
+    halts: bool
+    """The run ends there; otherwise the program can go on."""
+    asked_by: AskedBy = "person"
+
+
+class UndoStarted(StepStarted, frozen=True, kw_only=True, omit_defaults=True):
+    """The arm begins to undo a step, or the rounds of a loop that led back to it."""
+
+    steps: int = 1
+    """Executed steps that are undone at once."""
+
+
+class UndoFinished(StepFinished, frozen=True, kw_only=True):
+    """A step is undone."""
+
+    force: float
+    """Greatest force that the hand has felt meanwhile, N."""
+
+
+class StageUndone(Event, frozen=True, kw_only=True):
+    """All that was done in a stage since it last began is undone."""
+
+    stage: str
+
+
+class UndoEnded(Event, frozen=True, kw_only=True):
+    """As much is undone as was asked for; the program would go on with a step."""
+
+    step: int
+
+
+class RunFinished(Event, frozen=True, kw_only=True):
+    """The working phase ended."""
+
+    completed: bool
+
+
+AnyEvent = (
+    RunStarted | FrictionMeasured | StageStarted | StageFinished | StepStarted | StepFinished | Adjusted
+    | GuardFaint | GuardTripped
+    | ErrorRaised | ErrorTested | SearchAdvanced | Saved | HandTold | PositionDefined | Restored
+    | PictureTaken | PartSeen | PartInspected | PartMatched | CameraStarted | CameraBusy
+    | OperatorCalled | OperatorAnswered | ExperimentMade | PanicStopped | WentBack
+    | UndoOrdered | UndoStarted | UndoFinished | StageUndone | UndoEnded | RunFinished
+)  # fmt: skip
+
+
+def beginning(events: Iterable[AnyEvent]) -> float:
+    """The cell's clock (s) when the working phase began: times that people see and type count from there."""
+    return next((event.time for event in events if isinstance(event, RunStarted)), 0.0)
+
+
+_encoder = msgspec.json.Encoder()
+
+
+def to_line(event: Event) -> bytes:
+    """The event as one line of JSON."""
+    return _encoder.encode(event) + b"\n"

@@ -1,0 +1,23 @@
+"""Place in a listing: what every system remembers, whatever else it does."""
+
+from typing import Annotated
+
+import msgspec
+
+from handeye.core.mutable_records import MutableRecord
+from handeye.program.events import OperatorCalled
+
+Natural = Annotated[int, msgspec.Meta(ge=0)]
+
+
+class SystemState(MutableRecord, kw_only=True):
+    """Base of the states of systems: where it is among its steps."""
+
+    at: Natural | None = 0
+    """The step to do next; None when the program has ended or the operator was called."""
+    stage: Natural | None = None
+    """The stage under way; None between two stages."""
+    stopped: OperatorCalled | None = None
+    """The call of the operator that has not been answered."""
+    onward: Natural | None = None
+    """After a stop: the step that would have been next."""

@@ -1,0 +1,25 @@
+"""A recorded run as the player shows it."""
+
+from dataclasses import dataclass
+
+from handeye.report.player import scene_bytes, tracks_bytes
+from handeye.report.recorded import Recorded
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Animation:
+    """What the player needs, compressed."""
+
+    scene: bytes
+    tracks: bytes
+
+
+def animation(run: Recorded) -> Animation | None:
+    """The animation of a run; None: nothing was recorded between its events.
+
+    Raises:
+        InvalidInput: an older handeye recorded it.
+    """
+    if not len(run.trace.times):
+        return None
+    return Animation(scene=scene_bytes(run.trace), tracks=tracks_bytes(run.trace))

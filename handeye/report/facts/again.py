@@ -1,0 +1,78 @@
+"""The command that carries out a run again."""
+
+import shlex
+from collections.abc import Sequence
+from typing import Final
+
+from handeye.core.resources import plans
+from handeye.core.units import UNITS, Unit
+from handeye.core.variation import Quantity, WorldSpec
+from handeye.planfile.store import written_digest
+from handeye.program.senses import Sense
+from handeye.report.recorded import Recorded
+from handeye.tasks import DEFAULT, known
+
+_CAMERAS: Final = {"opengl": "gl", "rays": "ray"}
+
+
+def command(run: Recorded) -> str | None:
+    """The command; None: code or a task of the caller's own belongs to the run, which no command line has."""
+    head = run.trace.head
+    if head.task != DEFAULT or head.own_parts:
+        return None
+    if is_shipped(head.plan):
+        words = ["assemble"]
+    else:
+        judged = run.result is not None and run.result.assembled is not None
+        words = ["run", "plan.json", *(["--judge"] if judged else [])]
+    return shlex.join(
+        ["handeye", *words, *world_words(head.world, head.task), *sense_words(head.lacking), *_camera(run)]
+    )
+
+
+def is_shipped(digest: str) -> bool:
+    """See whether a plan is the one that `assemble` makes."""
+    task = known(DEFAULT)
+    assert task is not None
+    assert task.script is not None
+    made = (plans() / task.script).with_suffix(".plan.json")
+    return made.is_file() and written_digest(made.read_bytes()) == digest
+
+
+def _camera(run: Recorded) -> list[str]:
+    kind = _CAMERAS.get(run.trace.head.camera.method)
+    return [] if kind is None else ["--camera", kind]
+
+
+def sense_words(senses: Sequence[Sense]) -> list[str]:
+    """The options that take senses away."""
+    return [word for sense in senses for word in ("--without", sense)]
+
+
+def world_words(world: WorldSpec, of: str = DEFAULT) -> list[str]:
+    """The options that stand for a world of the task of a name, which is one of handeye's own."""
+    task = known(of)
+    assert task is not None
+    quantities, faults = task.variation(world.seed).quantities, task.faults(world.seed)
+    words = ["--seed", str(world.seed)]
+    words += [] if world.level == "nominal" else ["--level", world.level]
+    words += [word for name in world.overrides.without for word in ("--without", name)]
+    for name, value in world.overrides.set.items():
+        words += ["--set", f"{name}={written(quantities.get(name), value)}"]
+    return [*words, *(word for fault in world.faults for word in ("--fault", faults.told(fault)))]
+
+
+def written(quantity: Quantity | None, value: float) -> str:
+    """A value (SI) as it would be typed: in the unit of its quantity, if that is as exact."""
+    if quantity is None:
+        return repr(value)
+    for unit in (quantity.measure, _si(quantity.measure)):
+        number = f"{value / unit.size:.9g}"
+        if float(number) * unit.size == value:
+            return f"{number}{unit.name.replace(' ', '')}"
+    return f"{value!r}{_si(quantity.measure).name.replace(' ', '')}"
+
+
+def _si(unit: Unit) -> Unit:
+    """The SI unit of the same dimension."""
+    return next(each for each in UNITS.values() if each.dimension == unit.dimension and each.size == 1.0)

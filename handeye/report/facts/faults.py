@@ -1,0 +1,18 @@
+"""What was broken on purpose in the world of a run."""
+
+from collections.abc import Iterator
+
+from handeye.report.recorded import Recorded
+from handeye.tasks import known
+
+
+def told_faults(run: Recorded) -> Iterator[tuple[str, str]]:
+    """Each fault as it would be typed, and what it does: a sentence, empty where its task is not known."""
+    world = run.trace.head.world
+    task = known(run.trace.head.task)
+    for fault in world.faults:
+        if task is None:
+            yield str(fault), ""
+        else:
+            catalogue = task.faults(world.seed)
+            yield catalogue.told(fault), catalogue.kind(fault.name).meaning

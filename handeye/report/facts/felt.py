@@ -1,0 +1,95 @@
+"""What the hand felt in the guarded motions of a run."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from handeye.core.pose import Array
+from handeye.program.events import GuardTripped, StageStarted, StepStarted
+from handeye.program.guards import GuardKind
+from handeye.report.recorded import Recorded
+from handeye.trace.forces import Forces
+from handeye.trace.steps import DoneStep, done_steps
+
+
+class Trip(NamedTuple):
+    """A guard that was met."""
+
+    time: float
+    """s since the run began."""
+    value: float
+    """N, N m, or finger switches as a mask."""
+    limit: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GuardedMotion:
+    """What a guard looked at while a motion went on, in n servo periods."""
+
+    stage: str
+    step: StepStarted
+    guard: GuardKind
+    times: Array
+    """Ends of the periods, shape (n,), s since the run began."""
+    values: Array
+    """Force along the guard's axis (N), moment about it, torque of the screwdriver (N m), or switches, shape (n,)."""
+    limit: float
+    """N, N m, or switches."""
+    trip: Trip | None
+    """None: it was not met."""
+
+
+def guarded_motions(run: Recorded) -> tuple[GuardedMotion, ...]:
+    """The guarded motions, in order."""
+    if not len(run.trace.times):
+        return ()
+    forces = run.trace.forces()
+    return tuple(_motions(run, forces))
+
+
+def lost_trips(run: Recorded, motions: Sequence[GuardedMotion]) -> int:
+    """How many guards were met in motions of which the trace holds nothing."""
+    met = sum(isinstance(event, GuardTripped) for event in run.trace.events)
+    return met - sum(motion.trip is not None for motion in motions)
+
+
+def _motions(run: Recorded, forces: Forces) -> Iterator[GuardedMotion]:
+    stage_of = _stages(run)
+    for step in done_steps(run.trace.events):
+        rows = step.span.rows(forces.times)
+        watched = rows.start + np.flatnonzero(forces.guard[rows] != "")
+        if len(watched):
+            yield _motion(run, forces, step, watched, stage_of[step.started.time, step.started.step])
+
+
+def _motion(run: Recorded, forces: Forces, step: DoneStep, watched: Array, stage: str) -> GuardedMotion:
+    """A motion, by the servo periods in which a guard watched."""
+    kind = GuardKind(str(forces.guard[watched[0]]))
+    return GuardedMotion(
+        stage=stage,
+        step=step.started,
+        guard=kind,
+        times=forces.times[watched] - run.trace.head.time,
+        values=forces.value[watched],
+        limit=float(forces.limit[watched[-1]]),
+        trip=_trip(run, step),
+    )
+
+
+def _trip(run: Recorded, step: DoneStep) -> Trip | None:
+    met = next((event for event in step.events if isinstance(event, GuardTripped)), None)
+    return None if met is None else Trip(run.seconds(met.time), met.value, met.limit)
+
+
+def _stages(run: Recorded) -> dict[tuple[float, int], str]:
+    """The stage of each step that was begun, by its time and number."""
+    found: dict[tuple[float, int], str] = {}
+    stage = ""
+    for event in run.trace.events:
+        if isinstance(event, StageStarted):
+            stage = event.stage
+        elif isinstance(event, StepStarted):
+            found[event.time, event.step] = stage
+    return found

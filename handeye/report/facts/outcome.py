@@ -1,0 +1,99 @@
+"""The outcome of a run, and the moment that it hangs on."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from handeye.program.events import (
+    OperatorAnswered,
+    OperatorCalled,
+    PanicStopped,
+    RunFinished,
+    StepFinished,
+    StepStarted,
+)
+from handeye.report.recorded import Recorded
+from handeye.results.result import Check
+
+Kind = Literal["right", "wrong", "ended", "stopped", "panic", "paused", "broken off"]
+"""It ended and the referee found the work right, or not, or was not asked; the program called the operator; the panic
+button was hit; it stands before its end; its trace was cut short."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Outcome:
+    """The outcome of a run."""
+
+    kind: Kind
+    time: float
+    """The moment to be looked at, s since the run began."""
+    stage: str | None = None
+    """The stage under way then."""
+    step: StepStarted | None = None
+    """The step under way then, or done last."""
+    call: OperatorCalled | None = None
+    """The call of the operator that it was stopped by."""
+    wrong: tuple[Check, ...] = ()
+    """What the referee found wrong."""
+    doubts: tuple[Check, ...] = ()
+    """What he found not as it should be, and does not hold against it."""
+
+    @property
+    def good(self) -> bool:
+        """Nothing went wrong, as far as anybody looked."""
+        return self.kind in ("right", "ended")
+
+    @property
+    def failed(self) -> bool:
+        """Something went wrong, or somebody thought so."""
+        return self.kind in ("wrong", "stopped", "panic")
+
+    @property
+    def ended(self) -> bool:
+        """The program came to its end."""
+        return self.kind in ("right", "wrong", "ended")
+
+
+def outcome(run: Recorded) -> Outcome:
+    """The outcome of a run."""
+    last = run.trace.events[-1]
+    if isinstance(last, RunFinished) and last.completed:
+        return _ended(run)
+    stage, step, call = _standing(run)
+    kind: Kind = "paused"
+    if not run.whole:
+        kind, call = "broken off", None
+    elif isinstance(last, PanicStopped):
+        kind, call = "panic", None
+    elif call is not None:
+        kind = "stopped"
+    return Outcome(kind=kind, time=run.ends, stage=stage, step=step, call=call)
+
+
+def _ended(run: Recorded) -> Outcome:
+    """The outcome of a run whose program came to its end."""
+    judged = None if run.result is None else run.result.judged
+    if run.result is None or judged is None:
+        return Outcome(kind="ended", time=run.ends)
+    checks = run.result.checks
+    return Outcome(
+        kind="right" if judged else "wrong",
+        time=run.ends,
+        wrong=tuple(check for check in checks if check.refuses),
+        doubts=tuple(check for check in checks if not check.ok and check.caution),
+    )
+
+
+def _standing(run: Recorded) -> tuple[str | None, StepStarted | None, OperatorCalled | None]:
+    """The stage and the step that a run stands in, and the call of the operator that nobody has answered."""
+    stages = run.trace.stages
+    step: StepStarted | None = None
+    call: OperatorCalled | None = None
+    for event in run.trace.events:
+        match event:
+            case StepStarted():
+                step, call = event, None
+            case OperatorCalled():
+                call = event
+            case OperatorAnswered() | StepFinished():
+                call = None
+    return stages[-1].name if stages else None, step, call

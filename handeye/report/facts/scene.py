@@ -1,0 +1,19 @@
+"""Whether a run was made in the scene that its task has here."""
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.report.recorded import Recorded
+
+
+def check_scene(run: Recorded) -> None:
+    """Make sure that what moved in a run is in its scene.
+
+    Raises:
+        InvalidInput: it is not, no task of that name is known here, or an older handeye recorded the run.
+    """
+    scene = run.trace.scene
+    there = {scene.body(number).name for number in range(scene.nbody)}
+    for begin in run.trace.times[:1]:
+        for name in run.trace.at(float(begin)).poses:
+            if name not in there:
+                raise InvalidInput(f"{run.trace.name} is of another scene: here there is no {quoted(name)}")

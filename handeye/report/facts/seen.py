@@ -1,0 +1,92 @@
+"""What the camera saw: each picture that a run took, and what was found in it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from google.protobuf.message import DecodeError
+
+from handeye.core.errors import InvalidInput
+from handeye.ports.camera import Picture
+from handeye.program.events import ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
+from handeye.report.recorded import Recorded
+from handeye.trace.annotations import read_annotations
+from handeye.trace.channels import ANNOTATIONS, nanoseconds
+from handeye.trace.steps import DoneStep, done_steps
+from handeye.vision.marks import Mark
+
+Finding = PartSeen | PartInspected | PartMatched | ErrorRaised
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SeenPicture:
+    """A picture that was taken."""
+
+    time: float
+    """s since the run began."""
+    name: str
+    lens: float
+    """Focal length, m."""
+    picture: Picture
+    """Levels 0 to 15, shape (rows, columns)."""
+    marks: tuple[Mark, ...]
+    """Of what was found in it."""
+    findings: tuple[Finding, ...]
+    """What that was, or why it was not found."""
+
+
+def seen_pictures(run: Recorded) -> tuple[SeenPicture, ...]:
+    """The pictures, in order.
+
+    Raises:
+        InvalidInput: a message about one cannot be understood.
+    """
+    return tuple(_seen(run))
+
+
+def lost_pictures(run: Recorded) -> int:
+    """How many pictures were taken that the trace does not hold."""
+    taken = sum(isinstance(event, PictureTaken) for event in run.trace.events)
+    return taken - len(run.trace.pictures)
+
+
+def _seen(run: Recorded) -> Iterator[SeenPicture]:
+    shots = {shot.time: shot.picture for shot in run.trace.pictures}
+    marks, findings = _marks(run), _findings(run)
+    for event in run.trace.events:
+        if isinstance(event, PictureTaken) and event.time in shots:
+            yield SeenPicture(
+                time=run.seconds(event.time),
+                name=event.picture,
+                lens=event.lens,
+                picture=shots[event.time],
+                marks=marks.get(nanoseconds(event.time), ()),
+                findings=tuple(findings.get(event.time, ())),
+            )
+
+
+def _marks(run: Recorded) -> dict[int, tuple[Mark, ...]]:
+    """The last marks on each picture, by the time (ns) at which it was taken: each set holds those before."""
+    try:
+        return dict(
+            read_annotations(message.data) for message in run.trace.messages if message.topic == ANNOTATIONS
+        )
+    except DecodeError:
+        raise InvalidInput(f"{run.trace.name}: marks on a picture cannot be understood") from None
+
+
+def _findings(run: Recorded) -> dict[float, list[Finding]]:
+    """What the steps found in each picture, by the time of the cell's clock at which it was taken."""
+    found: dict[float, list[Finding]] = {}
+    taken: dict[str, float] = {}
+    for step in done_steps(run.trace.events):
+        taken |= {event.picture: event.time for event in step.events if isinstance(event, PictureTaken)}
+        examined = _examined(run, step)
+        if examined in taken:
+            findings = [event for event in step.events if isinstance(event, Finding)]
+            found.setdefault(taken[examined], []).extend(findings)
+    return found
+
+
+def _examined(run: Recorded, step: DoneStep) -> str | None:
+    """The name of the picture that a step looks at; None: at none."""
+    return run.program.steps[step.started.step].operation.examines

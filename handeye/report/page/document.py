@@ -1,0 +1,112 @@
+"""The whole page: one file that fetches nothing, and runs no script but its own."""
+
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Final
+
+from handeye.core.files import Kind
+from handeye.core.markup import Markup
+from handeye.core.plain_text import printable
+from handeye.report import player
+from handeye.report.animation import Animation
+from handeye.report.facts.corrections import corrections
+from handeye.report.facts.felt import GuardedMotion, guarded_motions, lost_trips
+from handeye.report.facts.outcome import outcome
+from handeye.report.facts.planned import ends
+from handeye.report.facts.searches import searches
+from handeye.report.facts.seen import lost_pictures, seen_pictures
+from handeye.report.facts.told import told
+from handeye.report.page.elements import element
+from handeye.report.page.felt import How, felt_section
+from handeye.report.page.moments import moments
+from handeye.report.page.planned import planned_section
+from handeye.report.page.record import record_section
+from handeye.report.page.referee import referee_section
+from handeye.report.page.seen import seen_section
+from handeye.report.page.timing import timing_section
+from handeye.report.page.title import title
+from handeye.report.page.verdict import verdict
+from handeye.report.page.view import view_section, widths
+from handeye.report.photographs import Album
+from handeye.report.recorded import Recorded
+
+MARK: Final = "<!doctype html>\n<!-- handeye report -->\n"
+"""What every report begins with."""
+REPORT: Final = Kind("report of handeye", MARK.encode(), ending=".html")
+
+
+def report_page(run: Recorded, photographs: Album, animated: Animation | None) -> bytes:
+    """The report of a run; the same for the same trace and result on one machine.
+
+    Args:
+        animated: what is shown to walk round in; None: photographs only.
+
+    Raises:
+        InvalidInput: its trace cannot be understood, or is of an older handeye.
+    """
+    came, heard = outcome(run), told(run)
+    scripts = [*([] if animated is None else [player.script()]), resource("page.js")]
+    body = element(
+        "body",
+        verdict(run, came, heard, photographs.leading),
+        element("main", *_sections(run, photographs)),
+        moments(run, came, heard),
+        *([] if animated is None else [packed("scene", animated.scene), packed("tracks", animated.tracks)]),
+        *(element("script", Markup(script)) for script in scripts),
+    )
+    name = printable(f"{run.trace.head.program}: {title(run, came)}")
+    page = element("html", head(name, resource("page.css") + widths(run), scripts), body, lang="en")
+    return (MARK + page + "\n").encode()
+
+
+def _sections(run: Recorded, photographs: Album) -> Iterator[Markup]:
+    felt, stages = guarded_motions(run), run.trace.stages
+    yield view_section(run, photographs.stages)
+    yield timing_section(run)
+    yield seen_section(seen_pictures(run), lost=lost_pictures(run))
+    yield felt_section(felt, how=_felt_how(run, felt), lost=lost_trips(run, felt))
+    yield planned_section(ends(run), corrections(run), searches(run), stages, run.trace.head.time)
+    yield referee_section(run)
+    yield record_section(run)
+
+
+def _felt_how(run: Recorded, felt: Sequence[GuardedMotion]) -> How:
+    """How a trace tells what was felt."""
+    if felt and not run.trace.forces().recorded:
+        return How.RECKONED
+    return How.THINNED if run.trace.thinned else How.RECORDED
+
+
+def head(name: str, style: str, scripts: Sequence[str], *also: str) -> Markup:
+    """The head, with a policy that lets in the page's own style and scripts and nothing else.
+
+    Args:
+        also: further directives of the policy.
+    """
+    own = f"script-src {' '.join(map(_digest, scripts))}", f"style-src {_digest(style)}"
+    policy = "; ".join(("default-src 'none'", *own, "img-src data: blob:", *also))
+    return element(
+        "head",
+        element("meta", charset="utf-8"),
+        element("meta", http_equiv="Content-Security-Policy", content=policy),
+        element("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        element("title", name),
+        element("style", Markup(style)),
+    )
+
+
+def packed(name: str, data: bytes) -> Markup:
+    """Data that a script of the page unpacks."""
+    return element("script", Markup(b64encode(data).decode()), id=name, type="application/octet-stream")
+
+
+def _digest(content: str) -> str:
+    """The source expression that lets in an element of this content."""
+    return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode()}'"
+
+
+def resource(name: str) -> str:
+    """A file that goes into the page as it is."""
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")

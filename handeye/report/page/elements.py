@@ -1,0 +1,91 @@
+"""Elements of the page. Text that goes into one is data, and is escaped."""
+
+from base64 import b64encode
+from collections.abc import Iterable
+from typing import Final
+
+from handeye.core.markup import Markup, markup
+from handeye.core.plain_text import printable
+
+VOID: Final = {"img", "input", "meta"}
+"""Elements of HTML without content."""
+SHAPES: Final = {"circle", "line", "path", "polygon", "rect"}
+"""Elements of drawings without content, which have to say so."""
+
+Child = str | None
+"""Markup, text, or nothing."""
+
+
+def text(content: str) -> Markup:
+    """Text as markup: what cannot be seen has a sign in its place."""
+    return content if isinstance(content, Markup) else markup(printable(content))
+
+
+def element(name: str, /, *children: Child, **attributes: str | float | bool | None) -> Markup:
+    """An element; `aria_label` stands for `aria-label`, `class_` for `class`; None leaves an attribute out."""
+    inside = "".join(text(child) for child in children if child is not None)
+    told = "".join(_attribute(key, value) for key, value in attributes.items())
+    if name in SHAPES:
+        return Markup(f"<{name}{told}/>")
+    return Markup(f"<{name}{told}>" if name in VOID else f"<{name}{told}>{inside}</{name}>")
+
+
+def joined(pieces: Iterable[str], between: str = "") -> Markup:
+    """Pieces one after another."""
+    return Markup(text(between).join(text(piece) for piece in pieces))
+
+
+def section(name: str, heading: str, *children: Child) -> Markup:
+    """A section of the page, which its heading names."""
+    title = element("h2", heading, id=f"{name}-heading")
+    return element("section", title, *children, id=name, aria_labelledby=f"{name}-heading")
+
+
+def note(*children: Child) -> Markup:
+    """A paragraph that says how something is to be read."""
+    return element("p", *children, class_="note")
+
+
+def to_moment(seconds: float, *children: Child, **attributes: str | None) -> Markup:
+    """A link that takes the view to a moment, s since the run began."""
+    return element("a", *children, href=f"#t={seconds:.2f}", **attributes)
+
+
+def table(head: Iterable[Markup], rows: Iterable[Iterable[Markup]], *, label: str) -> Markup:
+    """A table of cells, which scrolls by itself where the window is narrow."""
+    titles = element("tr", *head)
+    body = element("tbody", *(element("tr", *row) for row in rows))
+    inside = element("table", element("thead", titles), body)
+    return element("div", inside, class_="table", role="region", aria_label=label, tabindex="0")
+
+
+def heads(*titles: str) -> list[Markup]:
+    """Heads of columns of words."""
+    return [element("th", title, scope="col") for title in titles]
+
+
+def figure_heads(*titles: str) -> list[Markup]:
+    """Heads of columns of numbers."""
+    return [element("th", title, scope="col", class_="number") for title in titles]
+
+
+def cell(*children: Child) -> Markup:
+    """A cell of a table."""
+    return element("td", *children)
+
+
+def figure_cell(*children: Child) -> Markup:
+    """A cell with a number."""
+    return element("td", *children, class_="number")
+
+
+def data_address(kind: str, data: bytes) -> str:
+    """An address that holds a file itself."""
+    return f"data:{kind};base64,{b64encode(data).decode()}"
+
+
+def _attribute(key: str, value: str | float | bool | None) -> str:
+    if value is None or value is False:
+        return ""
+    name = key.rstrip("_").replace("_", "-")
+    return f" {name}" if value is True else f' {name}="{text(str(value))}"'

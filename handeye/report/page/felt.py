@@ -1,0 +1,114 @@
+"""What the hand felt: for every guarded motion, what its guard looked at against time."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from enum import StrEnum
+from itertools import groupby
+
+import numpy as np
+
+from handeye.core.markup import Markup
+from handeye.core.plain_text import counted, one_line
+from handeye.program.guards import GuardKind
+from handeye.report.facts.felt import GuardedMotion
+from handeye.report.page.elements import element, note, section, to_moment
+from handeye.report.page.figures import exact_clock, felt
+from handeye.report.page.plots import HIGH, WIDE, Scale, curve, dot, drawing, rule, words
+from handeye.trace.thinning import FELT
+
+_TOP, _BOTTOM = 14.0, HIGH - 16.0
+
+
+class How(StrEnum):
+    """How a trace tells what was felt, as a sentence."""
+
+    RECORDED = ""
+    RECKONED = " This trace is of before force was recorded: it is reckoned from joints and torques."
+    THINNED = (
+        f" This trace is thinned: the curves lie within {FELT[GuardKind.FORCE]:g} N and {FELT[GuardKind.MOMENT]:g} N m "
+        "of what was recorded, and what was felt most is kept."
+    )
+
+
+def felt_section(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Markup:
+    """The section; `lost`: guards that were met before the trace begins."""
+    return section("felt", "What the hand felt", *_lost(lost), *_content(motions, how=how, lost=lost))
+
+
+def _lost(lost: int) -> Iterator[Markup]:
+    if lost:
+        yield note(
+            f"{counted(lost, 'guard')} met before this trace begins, which does not tell what was felt there."
+        )
+
+
+def _content(motions: Sequence[GuardedMotion], *, how: How, lost: int) -> Iterator[Markup]:
+    if not motions:
+        if not lost:
+            yield note("No motion of this run had a guard: the hand felt for nothing.")
+        return
+    met = sum(motion.trip is not None for motion in motions)
+    yield note(
+        f"{counted(len(motions), 'guarded motion')}; the guards of {met} were met. Each curve is what the guard looked "
+        "at: the force of the hand along its axis, a moment, or the torque of the screwdriver. The dashed line is what "
+        f"it allows; the dot, where it tripped and the motion ended.{how} A figure leads to its moment in the view."
+    )
+    for stage, those in groupby(motions, lambda motion: motion.stage):
+        yield element("h3", stage)
+        yield element("div", *map(_figure, those), class_="figures")
+
+
+def _figure(motion: GuardedMotion) -> Markup:
+    """The figure of a motion, which leads to its moment."""
+    moment = motion.times[-1] if motion.trip is None else motion.trip.time
+    when = element("span", exact_clock(float(moment)), class_="time")
+    place = element("b", motion.step.place)
+    statement = element("code", one_line(motion.step.text))
+    caption = element("figcaption", when, place, " ", statement, element("span", _said(motion)))
+    figure = element("figure", _drawn(motion), caption)
+    label = f"line {motion.step.place}, {exact_clock(float(moment))}: {_said(motion)}"
+    return to_moment(float(moment), figure, class_="moment", aria_label=label)
+
+
+def _said(motion: GuardedMotion) -> str:
+    """What came of the guard."""
+    limit = felt(motion.guard, motion.limit)
+    if motion.trip is not None:
+        return f"{_short(motion.guard, motion.trip.value)}; guard {limit}"
+    known = motion.values[np.isfinite(motion.values)]
+    most = _short(motion.guard, float(known.max())) if len(known) else "nothing was estimated"
+    return f"not met: {most} at most; guard {limit}"
+
+
+def _drawn(motion: GuardedMotion) -> Markup:
+    known = np.isfinite(motion.values)
+    times, values = motion.times[known], motion.values[known]
+    if not len(times):
+        return drawing(label="nothing was estimated")
+    highs = [float(values.max()), motion.limit, *([] if motion.trip is None else [motion.trip.value])]
+    x = Scale(float(times[0]), max(float(times[-1]), float(times[0]) + 1e-9), 2.0, WIDE - 2.0)
+    y = Scale(min(0.0, float(values.min())), max(highs), _BOTTOM, _TOP)
+    return drawing(*_strokes(motion, times, values, x, y), label=f"line {motion.step.place}: {_said(motion)}")
+
+
+def _strokes(
+    motion: GuardedMotion, times: Iterable[float], values: Iterable[float], x: Scale, y: Scale
+) -> Iterator[Markup]:
+    yield rule(0, y(0), WIDE, y(0), class_="axis")
+    yield rule(0, y(motion.limit), WIDE, y(motion.limit), class_="limit")
+    yield words(2, y(motion.limit) - 3, _short(motion.guard, motion.limit), class_="limit")
+    yield curve(np.array([x(t) for t in times]), np.array([y(v) for v in values]), class_="curve")
+    yield words(WIDE - 2, HIGH - 4, _length(motion), anchor="end")
+    if motion.trip is not None:
+        yield dot(x(motion.trip.time), y(motion.trip.value), 3.2, class_="trip")
+
+
+def _short(kind: GuardKind, limit: float) -> str:
+    if kind is GuardKind.TOUCH:
+        return felt(kind, limit)
+    turning = kind in (GuardKind.MOMENT, GuardKind.TORQUE)
+    return f"{limit:.2f} N m" if turning else f"{limit:.1f} N"
+
+
+def _length(motion: GuardedMotion) -> str:
+    """How long the motion went on."""
+    return f"{float(motion.times[-1] - motion.times[0]):.1f} s"

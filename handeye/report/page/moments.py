@@ -1,0 +1,40 @@
+"""What the script of the page needs to know of the run: steps, stages and captions by their times."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import msgspec
+
+from handeye.core.markup import Markup
+from handeye.core.plain_text import printable
+from handeye.program.events import StepStarted
+from handeye.report.facts.outcome import Outcome
+from handeye.report.facts.told import Told
+from handeye.report.page.elements import element
+from handeye.report.page.source import line_id
+from handeye.report.recorded import Recorded
+from handeye.trace.sentences import sentence
+
+
+def moments(run: Recorded, outcome: Outcome, told: Sequence[Told]) -> Markup:
+    """The data, as an element that is not shown."""
+    files = ("", *run.program.required)
+    steps = [event for event in run.trace.events if isinstance(event, StepStarted)]
+    data = {
+        "begin": run.begins,
+        "end": run.ends,
+        "view": {"right": "room", "ended": "room", "wrong": "pump"}.get(outcome.kind, "hand"),
+        "show": run.begins if outcome.good else outcome.time,
+        "steps": [[run.seconds(step.time), line_id(step.line, step.file, files)] for step in steps],
+        "stages": [
+            [run.seconds(each.begin), run.seconds(each.end), printable(each.name)]
+            for each in run.trace.stages
+        ],
+        "told": [[each.time, printable(sentence(each.event))] for each in told],
+    }
+    return element("script", json_markup(data), id="moments", type="application/json")
+
+
+def json_markup(data: Any) -> Markup:
+    """Data as JSON that cannot end the element it stands in."""
+    return Markup(msgspec.json.encode(data).decode().replace("<", "\\u003c"))

@@ -1,0 +1,83 @@
+"""Drawings of figures, as vectors."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from handeye.core.markup import Markup
+from handeye.core.polyline import Rows, needed_rows
+from handeye.core.pose import Array
+from handeye.report.page.elements import Child, element
+
+WIDE, HIGH = 240.0, 90.0
+"""Of a small figure, in its own units."""
+TOLERANCE: Final = 0.4
+"""In units of the figure: a line may be that far off its points."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A straight scale: from what is told to where it is drawn."""
+
+    low: float
+    high: float
+    begin: float
+    end: float
+
+    def __call__(self, value: float) -> float:
+        share = (value - self.low) / ((self.high - self.low) or 1.0)
+        return self.begin + share * (self.end - self.begin)
+
+
+def drawing(*children: Child, wide: float = WIDE, high: float = HIGH, label: str) -> Markup:
+    """A drawing, which its label tells to those who cannot see it."""
+    return element("svg", *children, viewBox=f"0 0 {wide:g} {high:g}", role="img", aria_label=label)
+
+
+def curve(xs: Array, ys: Array, **attributes: str) -> Markup:
+    """A line through points, without those that nobody would miss."""
+    kept = kept_points(np.column_stack([xs, ys]), TOLERANCE)
+    way = "M" + "L".join(f"{x:.1f},{y:.1f}" for x, y in kept.tolist())
+    return element("path", d=way, **attributes)
+
+
+def rule(x1: float, y1: float, x2: float, y2: float, **attributes: str) -> Markup:
+    """A straight line."""
+    return element("line", x1=_at(x1), y1=_at(y1), x2=_at(x2), y2=_at(y2), **attributes)
+
+
+def dot(x: float, y: float, radius: float, *, class_: str | None = None) -> Markup:
+    """A filled circle."""
+    return element("circle", cx=_at(x), cy=_at(y), r=f"{radius:g}", class_=class_)
+
+
+def words(x: float, y: float, content: str, *, anchor: str = "start", class_: str | None = None) -> Markup:
+    """A word or two in a drawing."""
+    return element("text", content, x=_at(x), y=_at(y), text_anchor=anchor, class_=class_)
+
+
+def bar(x: float, y: float, wide: float, high: float, *, class_: str) -> Markup:
+    """A bar; one that stands for something is to be seen."""
+    return element("rect", x=_at(x), y=_at(y), width=_at(max(wide, 0.5)), height=_at(high), class_=class_)
+
+
+def kept_points(points: Array, tolerance: float) -> Array:
+    """Points without those nearer than a tolerance to the line through the rest, shape (n, 2)."""
+
+    def off(first: Rows, row: Rows, last: Rows) -> Array:
+        return _distances(points[row], points[first], points[last]) / tolerance
+
+    return points[needed_rows(off, sorted({0, len(points) - 1}))]
+
+
+def _distances(points: Array, begins: Array, ends: Array) -> Array:
+    """Distances of points from straight lines, each through two others, shape (n,)."""
+    along, off = ends - begins, points - begins
+    lengths = np.hypot(*along.T)
+    across = np.abs(along[:, 0] * off[:, 1] - along[:, 1] * off[:, 0])
+    return np.where(lengths > 0, across / np.where(lengths > 0, lengths, 1.0), np.hypot(*off.T))
+
+
+def _at(value: float) -> str:
+    return f"{value:.1f}"

@@ -1,0 +1,130 @@
+"""What the run hangs on: its world, its plan, its versions, and the command that carries it out again."""
+
+from collections.abc import Iterator
+
+from handeye.core.errors import InvalidInput
+from handeye.core.markup import Markup
+from handeye.core.variation import World
+from handeye.core.versions import HANDEYE
+from handeye.program.events import ExperimentMade, OperatorAnswered
+from handeye.program.senses import BELIEFS
+from handeye.report.facts.again import command
+from handeye.report.facts.faults import told_faults
+from handeye.report.page.elements import (
+    Child,
+    cell,
+    element,
+    figure_cell,
+    figure_heads,
+    heads,
+    joined,
+    note,
+    section,
+    table,
+)
+from handeye.report.recorded import Recorded
+from handeye.results.world_page import QuantityReport, report
+from handeye.tasks import known
+from handeye.trace.sentences import renderer_name
+
+
+def record_section(run: Recorded) -> Markup:
+    """The section."""
+    return section(
+        "record", "World, versions, and how to do it again", *_again(run), _facts(run), *_world(run)
+    )
+
+
+def _again(run: Recorded) -> Iterator[Markup]:
+    typed = command(run)
+    if typed is None:
+        yield note(
+            "Code of whoever began this run belongs to it; from Python, the same call carries it out again."
+        )
+        return
+    yield element("pre", element("code", typed), class_="command")
+    if any(isinstance(event, OperatorAnswered | ExperimentMade) for event in run.trace.events):
+        yield note("Somebody took a hand in this run; `handeye trace verify` repeats that, too.")
+    if "plan.json" in typed:
+        yield note("plan.json is the plan in the folder of the run.")
+
+
+def _facts(run: Recorded) -> Markup:
+    head = run.trace.head
+    rows: list[tuple[str, Child]] = [*_overrides(run)]
+    rows += [
+        ("seed", str(head.world.seed)),
+        ("errors", f"{head.world.level}, drawing {head.world.drawing}"),
+        ("plan", element("code", head.plan)),
+        ("arm", joined_code(head.arm, head.arm_digest)),
+        ("pictures by", renderer_name(head.camera)),
+        *((f"without {sense}", BELIEFS[sense]) for sense in head.lacking),
+        *((f"{part} by", name) for part, name in head.own_parts.items()),
+        ("versions", ", ".join(f"{name} {version}" for name, version in head.versions.items())),
+        ("trace", f"format {run.trace.version}{', thinned' if run.trace.thinned else ''}"),
+        ("page", f"made by handeye {HANDEYE}"),
+        *(("left out", remark) for remark in run.remarks),
+    ]
+    return element("dl", *(element("div", element("dt", name), element("dd", said)) for name, said in rows))
+
+
+def joined_code(name: str, digest: str) -> Markup:
+    """A name with its digest."""
+    return element("span", f"{name} ", element("code", digest))
+
+
+def _overrides(run: Recorded) -> Iterator[tuple[str, Child]]:
+    """What in the world is not as it was drawn."""
+    world = run.trace.head.world
+    for name, meaning in told_faults(run):
+        yield "broken", joined([element("code", name), f" {meaning}"])
+    for name in world.overrides.without:
+        yield "without", name
+    for name, value in world.overrides.set.items():
+        yield "set", f"{name} = {value:g} (SI)"
+
+
+def _world(run: Recorded) -> Iterator[Markup]:
+    try:
+        quantities = _quantities(run)
+    except InvalidInput as fault:
+        yield note(f"The quantities of its world cannot be listed: {fault}.")
+        return
+    if quantities:
+        head = [
+            *heads("quantity"),
+            *figure_heads("value"),
+            *heads("unit"),
+            *figure_heads("nominal"),
+            *heads("", "what it is"),
+        ]
+        listed = table(head, map(_quantity, quantities), label="quantities of the world")
+        summary = element(
+            "summary", f"All {len(quantities)} quantities of this world, which the program never sees"
+        )
+        yield element("details", summary, listed)
+
+
+def _quantities(run: Recorded) -> tuple[QuantityReport, ...]:
+    """The quantities of its world, those that were set first.
+
+    Raises:
+        InvalidInput: they were drawn in another way.
+    """
+    task, world = known(run.trace.head.task), run.trace.head.world
+    if task is None:
+        return ()
+    variation = task.variation(world.seed)
+    drawn: World = variation.draw(world)
+    return tuple(sorted(report(variation, drawn).quantities, key=lambda quantity: quantity.override is None))
+
+
+def _quantity(quantity: QuantityReport) -> list[Markup]:
+    return [
+        element("th", quantity.name, scope="row"),
+        figure_cell(f"{quantity.value:.4g}"),
+        cell(quantity.unit),
+        figure_cell(f"{quantity.nominal:g}"),
+        cell("" if quantity.override is None else element("b", quantity.override)),
+        cell(quantity.source),
+    ]

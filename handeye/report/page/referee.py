@@ -1,0 +1,93 @@
+"""What the referee measured, against its limits."""
+
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from handeye.core.markup import Markup
+from handeye.core.units import UNITS
+from handeye.report.page.elements import cell, element, figure_cell, figure_heads, heads, note, section, table
+from handeye.report.page.plots import bar, drawing, rule
+from handeye.report.recorded import Recorded
+from handeye.results.result import Check
+
+_WIDE: Final = 160.0
+_FULL: Final = 120.0
+"""Where a bar reaches its limit."""
+_HIGH: Final = 5.0
+
+
+def referee_section(run: Recorded) -> Markup:
+    """The section."""
+    return section("referee", "What the referee measured", *_content(run))
+
+
+def _content(run: Recorded) -> Iterator[Markup]:
+    if run.result is None:
+        yield note(
+            "Nobody knows: the referee measures the finished work, and the findings stand in the result of a run, "
+            "which a trace does not hold. Make the report of the folder of the run."
+        )
+    elif not run.result.referee:
+        yield note(
+            "The referee was not called: that is done when a program has come to its end, if somebody asks for it."
+        )
+    else:
+        yield note(
+            "Measured on the finished work in the simulator’s truth, which the program never sees. A bar shows how "
+            "much of its limit a value uses; counts have none."
+        )
+        yield findings_table(run.result.referee.values())
+        for name, limit in (run.result.limits or {}).items():
+            yield note(f"The limit of {name} was set to {limit:g} by whoever began the run.")
+
+
+def findings_table(checks: Iterable[Check]) -> Markup:
+    """A line for each finding, with a bar that shows how much of its limit a value uses."""
+    head = [
+        *heads("", "finding"),
+        *figure_heads("value", "limit"),
+        *heads("unit"),
+        *figure_heads("used"),
+        *heads(""),
+    ]
+    return table(head, map(_row, checks), label="findings")
+
+
+def _row(check: Check) -> list[Markup]:
+    share = used(check)
+    sign = "≥" if check.relation == "at least" else "≤"
+    return [
+        element("td", *_mark(check)),
+        element("th", check.subject, scope="row"),
+        figure_cell(f"{check.value:.3g}"),
+        figure_cell(f"{sign} {check.limit:.3g}"),
+        cell(check.unit),
+        figure_cell("" if share is None else f"{100 * share:.0f} %"),
+        element("td", *([] if share is None else [_bar(share, check)]), class_="bars"),
+    ]
+
+
+def _mark(check: Check) -> tuple[Markup]:
+    if check.ok:
+        return (element("span", "✓", class_="good", role="img", aria_label="right"),)
+    if check.refuses:
+        return (element("span", "✗", class_="bad", role="img", aria_label="wrong"),)
+    return (element("span", "!", class_="doubtful", role="img", aria_label="doubtful"),)
+
+
+def used(check: Check) -> float | None:
+    """How much of its limit a value uses, 1 if all of it; None: it is a count, or there is nothing to use."""
+    if check.unit not in UNITS or check.limit == 0:
+        return None
+    if check.relation == "at least" and check.limit > 0:
+        return None if check.value <= 0 else check.limit / check.value
+    return max(0.0, check.value / check.limit)
+
+
+def _bar(share: float, check: Check) -> Markup:
+    wide = min(share * _FULL, _WIDE)
+    shown = bar(0, 1, wide, _HIGH, class_="here" if check.ok else "over")
+    label = f"{100 * share:.0f} % of the limit"
+    return drawing(
+        shown, rule(_FULL, 0, _FULL, _HIGH + 2, class_="limit"), wide=_WIDE, high=_HIGH + 2, label=label
+    )

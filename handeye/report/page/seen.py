@@ -1,0 +1,94 @@
+"""What the camera saw: each picture as it was, with what was found in it drawn over it."""
+
+from collections.abc import Iterator, Sequence
+
+from handeye.core.markup import Markup
+from handeye.core.plain_text import counted
+from handeye.core.units import MILLIMETRE
+from handeye.program.cause_text import error_sentence
+from handeye.program.events import ErrorRaised
+from handeye.report.facts.seen import Finding, SeenPicture
+from handeye.report.page.elements import data_address, element, note, section, to_moment
+from handeye.report.page.figures import clock
+from handeye.report.page.png import picture_png
+from handeye.trace.sentences import sentence
+from handeye.vision.marks import Colour, Disc, Line, Loop, Mark
+
+
+def seen_section(pictures: Sequence[SeenPicture], *, lost: int) -> Markup:
+    """The section; `lost`: pictures that were taken, and are not in the trace."""
+    return section("seen", "What the camera saw", *_content(pictures, lost))
+
+
+def _content(pictures: Sequence[SeenPicture], lost: int) -> Iterator[Markup]:
+    if lost:
+        yield note(f"{counted(lost, 'picture')} taken before this trace begins, and not in it.")
+    if not pictures:
+        yield note("There is no other." if lost else "This run took no picture.")
+        return
+    rows, columns = pictures[0].picture.shape
+    yield note(
+        f"Every picture as the program had it: {rows} lines of {columns} points in 16 levels. What the program found "
+        "is drawn over it."
+    )
+    box = element("input", type="checkbox", id="marks", checked=True, aria_keyshortcuts="m")
+    yield element("p", element("label", box, " show what was found ", element("kbd", "m")), class_="switch")
+    yield element("div", *map(_figure, pictures), class_="pictures")
+
+
+def _figure(seen: SeenPicture) -> Markup:
+    return figure(seen, to_moment(seen.time, f"{seen.name}, {clock(seen.time)}"))
+
+
+def figure(seen: SeenPicture, name: str) -> Markup:
+    """A picture under its name, with what was found in it drawn over it and told beneath."""
+    png = data_address("image/png", picture_png(seen.picture))
+    rows, columns = seen.picture.shape
+    told = [_told(finding) for finding in seen.findings]
+    image = element("img", src=png, alt=f"picture {seen.name}", width=columns, height=rows)
+    drawn = element(
+        "svg",
+        *(_mark(mark) for mark in seen.marks),
+        viewBox=f"0 0 {columns} {rows}",
+        preserveAspectRatio="none",
+        class_="marks",
+        aria_hidden="true",
+    )
+    caption = element(
+        "figcaption",
+        element("b", name),
+        f" through the {seen.lens / MILLIMETRE:.0f} mm lens",
+        *(element("span", line) for line in told),
+    )
+    return element("figure", element("div", image, drawn, class_="picture"), caption)
+
+
+def _told(finding: Finding) -> str:
+    """What was found, or why not."""
+    if isinstance(finding, ErrorRaised):
+        return f"error {finding.number}: {error_sentence(finding.number, finding.cause)}"
+    return sentence(finding)
+
+
+def _mark(mark: Mark) -> Markup:
+    """A mark; picture points count from the middle of the first, drawings from its corner."""
+    match mark:
+        case Loop():
+            points = " ".join(f"{u + 0.5:.2f},{v + 0.5:.2f}" for u, v in mark.points)
+            return element("polygon", points=points, stroke=_colour(mark.colour))
+        case Line():
+            (u1, v1), (u2, v2) = ((f"{u + 0.5:.2f}", f"{v + 0.5:.2f}") for u, v in mark.ends)
+            return element("line", x1=u1, y1=v1, x2=u2, y2=v2, stroke=_colour(mark.colour))
+        case Disc():
+            (u, v), radius = mark.centre, mark.diameter / 2
+            return element(
+                "circle",
+                cx=f"{u + 0.5:.2f}",
+                cy=f"{v + 0.5:.2f}",
+                r=f"{radius:.2f}",
+                fill=_colour(mark.colour),
+            )
+
+
+def _colour(colour: Colour) -> str:
+    return "#" + "".join(f"{level:02x}" for level in colour)

@@ -1,0 +1,75 @@
+"""The script as markup, line by line, in the colours of its language."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from pygments import lex
+from pygments.token import Comment, Keyword, Name, Number, is_token_subtype
+from pygments.token import _TokenType as Token
+
+from handeye.al.compiler import LANGUAGE
+from handeye.al.highlight import ArmLexer
+from handeye.core.markup import Markup
+from handeye.program.events import StepStarted
+from handeye.program.program import Program
+from handeye.report.page.elements import element, joined, text
+
+_COLOURS: Final = ((Comment, "c"), (Keyword, "k"), (Name.Label, "l"), (Number, "n"))
+_AROUND: Final = 2
+"""Lines before and behind that are shown with one."""
+
+
+def line_id(line: int, file: str = "", files: tuple[str, ...] = ()) -> str:
+    """The name of a line in the page."""
+    return f"line-{files.index(file) if file in files else 0}-{line}"
+
+
+def listing(program: Program) -> Markup:
+    """All texts of a program: the script, then what it requires."""
+    files = ("", *program.required)
+    texts = (program.source, *program.required.values())
+    return joined(
+        element(
+            "div",
+            *([] if not file else [element("h3", file)]),
+            element("ol", *_items(program, content, file, files)),
+        )
+        for file, content in zip(files, texts, strict=True)
+    )
+
+
+def _items(program: Program, content: str, file: str, files: tuple[str, ...]) -> Iterator[Markup]:
+    for number, line in enumerate(coloured(program, content), 1):
+        yield element("li", element("code", line), id=line_id(number, file, files))
+
+
+def excerpt(program: Program, step: StepStarted) -> Markup:
+    """The line of a step with those around it."""
+    lines = coloured(program, program.required.get(step.file, program.source))
+    first = max(1, step.line - _AROUND)
+    shown = lines[first - 1 : step.line + _AROUND]
+    items = (
+        element("li", element("code", line), value=number, class_="on" if number == step.line else None)
+        for number, line in enumerate(shown, first)
+    )
+    return element("div", element("ol", *items), class_="source excerpt")
+
+
+def coloured(program: Program, content: str) -> list[Markup]:
+    """The lines of a text."""
+    plain = content.replace("\r\n", "\n").expandtabs(8)
+    if program.language != LANGUAGE:
+        return [text(line) for line in plain.split("\n")]
+    lines, pieces = [], []
+    for kind, value in lex(plain, ArmLexer(stripnl=False, ensurenl=False)):
+        first, *rest = value.split("\n")
+        pieces.append(_piece(kind, first))
+        for more in rest:
+            lines.append(joined(pieces))
+            pieces = [_piece(kind, more)]
+    return [*lines, joined(pieces)]
+
+
+def _piece(kind: Token, value: str) -> Markup:
+    colour = next((name for token, name in _COLOURS if is_token_subtype(kind, token)), None)
+    return text(value) if colour is None or not value.strip() else element("span", value, class_=colour)

@@ -1,0 +1,143 @@
+"""What the run took, stage by stage, and beside 1973."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from handeye.core.markup import Markup
+from handeye.program.events import FrictionMeasured
+from handeye.report.page.elements import (
+    cell,
+    element,
+    figure_cell,
+    figure_heads,
+    heads,
+    joined,
+    note,
+    section,
+    table,
+    to_moment,
+)
+from handeye.report.page.figures import clock, duration
+from handeye.report.page.plots import bar, drawing
+from handeye.report.recorded import Recorded
+from handeye.tasks import known
+from handeye.tasks.interface import Period
+from handeye.trace.stats import Figures, StageFigures, statistics
+
+_WIDE: Final = 300.0
+"""Of the column of bars, in units of the drawing."""
+_HIGH: Final = 7.0
+
+
+def timing_section(run: Recorded) -> Markup:
+    """The section."""
+    figures = statistics(run.trace.events, {})
+    then = _period(run)
+    return section(
+        "timing",
+        "What it took" if then is None else f"What it took, beside {then.year}",
+        *_beside(run, figures.total, then),
+        *_by_stage(run, figures.stages),
+    )
+
+
+def _period(run: Recorded) -> Period | None:
+    """The times of its day, if the program is one that was timed then."""
+    task = known(run.trace.head.task)
+    then = None if task is None else task.period
+    return then if then is not None and then.program == run.trace.head.program else None
+
+
+def _beside(run: Recorded, total: Figures, then: Period | None) -> Iterator[Markup]:
+    times = {} if then is None else then.times
+    worked = times["manipulation"] + times["lens"] if times else None
+    rows = [
+        ("manipulation", total.seconds - total.camera_s, times.get("manipulation")),
+        ("lens change, aim and focus", total.camera_s, times.get("lens")),
+        ("working phase, without vision", total.seconds, worked),
+    ]
+    longest = max(1e-9, *(seconds for _, *pair in rows for seconds in pair if seconds is not None))
+    head = [*heads(""), *figure_heads("this run", *([] if then is None else [f"{then.year}"])), *heads("")]
+    yield table(head, (_row(*row, longest, then) for row in rows), label="times")
+    yield note(*_remarks(run, then))
+
+
+def _row(name: str, here: float, then: float | None, longest: float, period: Period | None) -> list[Markup]:
+    figures = [figure_cell(duration(here)), *([] if then is None else [figure_cell(duration(then))])]
+    bars = [bar(0, 1, here / longest * _WIDE, _HIGH, class_="here")]
+    told = f"{name}: {duration(here)}"
+    if then is not None and period is not None:
+        bars.append(bar(0, 2 + _HIGH, then / longest * _WIDE, _HIGH, class_="then"))
+        told += f", in {period.year} {duration(then)}"
+    high = 3 + _HIGH * len(bars)
+    drawn = drawing(*bars, wide=_WIDE, high=high, label=told)
+    return [element("th", name, scope="row"), *figures, element("td", drawn, class_="bars")]
+
+
+def _remarks(run: Recorded, then: Period | None) -> Iterator[str]:
+    """What the table leaves out."""
+    yield "Minutes and seconds on the cell’s clock."
+    friction = sum(event.seconds for event in run.trace.events if isinstance(event, FrictionMeasured))
+    calibration = run.trace.head.time - friction
+    before = [
+        f"{what} {duration(seconds)}"
+        for what, seconds in (
+            ("calibrating the camera took", calibration),
+            ("measuring joint friction", friction),
+        )
+        if seconds >= 1
+    ]
+    if before:
+        yield f" Before the program began, {' and '.join(before)}."
+    if then is not None:
+        yield (
+            f" In {then.year} planning took {duration(then.times['planning'])} and vision "
+            f"{then.times['vision']:g} s of a processor; here they take well under a second, another each time, "
+            "which stands in the result of the run."
+        )
+
+
+def _by_stage(run: Recorded, stages: list[StageFigures]) -> Iterator[Markup]:
+    if not stages:
+        return
+    begins = {stage.name: run.seconds(stage.begin) for stage in reversed(run.trace.stages)}
+    longest = max(1e-9, *(stage.seconds for stage in stages))
+    rows = [_stage(number, stage, begins[stage.stage], longest) for number, stage in enumerate(stages, 1)]
+    rows += [_missing(number, name) for number, name in _unreached(run, stages)]
+    yield element("h3", "Stage by stage")
+    figures = figure_heads("begins", "took", "of it camera", "steps")
+    yield table([*figure_heads(""), *heads("stage", "ended"), *figures, *heads("")], rows, label="stages")
+
+
+def _stage(number: int, stage: StageFigures, begin: float, longest: float) -> list[Markup]:
+    arm = (stage.seconds - stage.camera_s) / longest * _WIDE
+    bars = [bar(0, 1, arm, _HIGH, class_="here")]
+    if stage.camera_s:
+        bars.append(bar(arm, 1, stage.camera_s / longest * _WIDE, _HIGH, class_="camera"))
+    told = f"{stage.stage}: {duration(stage.seconds)}, {duration(stage.camera_s)} of it for the camera"
+    return [
+        figure_cell(str(number)),
+        element("th", to_moment(begin, stage.stage), scope="row"),
+        cell(stage.status),
+        figure_cell(clock(begin)),
+        figure_cell(duration(stage.seconds)),
+        figure_cell(duration(stage.camera_s) if stage.camera_s else ""),
+        figure_cell(str(stage.steps)),
+        element("td", drawing(*bars, wide=_WIDE, high=_HIGH + 2, label=told), class_="bars"),
+    ]
+
+
+def _unreached(run: Recorded, stages: list[StageFigures]) -> Iterator[tuple[int, str]]:
+    begun = {stage.stage for stage in stages}
+    left = [name for name in run.program.stages if name not in begun]
+    return enumerate(left, len(stages) + 1)
+
+
+def _missing(number: int, name: str) -> list[Markup]:
+    empty = joined([cell()] * 5)
+    return [
+        figure_cell(str(number)),
+        element("th", name, scope="row", class_="unreached"),
+        cell("not reached"),
+        empty,
+    ]

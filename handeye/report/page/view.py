@@ -1,0 +1,123 @@
+"""The run to walk round in: view, stages, controls, and the script beside it."""
+
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from handeye.core.markup import Markup
+from handeye.report.page.elements import element, joined, section, to_moment
+from handeye.report.page.figures import clock
+from handeye.report.page.photograph import shown
+from handeye.report.page.source import listing
+from handeye.report.photographs import Photograph
+from handeye.report.recorded import Recorded
+from handeye.trace.stages import Stage
+
+SPEEDS: Final = (1, 2, 4, 8, 16, 64)
+USUAL: Final = 8
+_KEYS: Final = (
+    ("space", "play, pause"),
+    ("← →", "a step"),
+    ("shift ← →", "a stage"),
+    ("[ ]", "slower, faster"),
+    ("1 2 …", "views"),
+)
+
+
+def view_section(run: Recorded, strip: Sequence[Photograph]) -> Markup:
+    """The section."""
+    viewer = element(
+        "div", _screen(strip), _caption(), _bar(run), _controls(run), _instead(), _keys(), class_="viewer"
+    )
+    script = element(
+        "div",
+        listing(run.program),
+        id="script",
+        class_="source",
+        tabindex="0",
+        role="region",
+        aria_label="script",
+    )
+    return section("run", "The run", element("div", viewer, script, class_="beside"))
+
+
+def _screen(strip: Sequence[Photograph]) -> Markup:
+    canvas = element(
+        "canvas", id="view", hidden=True, tabindex="0", role="img",
+        aria_label="the cell at this moment; arrows walk round it, plus and minus come nearer and go farther",
+    )  # fmt: skip
+    photographs = element("div", *_photographs(strip), id="strip", class_="strip")
+    picked = element("p", id="picked", role="status", hidden=True)
+    return element("div", canvas, photographs, picked, class_="screen")
+
+
+def _photographs(strip: Sequence[Photograph]) -> Iterator[Markup]:
+    missing = next((each.missing for each in strip if each.webp is None), "")
+    if missing:
+        yield element("p", missing, class_="missing")
+    for each in strip:
+        if each.webp is not None:
+            yield shown(each, data_time=f"{each.time:.2f}")
+
+
+def _caption() -> Markup:
+    """Where it is told what was sensed last."""
+    return element("p", id="caption", class_="caption", hidden=True)
+
+
+def _bar(run: Recorded) -> Markup:
+    """The stages as links, as wide as they are long."""
+    links = (_stage(run, number, stage) for number, stage in enumerate(run.trace.stages, 1))
+    return element(
+        "nav",
+        *links,
+        id="stages",
+        class_="stages",
+        aria_label="stages",
+        aria_keyshortcuts="Shift+ArrowLeft Shift+ArrowRight",
+    )
+
+
+def _stage(run: Recorded, number: int, stage: Stage) -> Markup:
+    begin, end = run.seconds(stage.begin), run.seconds(stage.end)
+    unseen = end <= run.begins
+    told = f"{number} {stage.name}, {clock(begin)} to {clock(end)}, {stage.status}{', not recorded' if unseen else ''}"
+    return to_moment(
+        begin,
+        element("span", str(number)),
+        class_=f"s{number} {'unseen' if unseen else stage.status.replace(' ', '-')}",
+        title=told,
+        aria_label=told,
+    )
+
+
+def widths(run: Recorded) -> str:
+    """Rules of style that make the stages as wide as they are long."""
+    return "".join(
+        f"#stages .s{number}{{flex-grow:{100 * max(stage.end - stage.begin, 0.1):.0f}}}"
+        for number, stage in enumerate(run.trace.stages, 1)
+    )
+
+
+def _controls(run: Recorded) -> Markup:
+    play = element(
+        "button", "Play", id="play", type="button", aria_keyshortcuts="Space", title="play, pause: space"
+    )
+    time = element(
+        "input", id="time", type="range", min=f"{run.begins:.2f}", max=f"{run.ends:.2f}", step="0.01",
+        value=f"{run.begins:.2f}", aria_label="time", aria_keyshortcuts="ArrowLeft ArrowRight",
+    )  # fmt: skip
+    now = element("output", clock(run.begins), id="clock", for_="time")
+    options = (element("option", f"{speed} ×", value=speed, selected=speed == USUAL) for speed in SPEEDS)
+    speed = element("select", *options, id="speed", aria_label="speed", aria_keyshortcuts="[ ]")
+    views = element("div", id="views", role="group", aria_label="view", class_="views")
+    return element("div", play, time, now, speed, views, id="controls", class_="controls", hidden=True)
+
+
+def _instead() -> Markup:
+    """Where it is told why photographs stand in the place of the view."""
+    return element("p", id="instead", class_="keys", hidden=True)
+
+
+def _keys() -> Markup:
+    pairs = joined((joined([element("kbd", key), f" {does}"]) for key, does in _KEYS), ", ")
+    return element("p", pairs, id="keys", class_="keys", hidden=True)

@@ -1,0 +1,180 @@
+"""Photographs of a recorded run for its report: one that leads it, and one of each stage."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import cv2
+import numpy as np
+
+from handeye.cell.photograph import Near, Photographer
+from handeye.cell.photograph import Photograph as Points
+from handeye.cell.posed import posed
+from handeye.core.errors import InvalidInput
+from handeye.program.events import GuardTripped, StepFinished
+from handeye.report.facts.outcome import Outcome, outcome
+from handeye.report.recorded import Recorded
+from handeye.tasks import known
+from handeye.trace.stages import Stage
+
+MOST: Final = 24
+"""Stages that are photographed, at most."""
+_QUALITY: Final = 80
+_ROOM: Final = "studio"
+"""The camera of the scene that shows all of it."""
+_NEAR: Final = 0.62
+"""m from which the hand is looked at."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Photograph:
+    """A photograph, or why there is none."""
+
+    time: float
+    """s since the run began."""
+    shows: str
+    width: int
+    height: int
+    webp: bytes | None
+    """The file; None: it could not be taken."""
+    missing: str = ""
+    """Why."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Print:
+    """How photographs are made."""
+
+    width: int
+    height: int
+    finer: int
+    """Points of the drawing for one of the photograph, along a side."""
+    shadow: int
+    """Points along a side of the map of shadows."""
+
+
+LARGE: Final = _Print(width=960, height=720, finer=2, shadow=4096)
+SMALL: Final = _Print(width=480, height=360, finer=1, shadow=2048)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Wanted:
+    """A photograph that is to be taken."""
+
+    time: float
+    """s since the run began."""
+    view: str | Near
+    shows: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Album:
+    """The photographs of a run."""
+
+    leading: Photograph
+    stages: tuple[Photograph, ...]
+
+
+def album(run: Recorded) -> Album:
+    """The photographs of a run: of its end, or of where it failed, and of its stages."""
+    return Album(leading=_leading(run, outcome(run)), stages=_of_stages(run))
+
+
+def no_album(run: Recorded, why: str) -> Album:
+    """An album without a photograph, where somebody wants none: it says why, once."""
+    leading = _none(_Wanted(time=outcome(run).time, view=_ROOM, shows="The run"), LARGE, why)
+    return Album(leading=leading, stages=())
+
+
+def _leading(run: Recorded, outcome: Outcome) -> Photograph:
+    """The photograph that leads: the finished work, or the moment at which the run failed."""
+    shows = "The end of the run" if outcome.ended else "The hand at the last moment"
+    wanted = _Wanted(time=outcome.time, view=_leading_view(run, outcome), shows=shows)
+    (taken,) = _taken(run, [wanted], LARGE)
+    left = run.end if outcome.ended else None
+    return taken if taken.webp is not None or left is None else _left(left, taken)
+
+
+def _leading_view(run: Recorded, outcome: Outcome) -> str | Near:
+    """The work, where the referee looked at it too; else all of the cell; of a run that did not end the hand."""
+    if not outcome.ended:
+        return _at_hand(run, outcome.time)
+    task = known(run.trace.head.task)
+    judged = outcome.kind in ("right", "wrong")
+    return task.photographs[-1] if judged and task is not None and task.photographs else _ROOM
+
+
+def _left(picture: bytes, missing: Photograph) -> Photograph:
+    """The picture that the run itself has left of its end, in the place of a photograph that could not be taken."""
+    points = cv2.imdecode(np.frombuffer(picture, dtype=np.uint8), cv2.IMREAD_COLOR_RGB)
+    if points is None:
+        return missing
+    return replace(missing, webp=_webp(points.astype(np.uint8, copy=False), LARGE), missing="")
+
+
+def _of_stages(run: Recorded) -> tuple[Photograph, ...]:
+    """A photograph of each stage; of many stages, of some."""
+    stages = [
+        (number, stage)
+        for number, stage in enumerate(run.trace.stages, 1)
+        if run.seconds(stage.end) > run.begins
+    ]
+    every = -(-len(stages) // MOST) or 1
+    return _taken(run, [_of_stage(run, number, stage) for number, stage in stages[::every]], SMALL)
+
+
+def _of_stage(run: Recorded, number: int, stage: Stage) -> _Wanted:
+    """The moment of a stage that shows most: the last at which a guard was met, or its end."""
+    trips = [
+        event.time
+        for event in run.trace.events
+        if isinstance(event, GuardTripped) and stage.begin <= event.time <= stage.end
+    ]
+    time = run.seconds(trips[-1] if trips else stage.end)
+    return _Wanted(time=time, view=_at_hand(run, time) if trips else _ROOM, shows=f"{number} {stage.name}")
+
+
+def _at_hand(run: Recorded, time: float) -> str | Near:
+    """A view of the hand where it was after the last step before a time."""
+    ended = [
+        event.hand
+        for event in run.trace.events
+        if isinstance(event, StepFinished)
+        and event.hand is not None
+        and run.seconds(event.time) <= time + 0.1
+    ]
+    return Near(camera=_ROOM, place=ended[-1], distance=_NEAR) if ended else _ROOM
+
+
+def _taken(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> tuple[Photograph, ...]:
+    """The photographs, or why there are none."""
+    try:
+        return tuple(_take(run, wanted, size))
+    except InvalidInput as fault:
+        return tuple(_none(each, size, f"No photograph: {fault}.") for each in wanted)
+
+
+def _none(wanted: _Wanted, size: _Print, why: str) -> Photograph:
+    return Photograph(
+        time=wanted.time, shows=wanted.shows, width=size.width, height=size.height, webp=None, missing=why
+    )
+
+
+def _take(run: Recorded, wanted: Sequence[_Wanted], size: _Print) -> Iterator[Photograph]:
+    wide, high = size.finer * size.width, size.finer * size.height
+    photographer = Photographer(run.trace.scene, width=wide, height=high, shadow=size.shadow)
+    begin, end = run.trace.covers
+    for each in wanted:
+        moment = run.trace.at(min(max(each.time + run.trace.head.time, begin), end))
+        fine = photographer.take(*posed(run.trace.scene, moment.poses, moment.time), each.view)
+        yield Photograph(
+            time=each.time, shows=each.shows, width=size.width, height=size.height, webp=_webp(fine, size)
+        )
+
+
+def _webp(fine: Points, size: _Print) -> bytes:
+    """A photograph at its size as a WebP file."""
+    small = cv2.resize(fine, (size.width, size.height), interpolation=cv2.INTER_AREA)
+    done, data = cv2.imencode(".webp", small[:, :, ::-1], [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
+    assert done
+    return data.tobytes()

@@ -1,0 +1,95 @@
+"""The player: a run in three dimensions on a page, drawn by WebGL2 without any library.
+
+A page carries three things, each made here: the scene, the tracks of what is in it, and the script. The same
+trace gives the same bytes. The page decompresses scene and tracks (`DecompressionStream("gzip")`) and hands them to the
+script:
+
+```js
+const player = await createPlayer(canvas, scene, tracks, options);
+```
+
+The promise is rejected with an `Error`, whose message is a sentence, where there is no WebGL 2. Times are seconds since
+the run began, as people see them. Options: `still` (views change at once; by default as the browser says that its user
+prefers), `exposures` (pictures that are averaged when nothing moves).
+
+| member | |
+|---|---|
+| `begin`, `end`, `duration` | what the tracks cover, s |
+| `at(seconds)`, `time` | show a moment; the moment shown. The page keeps the clock |
+| `views`, `view(name)` | names of the views, `room` first; look from there |
+| `names`, `pose(body, seconds)` | bodies as in `Trace.poses`; place (m) and quaternion w, x, y, z, or null: not there |
+| `pick(x, y)` | the name for people of what is drawn at a point of the canvas (CSS pixels), or null |
+| `onpick` | null or a function `(name, x, y)`, called at a click |
+| `settled()` | a promise: the averaged picture is up |
+| `frames` | pictures drawn so far |
+| `destroy()` | let go of canvas and graphics memory |
+
+Hands: one finger or the left button goes round, two fingers or the right button shift, a pinch comes nearer. While the
+canvas has the focus, so do the wheel and plus and minus; arrows go round, shift and arrows shift. How large the canvas
+is says the page, and by its style `touch-action` how much of a touch is meant for it: `none` is all, `pan-y` leaves the
+page to be scrolled.
+"""
+
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from handeye.cell.clock_hands import drawn_poses
+from handeye.report.player import scene, tracks
+from handeye.trace.messages import Poses
+from handeye.trace.trace import Trace
+
+__all__ = ["scene_bytes", "script", "shown_poses", "tracks_bytes"]
+
+MODULES: Final = (
+    "geometry", "packed", "tracks", "shaders", "graphics", "bodies", "shadows", "camera", "picture", "hands", "player",
+)  # fmt: skip
+"""The script's modules, each after those that it imports from."""
+SOURCES: Final = Path(__file__).with_name("script")
+"""The folder that they are in."""
+
+
+def scene_bytes(trace: Trace) -> bytes:
+    """The scene of a run, compressed: surfaces, materials, names, views.
+
+    Raises:
+        InvalidInput: an older handeye recorded the run, whose cell this one cannot build again.
+    """
+    return scene.scene_bytes(trace.scene)
+
+
+def tracks_bytes(trace: Trace) -> bytes:
+    """Where everything that is seen was in a run, and its clock, compressed.
+
+    Raises:
+        InvalidInput: as `scene_bytes`; or nothing was recorded between the events.
+    """
+    begin, end = trace.covers
+    return tracks.tracks_bytes(
+        shown_poses(trace),
+        times=trace.times - trace.head.time,
+        begin=trace.elapsed(begin),
+        end=trace.elapsed(end),
+        lowest=scene.lowest(trace.scene),
+    )
+
+
+def shown_poses(trace: Trace) -> dict[str, Poses]:
+    """Poses of the bodies that are seen in all servo periods, as the trace has them; of what no run moves, as drawn."""
+    model, poses = trace.scene, trace.poses
+    shown = [model.body(body).name for body in range(1, model.nbody) if scene.seen(model, body)]
+    drawn = drawn_poses(model, [name for name in shown if name not in poses], trace.times)
+    return {name: poses[name] if name in poses else drawn[name].astype(np.float32) for name in shown}
+
+
+def script() -> str:
+    """The script, `const createPlayer = ...;`: its modules as one, so that a page can carry it and name its hash."""
+    parts = [_plain((SOURCES / f"{name}.js").read_text("utf-8")) for name in MODULES]
+    return f'const createPlayer = (() => {{\n"use strict";\n{"".join(parts)}return createPlayer;\n}})();\n'
+
+
+def _plain(module: str) -> str:
+    """A module as a page carries it: all of them share one scope, and nobody reads their comments there."""
+    lines = (line.strip().removeprefix("export ") for line in module.splitlines())
+    return "".join(f"{line}\n" for line in lines if line and not line.startswith(("import ", "//")))

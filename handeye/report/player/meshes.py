@@ -1,0 +1,121 @@
+"""The surfaces of bodies as arrays of corners, equal ones once."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.core.pose import Array
+from handeye.report.player.coarse import CELLS, coarsened
+from handeye.report.player.packing import columns, octahedral, quantised, rounded, zigzag
+from handeye.report.player.surfaces import Surface
+
+FINE: Final = 200
+"""Triangles from which on a body has a coarser surface as well."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Piece:
+    """A surface of one material."""
+
+    name: str
+    """As people read it."""
+    surface: Surface
+    material: int
+
+    @property
+    def size(self) -> float:
+        """Its longest side, m."""
+        return float(np.ptp(self.surface.points, axis=0).max())
+
+
+@dataclass(slots=True)
+class Meshes:
+    """Meshes, each the pieces of a body: a fine one, behind it a coarse one if that saves much."""
+
+    told: list[dict[str, Any]] = field(default_factory=list)
+    """What a page has to know of each: `fine` and `coarse`, the first corner and the number of corners of triangles;
+    `scale` of its points; `ball` around it; `parts`, names and ranges of pieces."""
+    _points: list[NDArray[np.uint16]] = field(default_factory=list)
+    _normals: list[NDArray[np.int8]] = field(default_factory=list)
+    _materials: list[NDArray[np.uint8]] = field(default_factory=list)
+    _triangles: list[NDArray[np.int64]] = field(default_factory=list)
+    _known: dict[tuple[bytes, ...], int] = field(default_factory=dict)
+
+    def number(self, pieces: Sequence[Piece]) -> int:
+        """Number of the mesh of a body, which is added if it is new."""
+        return self._added(pieces, _coarse(pieces))
+
+    def number_of_parts(self, pieces: Sequence[Piece]) -> int:
+        """The same for a body whose pieces people can point at by name; those of a name follow each other."""
+        number = self._added(pieces, ())
+        first, _ = self.told[number]["fine"]
+        self.told[number]["parts"] = parts = []
+        for name, group in groupby(pieces, key=lambda piece: piece.name):
+            count = sum(piece.surface.triangles.size for piece in group)
+            parts.append([name, first, count])
+            first += count
+        return number
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Corners and triangles of all of them."""
+        return {
+            "points": columns(np.concatenate(self._points)),
+            "normals": np.ascontiguousarray(np.concatenate(self._normals).T),
+            "materials": np.concatenate(self._materials),
+            "triangles": zigzag(np.concatenate(self._triangles)),
+        }
+
+    def _added(self, fine: Sequence[Piece], coarse: Sequence[Piece]) -> int:
+        pieces = [*fine, *coarse]
+        whole = Surface.joined([piece.surface for piece in pieces])
+        points, scale = quantised(whole.points)
+        normals = octahedral(whole.normals)
+        corners = [len(piece.surface.points) for piece in pieces]
+        materials = np.repeat(np.array([piece.material for piece in pieces], dtype=np.uint8), corners)
+        arrays = points, normals, materials, whole.triangles
+        key = (*(array.tobytes() for array in arrays), repr(scale).encode())
+        if key not in self._known:
+            self._known[key] = len(self.told)
+            self.told.append(self._tell(fine, coarse, scale))
+            self._triangles.append(whole.triangles.ravel() + sum(map(len, self._points)))
+            self._points.append(points)
+            self._normals.append(normals)
+            self._materials.append(materials)
+        return self._known[key]
+
+    def _tell(self, fine: Sequence[Piece], coarse: Sequence[Piece], scale: list[float]) -> dict[str, Any]:
+        first, count = sum(map(len, self._triangles)), _corners(fine)
+        told = {"fine": [first, count], "scale": scale, "ball": _ball(fine)}
+        return {**told, "coarse": [first + count, _corners(coarse)]} if coarse else told
+
+
+def _coarse(pieces: Sequence[Piece]) -> Sequence[Piece]:
+    """Coarser pieces; none where they would save less than half."""
+    cell = float(np.ptp(_points(pieces), axis=0).max()) / CELLS
+    if _corners(pieces) < 3 * FINE:
+        return ()
+    coarse = [
+        Piece(name=piece.name, surface=coarsened(piece.surface, cell), material=piece.material)
+        for piece in pieces
+    ]
+    return coarse if 2 * _corners(coarse) < _corners(pieces) else ()
+
+
+def _corners(pieces: Sequence[Piece]) -> int:
+    """Corners of triangles."""
+    return sum(piece.surface.triangles.size for piece in pieces)
+
+
+def _points(pieces: Sequence[Piece]) -> Array:
+    return np.concatenate([piece.surface.points for piece in pieces])
+
+
+def _ball(pieces: Sequence[Piece]) -> list[float]:
+    """Middle and radius of a ball around pieces, m."""
+    points = _points(pieces)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    return rounded(np.array([*middle, np.linalg.norm(points - middle, axis=1).max()]))

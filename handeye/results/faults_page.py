@@ -1,0 +1,109 @@
+"""The faults of a task and what must happen with each, as a page for the terminal or as one JSON object."""
+
+from collections.abc import Sequence
+from itertools import groupby
+from textwrap import fill
+
+import msgspec
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from handeye.core.errors import ERRORS
+from handeye.core.faults import Catalogue, Expected, FaultKind, Size
+
+
+class FaultReport(msgspec.Struct, frozen=True, kw_only=True):
+    """A fault of a catalogue."""
+
+    name: str
+    meaning: str
+    size: Size | None
+    """None: it has no value."""
+    from_start: bool
+    """It can be there only from the beginning."""
+    usual_stage: int | None
+    """Number of the stage with which it sets in where nobody names one; None: it is there from the beginning then."""
+    expected: Expected
+    must: str
+    """What must happen with it, a sentence."""
+    matrix: bool
+    """`handeye faults` tries it where nobody names others."""
+
+
+class FaultsReport(msgspec.Struct, frozen=True, kw_only=True):
+    """Faults of a catalogue."""
+
+    faults: tuple[FaultReport, ...]
+
+
+def report(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> FaultsReport:
+    """Some faults of a catalogue."""
+    return FaultsReport(faults=tuple(_reported(kind, catalogue) for kind in kinds))
+
+
+def faults_json(catalogue: Catalogue, kinds: Sequence[FaultKind]) -> bytes:
+    """Some faults of a catalogue as one JSON object."""
+    return msgspec.json.format(msgspec.json.encode(report(catalogue, kinds)), indent=1) + b"\n"
+
+
+def faults_page(catalogue: Catalogue, kinds: Sequence[FaultKind], columns: int) -> RenderableType:
+    """Some faults of a catalogue, for a terminal of so many columns."""
+    found = report(catalogue, kinds).faults
+    parts: list[RenderableType] = []
+    for device, faults in groupby(found, lambda fault: fault.name.split(".")[0]):
+        parts += [Text(), Text(device, "bold")] if parts else [Text(device, "bold")]
+        for fault in faults:
+            parts += [
+                _head(fault),
+                Text(_filled(fault.meaning, columns)),
+                Text(_filled(fault.must, columns), "dim"),
+            ]
+    return Group(*parts)
+
+
+def _filled(sentence: str, columns: int) -> str:
+    return fill(sentence, columns, initial_indent="    ", subsequent_indent="    ")
+
+
+def _reported(kind: FaultKind, catalogue: Catalogue) -> FaultReport:
+    return FaultReport(
+        name=kind.name,
+        meaning=kind.meaning,
+        size=kind.size,
+        from_start=kind.from_start,
+        usual_stage=kind.usual_stage,
+        expected=kind.expected,
+        must=_must(kind.expected),
+        matrix=kind.name in catalogue.matrix,
+    )
+
+
+def _must(expected: Expected) -> str:
+    """What must happen with a fault, a sentence."""
+    errors = " or ".join(f"{number} ({ERRORS[number]})" for number in expected.errors)
+    ways = [
+        *(["before the first stage"] if expected.at_setup else []),
+        *([f"by error {errors}"] if errors else []),
+        *(f"with “{call}”" for call in expected.calls),
+    ]
+    stops = f"stops {', or '.join(ways)}" if ways else ""
+    if stops and expected.stages:
+        stops += f", in {' or '.join(f'“{stage}”' for stage in expected.stages)}"
+    if not expected.harmless:
+        return f"The program {stops}." if stops else "Nobody has said what must happen."
+    return f"The program {stops}, or the pump comes out right." if stops else "The pump comes out right."
+
+
+def _head(fault: FaultReport) -> Text:
+    """The name of a fault, and what values it can have."""
+    row = Text(f"  {fault.name}")
+    if fault.size is not None:
+        low, high = fault.size.limits
+        row.append(f"={fault.size.usual:g}{fault.size.unit.replace(' ', '')}", "cyan").append(
+            f"  ({low:g} to {high:g})", "dim"
+        )
+    if fault.matrix:
+        row.append("  in the matrix", "green")
+    if fault.usual_stage is not None:
+        row.append(f"  @{fault.usual_stage} where no stage is named", "dim")
+    return row.append("  from the beginning only", "dim") if fault.from_start else row

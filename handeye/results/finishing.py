@@ -1,0 +1,46 @@
+"""The end of a run, or a pause in it: account, verdict, pictures and result, in its folder."""
+
+from handeye.core.files import write_whole
+from handeye.results.judging import Referee
+from handeye.results.outcome import outcome
+from handeye.results.pictures import keep_pictures
+from handeye.results.result import Result, to_json
+from handeye.runs.advance import Pause
+from handeye.runs.folder import PICTURES, RESULT, RunFolder
+from handeye.runs.host_seconds import Meter
+from handeye.runs.runner import Runner
+from handeye.systems.trig.run.job import account, ends_job, system_of
+from handeye.systems.trig.run.job_folder import write_job
+
+
+def finished(
+    runner: Runner,
+    pause: Pause,
+    meter: Meter,
+    *,
+    judged: bool,
+    referee: Referee | None = None,
+    folder: RunFolder | None = None,
+) -> Result:
+    """Finish a run, unless it only pauses; its result, which is kept in its folder with the pictures.
+
+    The result is written last: where there is one, all else is there, too.
+
+    Args:
+        meter: measures what the run costs the host.
+        judged: the referee is called to a run that has ended.
+        referee: takes the place of the task's.
+
+    Raises:
+        InvalidInput: the folder cannot be written to.
+    """
+    if pause.kind != "break":
+        runner.finish()
+    result = outcome(runner, pause, meter, judged=judged, referee=referee)
+    if folder is not None:
+        folder.close()
+        keep_pictures(folder.path / PICTURES, runner)
+        if ends_job(runner, result):
+            write_job(folder.path, account(runner, pause, result), system_of(runner).job.session.program)
+        write_whole(folder.path / RESULT, to_json(result))
+    return result

@@ -1,0 +1,105 @@
+"""The referee is called to a run that is over."""
+
+from collections.abc import Callable, Mapping
+from math import isfinite
+
+from handeye.cell.truth import Truth
+from handeye.core.diagnostics import quoted, suggestion
+from handeye.core.errors import InvalidInput
+from handeye.judge.finding import Finding, Findings
+from handeye.runs.advance import Pause
+from handeye.runs.runner import Runner
+from handeye.systems.trig.run.system import TaughtSystem
+
+Referee = Callable[[Truth], Findings]
+"""Judges the truth of a cell; the cell is not touched."""
+Limits = Mapping[str, float]
+"""Limits of findings by their names, each in the unit of the finding."""
+
+
+def findings(runner: Runner, pause: Pause, referee: Referee | None = None) -> Findings:
+    """Ask a referee, by default that of the task, its limits those of the run; nothing of a program without an end.
+
+    Where the arm has undone all it did, it is asked whether everything lies where it was found, and is remembered as
+    it was taught.
+    """
+    if pause.kind != "end":
+        return {}
+    truth = runner.cell.truth
+    if runner.undone:
+        return {} if runner.system.executed else {**runner.task.judge_apart(truth), **_remembered(runner)}
+    return limited(runner.task.judge(truth), runner.setup.limits) if referee is None else referee(truth)
+
+
+def _remembered(runner: Runner) -> Findings:
+    """Findings on what a taught program remembers where all it did is undone."""
+    system = runner.system
+    return system.job.remembered() if isinstance(system, TaughtSystem) else {}
+
+
+def findings_built(runner: Runner) -> Findings:
+    """Findings on what a job has built, whose program had come to its end before the arm undid it; else none."""
+    system = runner.system
+    if not isinstance(system, TaughtSystem) or not runner.undone:
+        return {}
+    turn = system.state.turn
+    return system.job.built() if turn is not None and turn.ended else {}
+
+
+def findings_so_far(runner: Runner) -> Findings:
+    """What the task's referee finds of the work as it stands, which need not be done."""
+    return runner.task.judge(runner.cell.truth)
+
+
+def checked_findings(referee: str, findings: object) -> Findings:
+    """Findings that a referee of somebody's own gave; the referee is told by its name.
+
+    Raises:
+        InvalidInput: they are none.
+    """
+    if not isinstance(findings, Mapping) or not all(
+        isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
+    ):
+        raise InvalidInput(f"the referee `{referee}` must give findings by their names, not {findings!r}")
+    return findings
+
+
+def checked_limits(limits: Limits) -> dict[str, float]:
+    """Limits that somebody gave.
+
+    Raises:
+        InvalidInput: a name is none, or a limit is no number.
+    """
+    checked: dict[str, float] = {}
+    for name, limit in limits.items():
+        if not isinstance(name, str):
+            raise InvalidInput(f"limits are given by the names of findings, not by {name!r}")
+        if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
+            raise InvalidInput(f"the limit of {name} must be a number, not {limit!r}")
+        checked[name] = float(limit)
+    return checked
+
+
+def check_limits(runner: Runner) -> None:
+    """Make sure before a run that each of its limits has a finding: at its end it would be late.
+
+    Raises:
+        InvalidInput: one has none.
+    """
+    if runner.setup.limits:
+        limited(runner.task.judge(runner.cell.truth), runner.setup.limits)
+
+
+def limited(findings: Findings, limits: Limits) -> Findings:
+    """Findings against other limits.
+
+    Raises:
+        InvalidInput: there is no finding of the name of a limit.
+    """
+    found = dict(findings)
+    for name, limit in limits.items():
+        if name not in found:
+            near = suggestion(name, found) or f"there are {', '.join(map(quoted, found))}"
+            raise InvalidInput(f"the referee has no finding {quoted(name)}; {near}")
+        found[name] = found[name].limited(limit)
+    return found

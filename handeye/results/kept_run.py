@@ -1,0 +1,190 @@
+"""What is known of a run from its folder, which stays as it is: its result, or how far it has come."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from msgspec import UNSET
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.execution.state import ExecutionState
+from handeye.planfile.store import written_digest
+from handeye.program.cause_text import call_sentence
+from handeye.program.events import (
+    AnyEvent,
+    OperatorCalled,
+    PanicStopped,
+    RunFinished,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    beginning,
+)
+from handeye.results.kept_result import read_result
+from handeye.results.result import Result
+from handeye.results.summary import camera_report, interventions, stage_times, timing, warnings
+from handeye.runs.checkpoint_store import CheckpointStore
+from handeye.runs.folder import CHECKPOINTS, EVENTS, HOST, PLAN, RESULT
+from handeye.runs.host_seconds import HostSeconds, read_host_seconds
+from handeye.runs.parts import deciding
+from handeye.runs.snapshot import Checkpoint
+from handeye.runs.system import Listing
+from handeye.runs.systems import system_kind
+from handeye.trace.eventlist import effective, read_events
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptRun:
+    """A run as its folder tells of it."""
+
+    result: Result
+    missing: tuple[str, ...] = ()
+    """Names of what an older handeye did not record."""
+    faults: tuple[str, ...] = ()
+    """What of the folder cannot be read, a sentence each."""
+    left: bool = True
+    """The run has left a result."""
+
+
+def kept_run(path: Path) -> KeptRun:
+    """What the folder of a run tells of it.
+
+    Raises:
+        InvalidInput: it is no folder of a run, the run has not begun, or what is there cannot be read.
+    """
+    faults = []
+    if (path / RESULT).exists():
+        result, missing = read_result(path / RESULT)
+        if _belongs(result, missing, _readable_events(path)):
+            return KeptRun(result=result, missing=missing)
+        faults.append(
+            f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
+        )
+    if not (path / EVENTS).exists() and not (path / PLAN).exists():
+        raise InvalidInput(f"{path} is not the folder of a run: it has no {PLAN}")
+    events = effective(read_events(path / EVENTS, growing=True)) if (path / EVENTS).exists() else []
+    if not events:
+        raise InvalidInput(f"the run in {path} has not begun")
+    return _so_far(path, events, faults)
+
+
+def _readable_events(path: Path) -> list[AnyEvent]:
+    """The events in the folder of a run; none if they cannot be read."""
+    try:
+        return effective(read_events(path / EVENTS, growing=True))
+    except InvalidInput:
+        return []
+
+
+def _belongs(result: Result, missing: Sequence[str], events: Sequence[AnyEvent]) -> bool:
+    """A result may be that of the run of these events, by the program, the task and the world that both name."""
+    begun = next((event for event in events if isinstance(event, RunStarted)), None)
+    names = [name for name in ("program", "task", "world") if name not in missing]
+    return begun is None or (
+        result.seed == begun.world.seed
+        and all(getattr(result, name) == getattr(begun, name) for name in names)
+    )
+
+
+def has_ended(path: Path, newest: Checkpoint, *, judged: bool) -> bool:
+    """See whether the run in a folder has come to its end, its result is there, and (`judged`) the referee's word.
+
+    Args:
+        newest: its newest checkpoint.
+    """
+    if not newest.ended or not (path / RESULT).exists():
+        return False
+    try:
+        result, missing = read_result(path / RESULT)
+    except InvalidInput:  # it is made anew
+        return False
+    own = _belongs(result, missing, newest.events)
+    told = result.assembled is not None or result.apart is not UNSET
+    return own and result.completed and (told or not judged)
+
+
+def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> KeptRun:
+    """A run that has left no result, by its events; `faults` are known already."""
+    begun, last = events[0], events[-1]
+    if not isinstance(begun, RunStarted):
+        raise InvalidInput(f"{path / EVENTS} is an event list without the start of a run")
+    listing = _listing(path, begun)
+    stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
+    if not stages <= set(listing.stages):
+        raise InvalidInput(f"{path / EVENTS} tells of stages that the plan beside it lacks")
+    host, unread = _host(path)
+    checkpoint, damaged = CheckpointStore(path / CHECKPOINTS).newest()
+    state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state
+    calibration = state.calibration if isinstance(state, ExecutionState) else None
+    call = _call(events)
+    result = Result(
+        assembled=None,
+        completed=isinstance(last, RunFinished) and last.completed,
+        paused=not isinstance(last, RunFinished),
+        stopped_at=_stage(events),
+        error=None if call is None else call.error,
+        message=_message(events, call),
+        interventions=tuple(interventions(events)),
+        warnings=tuple(warnings(events)),
+        stages=stage_times(listing.stages, events),
+        timing=timing(events, last.time, host),
+        referee={},
+        task=begun.task,
+        program=begun.program,
+        seed=begun.world.seed,
+        world=begun.world,
+        camera=camera_report(begun.camera, calibration),
+        versions=begun.versions,
+        replaced=deciding(begun.own_parts) or UNSET,
+        without=begun.without,
+    )
+    return KeptRun(result=result, faults=(*faults, *unread, *damaged), left=False)
+
+
+def _listing(path: Path, begun: RunStarted) -> Listing:
+    """Stages and steps of the plan in a folder.
+
+    Raises:
+        InvalidInput: it is not sound, or not the one that is carried out.
+    """
+    kind, data = system_kind(begun.system), read_whole(path / PLAN)
+    plan = kind.decode(data, str(path / PLAN))
+    if written_digest(kind.encode(plan)) != begun.plan:
+        raise InvalidInput(f"{path / PLAN} is not the plan that was carried out")
+    return kind.listing(plan)
+
+
+def _host(path: Path) -> tuple[HostSeconds, list[str]]:
+    """What a run has cost the host, as far as that is recorded, and what is wrong with the record."""
+    try:
+        return read_host_seconds(path / HOST) or HostSeconds(), []
+    except InvalidInput as fault:
+        return HostSeconds(), [str(fault)]
+
+
+def _call(events: Sequence[AnyEvent]) -> OperatorCalled | None:
+    """The call of the operator that a run stands at."""
+    standing = [event for event in events if not isinstance(event, StageFinished | RunFinished)]
+    return standing[-1] if standing and isinstance(standing[-1], OperatorCalled) else None
+
+
+def _stage(events: Sequence[AnyEvent]) -> str | None:
+    """The stage under way, or the one in which a run was stopped."""
+    turn = next((e for e in reversed(events) if isinstance(e, StageStarted | StageFinished)), None)
+    done = turn is None or (isinstance(turn, StageFinished) and turn.status != "stopped")
+    return None if done or turn is None else turn.stage
+
+
+def _message(events: Sequence[AnyEvent], call: OperatorCalled | None) -> str:
+    """How a run stands that has left no result, without a full stop."""
+    last = events[-1]
+    when = f"at {last.time - beginning(events):.1f} s"
+    if call is not None:
+        return call_sentence(call.message, call.error, call.cause)
+    if isinstance(last, RunFinished):
+        return "the run has ended, and left no result"
+    if isinstance(last, PanicStopped):
+        return f"interrupted {when}"
+    return f"under way or broken off {when}"

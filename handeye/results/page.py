@@ -1,0 +1,218 @@
+"""The result of a run as a page for the terminal."""
+
+from collections.abc import Iterator, Mapping
+
+import msgspec
+from msgspec import UNSET
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from handeye.core.diagnostics import visible
+from handeye.results.result import Check, Result
+from handeye.tasks import known, known_any
+from handeye.tasks.interface import Period, Words
+
+TimingRow = tuple[str, float, float | None]
+"""Name, seconds here, and seconds of its day; None: nobody told."""
+_NEUTRAL = Words(done="The referee found everything right.", product="the work")
+"""Of a task that only the program knew that began the run."""
+_MARK = {
+    "done": ("✓", "green"),
+    "under way": ("▸", "yellow"),
+    "skipped": ("–", "yellow"),
+    "stopped": ("✗", "red"),
+    "not reached": ("·", "dim"),
+    "undone": ("↶", "green"),
+}
+
+
+def page(result: Result) -> RenderableType:
+    """Stages, times of a run that is over, calibration of the camera, findings of the referee, and the verdict."""
+    result = printable(result)
+    parts: list[RenderableType] = [stages(result)]
+    if not result.paused:
+        parts += [Text(), timing(result), camera(result)]
+    elif result.camera.residual_in is not None:
+        parts += [Text(), camera(result)]
+    if result.checks:
+        parts += [Text(), referee(result)]
+    parts += [Text(f"broken: {told}", "yellow") for told in told_faults(result)]
+    limits = (result.limits or {}).items()
+    parts += [Text(f"limit of {name} set by the caller: {limit:g}", "yellow") for name, limit in limits]
+    parts += [Text(sentence, "yellow") for sentence in result.warnings]
+    parts += [Text(f"by a person: {sentence}", "yellow") for sentence in result.interventions]
+    return Group(*parts, Text(), verdict(result))
+
+
+def told_faults(result: Result) -> Iterator[str]:
+    """The faults that a run was given, each as it would be typed."""
+    task = known(result.task)
+    for fault in result.world.faults:
+        yield str(fault) if task is None else task.faults(result.seed).told(fault)
+
+
+def printable(result: Result) -> Result:
+    """A result whose words cannot steer a terminal, wherever they are from."""
+
+    def made(value: object) -> object:
+        match value:
+            case str():
+                return visible(value)
+            case dict():
+                return {visible(name): made(item) for name, item in value.items()}
+            case list() | tuple():
+                return [made(item) for item in value]
+        return value
+
+    return msgspec.convert(made(msgspec.to_builtins(result)), Result)
+
+
+def stages(result: Result) -> Table:
+    """The stages with status and arm time."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("")
+    table.add_column("stage")
+    table.add_column("status")
+    table.add_column("arm time", justify="right")
+    for stage in result.stages:
+        mark, style = _MARK[stage.status]
+        seconds = f"{stage.arm_s:.1f} s" if stage.status != "not reached" else ""
+        table.add_row(Text(mark, style), Text(stage.name), Text(stage.status, style), seconds)
+    return table
+
+
+def timing(result: Result) -> Table:
+    """The timing table; beside that of its day, if the program is one that was timed then."""
+    t, then = result.timing, period(result)
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for name in ("", "here", "" if then is None else str(then.year)):
+        table.add_column(name, justify="left" if not name else "right")
+    for name, seconds, at_that_time in _rows(result, {} if then is None else then.times):
+        table.add_row(name, clock(seconds), "" if at_that_time is None else clock(at_that_time))
+    if t.real_time_factor >= 0.05:
+        since = f" from step {t.host_from_step} on" if t.host_from_step else ""
+        simulated = (f"simulated{since} in", clock(t.run_wall_s), f"{t.real_time_factor:.1f}x real time")
+        table.add_row(*(Text(text, "dim") for text in simulated))
+    return table
+
+
+def _rows(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
+    """What the computer takes, and around it what passes on the cell's clock."""
+    t = result.timing
+    if t.planning_cpu_s:  # the plan may have been there already
+        yield "planning phase (processor)", t.planning_cpu_s, then.get("planning")
+    yield from cell_times(result, then)
+    if result.camera.used:
+        yield "vision (processor)", t.vision_cpu_s, then.get("vision")
+
+
+def cell_times(result: Result, then: Mapping[str, float]) -> Iterator[TimingRow]:
+    """Name, seconds on the cell's clock, and those of its day, if there are any; the one sum is of both parts."""
+    t, sees = result.timing, result.camera.used
+    if t.friction_s:
+        yield "friction of the joints", t.friction_s, None
+    if t.calibration_s:
+        yield "camera calibration" if sees else "before the working phase", t.calibration_s, None
+    worked = then["manipulation"] + then["lens"] if then else None
+    yield "working phase, without vision", t.working_s, worked
+    yield "  manipulation", t.manipulation_s, then.get("manipulation")
+    if sees:
+        yield "  lens change, aim and focus", t.lens_s, then.get("lens")
+    if t.overlapped_s:
+        yield "    and while the arm moved", t.overlapped_s, None
+
+
+def period(result: Result) -> Period | None:
+    """The times of 1973, or of whenever it was, if they are those of this program; None of a task unknown here.
+
+    In its day nothing was undone.
+    """
+    if result.apart is not UNSET:
+        return None
+    task = known(result.task)
+    then = None if task is None else task.period
+    return then if then is not None and then.program == result.program else None
+
+
+def camera(result: Result) -> Text:
+    """Line on the camera: how pictures were made, and how well it was calibrated."""
+    seen = result.camera
+    if seen.residual_in is None:
+        return Text(f"camera: {seen.renderer}; not used", "dim")
+    lenses = ", ".join(f"{lens} {rms:.1f} points" for lens, rms in seen.sightings_rms_px.items())
+    return Text(
+        f"camera: {seen.renderer}; calibrated to {seen.residual_in:.2f} in rms on the table ({lenses})", "dim"
+    )
+
+
+def clock(seconds: float) -> str:
+    """Minutes and seconds, or seconds with as many places as they deserve."""
+    if seconds >= 60:
+        whole = round(seconds)
+        return f"{whole // 60}:{whole % 60:02d} min"
+    return f"{seconds:.0f} s" if seconds >= 10 else f"{seconds:.2f} s"
+
+
+def referee(result: Result) -> Table:
+    """Tell what the referee measured on the finished work, and when it was undone."""
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("")
+    table.add_column("referee")
+    table.add_column("value", justify="right")
+    table.add_column("limit", justify="right")
+    table.add_column("unit")
+    for check in result.checks:
+        mark = _mark(check)
+        sign = ">=" if check.relation == "at least" else "<="
+        figures = f"{check.value:.3g}", f"{sign} {check.limit:.3g}"
+        table.add_row(mark, Text(check.subject), *figures, Text(check.unit))
+    return table
+
+
+def _mark(check: Check) -> Text:
+    if check.ok:
+        return Text("✓", "green")
+    return Text("✗", "red") if check.refuses else Text("!", "yellow")
+
+
+def verdict(result: Result) -> Text:
+    """The last word."""
+    if result.paused:
+        return Text(f"{result.message[:1].upper()}{result.message[1:]}.", "bold")
+    if not result.completed:
+        where = f" in stage “{result.stopped_at}”" if result.stopped_at else ""
+        number = f" (error {result.error})" if result.error is not None else ""
+        return Text(f"Stopped{where}{number}: {result.message}", "bold red")
+    if result.apart is not UNSET:
+        return _apart(result)
+    if result.assembled is None:
+        return Text("The program came to its end.", "bold")
+    task = known_any(result.task)
+    words = _NEUTRAL if task is None else task.words
+    if result.assembled:
+        doubt = "; ".join(result.cautions)
+        return (
+            Text(f"{words.done} Caution: {doubt}", "bold yellow") if doubt else Text(words.done, "bold green")
+        )
+    wrong = "; ".join(wrong_points(result))
+    return Text(f"The program reported success, but {words.product} is not right: {wrong}", "bold red")
+
+
+def _apart(result: Result) -> Text:
+    """The last word on a run in which the arm has undone what it did."""
+    if result.apart is None:
+        return Text("Undone as far as was asked for.", "bold")
+    task = known_any(result.task)
+    words = _NEUTRAL if task is None else task.words
+    wrong = "; ".join(wrong_points(result))
+    if not result.apart:
+        return Text(f"The arm has undone what it did, but not everything is back: {wrong}", "bold red")
+    if result.assembled is False:
+        return Text(f"{words.apart} Before that {words.product} was not right: {wrong}", "bold red")
+    return Text(words.apart, "bold green")
+
+
+def wrong_points(result: Result) -> list[str]:
+    """What the referee found not to be as it should, a sentence each."""
+    return [check.sentence for check in result.checks if check.refuses]

@@ -1,0 +1,69 @@
+"""Sentences about a run that pauses."""
+
+from handeye.core.errors import ERRORS
+from handeye.core.plain_text import counted
+from handeye.core.source import line_name
+from handeye.program.cause_text import call_sentence
+from handeye.runs import stops
+from handeye.runs.advance import Pause
+from handeye.runs.stops import AnyStop
+
+
+def pause_sentence(pause: Pause) -> str:
+    """Say why a run pauses, without a full stop."""
+    if pause.met is not None:
+        return _met(pause.met)
+    if pause.kind == "panic":
+        return f"stopped by the panic button{' on the way back' if pause.back else ''}; the brakes are set"
+    if pause.kind == "end":
+        return "what the arm was to undo is undone" if pause.undone else "the program came to its end"
+    return call_sentence(pause.message, pause.error, pause.cause)
+
+
+def stop_name(stop: AnyStop) -> str:
+    """Name a stop condition as people do: `line 58`, `label L1`, `AOJ`, `stage 4, ...`, `error 23`."""
+    match stop:
+        case stops.AtLine():
+            return f"line {line_name(stop.line, stop.file)}"
+        case stops.AtLabel():
+            return f"label {stop.label}"
+        case stops.AtInstruction():
+            return stop.word
+        case stops.BeforeStep():
+            return f"step {stop.step}"
+        case stops.AtStage() | stops.AfterStage():
+            return f"stage {stop.stage + 1}, {stop.name}"
+        case stops.OnError():
+            return f"error {stop.number}"
+        case stops.Undone():
+            return "undone"
+        case stops.AfterSteps():
+            return counted(stop.count, "step")
+        case stops.Asked():
+            return "when asked"
+        case stops.ByHand():
+            return "by hand"
+        case stops.BrokenOff():
+            return stop.exception
+
+
+def _met(stop: AnyStop) -> str:
+    match stop:
+        case stops.BeforeStep():
+            return f"paused before {stop_name(stop)}"
+        case stops.AfterStage():
+            return f"{stop_name(stop)}, has ended"
+        case stops.OnError():
+            return f"breakpoint on {stop_name(stop)}: {ERRORS[stop.number]}"
+        case stops.AfterSteps():
+            return f"{stop_name(stop)} done"
+        case stops.Undone():
+            return "undone; the program can go on from here"
+        case stops.Asked():
+            return "paused as asked"
+        case stops.ByHand():
+            return "left by the user"
+        case stops.BrokenOff():
+            return f"broken off by {stop_name(stop)} in the program that called handeye"
+        case _:
+            return f"breakpoint at {stop_name(stop)}"

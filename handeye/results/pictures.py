@@ -1,0 +1,76 @@
+"""The pictures that a run leaves: those the program took, with what it found in them, and the end."""
+
+from pathlib import Path
+from typing import Final
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from handeye.cell.photograph import photograph_png
+from handeye.cell.posed import as_it_stands
+from handeye.core.errors import InvalidInput
+from handeye.core.files import write_whole
+from handeye.execution.context import ExecutionContext
+from handeye.execution.state import Found
+from handeye.runs.runner import Runner
+from handeye.runs.systems import written
+from handeye.systems.stanford.executor_run import ProgramSystem, context_of
+from handeye.vision.drawing import annotate
+
+_WIDE: Final = 480
+"""Points of a small picture, from left to right."""
+_QUALITY: Final = 70
+
+
+def annotated_png(run: ExecutionContext, name: str) -> bytes:
+    """A picture the program took, with what it found in it, as a PNG file.
+
+    Raises:
+        InvalidInput: what it found is so far outside that it cannot be drawn.
+    """
+    done, data = cv2.imencode(".png", _annotated(run, name))
+    assert done
+    return data.tobytes()
+
+
+def annotated_webp(run: ExecutionContext, name: str) -> bytes:
+    """The same as a small WebP file, for pages.
+
+    Raises:
+        InvalidInput: as `annotated_png`.
+    """
+    image = _annotated(run, name)
+    high = round(_WIDE * image.shape[0] / image.shape[1])
+    small = cv2.resize(image, (_WIDE, high), interpolation=cv2.INTER_AREA)
+    done, data = cv2.imencode(".webp", small, [cv2.IMWRITE_WEBP_QUALITY, _QUALITY])
+    assert done
+    return data.tobytes()
+
+
+def _annotated(run: ExecutionContext, name: str) -> NDArray[np.uint8]:
+    found = run.state.found.get(name, Found())
+    try:
+        return annotate(run.state.shots[name].picture, found.marks())
+    except ValueError:
+        raise InvalidInput(f"the findings in picture {name} cannot be drawn") from None
+
+
+def keep_pictures(folder: Path, runner: Runner) -> None:
+    """Write the program's pictures, and photographs of the cell as it is where there is OpenGL.
+
+    Raises:
+        InvalidInput: the folder cannot be written to.
+    """
+    try:
+        folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
+    except OSError as error:
+        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+    for name in runner.system.state.shots if isinstance(runner.system, ProgramSystem) else ():
+        write_whole(folder / f"{name.lower()}.png", annotated_png(context_of(runner.system), name))
+    if runner.cell.renderer.method == "opengl" and runner.task.photographs:
+        posed = as_it_stands(
+            runner.task.recorded_scene(runner.setup.world, written(runner.setup)), runner.cell.truth
+        )
+        for camera in runner.task.photographs:
+            write_whole(folder / f"end_{camera}.png", photograph_png(*posed, camera, 1280, 960))

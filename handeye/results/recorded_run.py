@@ -1,0 +1,43 @@
+"""A recorded run with what its folder tells of it besides its trace."""
+
+from pathlib import Path
+
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole
+from handeye.report.recorded import Recorded
+from handeye.results.kept_run import kept_run
+from handeye.results.result import Result
+from handeye.runs.folder import PICTURES, RESULT
+from handeye.tasks import known
+from handeye.trace.trace import Trace
+
+
+def recorded_run(run: Path, trace: Trace, *, whole: bool = True) -> Recorded:
+    """A run of which the trace was read.
+
+    Args:
+        run: its folder, or its trace.
+        whole: the trace was read to its end.
+    """
+    result, remarks = _result(run)
+    return Recorded(trace=trace, whole=whole, result=result, end=_end(run, trace), remarks=remarks)
+
+
+def _end(run: Path, trace: Trace) -> bytes | None:
+    """The picture of its end in the folder of a run: that which shows the work."""
+    task = known(trace.head.task)
+    views = () if task is None else task.photographs
+    files = (run / PICTURES / f"end_{view}{ending}" for view in views[-1:] for ending in (".png", ".webp"))
+    found = next(filter(Path.is_file, files), None)
+    return None if found is None else read_whole(found)
+
+
+def _result(run: Path) -> tuple[Result | None, tuple[str, ...]]:
+    """What the folder of a run says that it came to, if it says so, and what is wrong with that."""
+    if not (run / RESULT).is_file():
+        return None, ()
+    try:
+        kept = kept_run(run)
+    except InvalidInput as fault:
+        return None, (str(fault),)
+    return (kept.result if kept.left else None), kept.faults

@@ -1,0 +1,189 @@
+"""The result of a run: one record, printed as a page or as one JSON object."""
+
+from typing import Literal
+
+import msgspec
+from msgspec import UNSET, UnsetType
+
+from handeye.core.record import Record
+from handeye.core.variation import WorldSpec
+from handeye.judge.finding import Finding, Relation
+from handeye.program.senses import Sense
+
+Status = Literal["done", "under way", "skipped", "stopped", "not reached", "undone"]
+"""How far a stage has come."""
+
+
+class Stage(Record, frozen=True, kw_only=True):
+    """A stage of the program; `arm_s` is simulated seconds without those in which the arm waited for the camera."""
+
+    name: str
+    status: Status
+    arm_s: float
+
+
+class Timing(Record, frozen=True, kw_only=True):
+    """Times of a run, simulated and of the host; no field adds one to the other.
+
+    Equal runs have equal simulated seconds. What ends in `_cpu_s` (seconds of a processor) or `_wall_s` (seconds of a
+    clock) is the host's, is another each time, and is summed over all sessions of a run that was resumed.
+    """
+
+    friction_s: float | None
+    """Simulated: the arm measured the friction of its joints, before the working phase. None: an older handeye, which
+    did not."""
+    calibration_s: float | None
+    """Simulated: the camera was calibrated, before the working phase. None, here and below: an older handeye did
+    not record it."""
+    manipulation_s: float
+    """Simulated: the working phase but for the time in which the arm waited for the camera."""
+    lens_s: float
+    """Simulated: the arm waited for lens change, aim, focus and pictures."""
+    overlapped_s: float | None
+    """Simulated: besides, the camera's mechanism was busy while the arm went on. None: an older handeye, which let it
+    wait."""
+    working_s: float
+    """Simulated: the working phase, which is manipulation and lens."""
+    planning_cpu_s: float
+    """0: the plan was there already."""
+    vision_cpu_s: float
+    run_cpu_s: float | None
+    run_wall_s: float
+    """From the start of the process, or the call from Python, to the verdict; waiting for people included."""
+    real_time_factor: float
+    """Simulated seconds, those of setting up included, for one of `run_wall_s`: the host's, and another each time."""
+    host_from_step: int | None
+    """Steps done before the host's seconds were counted; 0: they are those of the whole run."""
+
+
+class Check(Record, frozen=True, kw_only=True):
+    """One finding of the referee, as results keep it: a `Finding` with its sentence."""
+
+    ok: bool
+    subject: str
+    value: float
+    """In `unit`, as `limit`; null in JSON: it is not finite."""
+    relation: Relation
+    limit: float
+    unit: str
+    sentence: str
+    """All of it for people, but the value."""
+    caution: bool = False
+    """If it is not `ok`, that is told, and the work may be right all the same."""
+
+    @classmethod
+    def of(cls, found: Finding) -> "Check":
+        """A finding with the sentence that tells of it."""
+        return cls(
+            ok=found.ok,
+            subject=found.subject,
+            value=float(found.value),
+            relation=found.relation,
+            limit=float(found.limit),
+            unit=found.unit,
+            sentence=f"{found.subject} ({found.relation} {found.limit:g} {found.unit})",
+            caution=found.caution,
+        )
+
+    @property
+    def refuses(self) -> bool:
+        """The work is not right for it."""
+        return not self.ok and not self.caution
+
+    @property
+    def told(self) -> str:
+        """All of it for people."""
+        return f"{self.sentence}: {self.value:.3g}"
+
+    def limited(self, limit: float) -> "Check":
+        """The same measurement against another limit, in the same unit; what does not keep to that one refuses."""
+        facts = {name: getattr(self, name) for name in self.__struct_fields__ if name != "sentence"}
+        return Check.of(Finding(**facts).limited(limit))
+
+
+class CameraReport(Record, frozen=True, kw_only=True):
+    """Report on the camera: renderer and calibration."""
+
+    renderer: str
+    sightings_rms_px: dict[str, float]
+    """Residual for each lens."""
+    residual_in: float | None
+    """On the table, inches; None where the program takes no picture and nobody calibrated."""
+
+    @property
+    def used(self) -> bool:
+        """Somebody has calibrated it."""
+        return self.residual_in is not None
+
+
+class Result(Record, frozen=True, kw_only=True):
+    """Result of a run.
+
+    Equal runs have equal `events`. Their results differ, for `timing` has seconds of the host too.
+    """
+
+    assembled: bool | None
+    """The referee's word; None if nobody was asked."""
+    completed: bool
+    """The program came to its end, or the arm to the end of what it was to undo."""
+    paused: bool
+    """The run stands before its end: that was asked for, or it was interrupted, or is under way."""
+    stopped_at: str | None
+    error: int | None
+    message: str
+    interventions: tuple[str, ...]
+    """Interventions in the run, a sentence each."""
+    stages: tuple[Stage, ...]
+    timing: Timing
+    referee: dict[str, Check]
+    """Findings by their names; none if nobody was asked, or if the program did not come to its end: see `message`."""
+    task: str
+    program: str
+    seed: int
+    world: WorldSpec
+    camera: CameraReport
+    versions: dict[str, str]
+    warnings: tuple[str, ...] = ()
+    """What in the run may be other than it looks, a sentence each."""
+    limits: dict[str, float] | UnsetType = UNSET
+    """Limits that somebody put in the place of the referee's own, by the names of its findings."""
+    replaced: dict[str, str] | UnsetType = UNSET
+    """Parts that code of whoever began the run took the place of, with the names of that code."""
+    without: tuple[Sense, ...] | UnsetType = UNSET
+    """Senses that the program did without."""
+    apart: bool | UnsetType | None = UNSET
+    """Of a run in which the arm has undone what it did, the referee's word whether everything lies where it was found;
+    None: nobody was asked, or not all of it is undone."""
+    built: dict[str, Check] | UnsetType = UNSET
+    """Findings on what a job has built, as it was before it took that back: `referee` has those after."""
+
+    @property
+    def judged(self) -> bool | None:
+        """The referee's word on what was built, on what was taken apart, or on both; None: nobody was asked."""
+        words = [word for word in (self.assembled, self.apart) if isinstance(word, bool)]
+        return all(words) if words else None
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """All findings of the referee, those on what was built first."""
+        return (*(self.built or {}).values(), *self.referee.values())
+
+    @property
+    def cautions(self) -> tuple[str, ...]:
+        """What the referee found that is not as it should be and does not make the work wrong, a sentence each."""
+        return tuple(check.told for check in self.checks if not check.ok and check.caution)
+
+    @property
+    def exit_code(self) -> int:
+        """0 assembled, 1 the operator was called, 3 the program said done and the referee disagrees."""
+        if self.paused:
+            return 0
+        if not self.completed:
+            return 1
+        return 3 if self.judged is False else 0
+
+
+def to_json(result: Result, *, line: bool = False) -> bytes:
+    """The result as one JSON object, laid out for people or on one `line`, with a final newline."""
+    encoded = msgspec.json.encode(result)
+    return (encoded if line else msgspec.json.format(encoded, indent=1)) + b"\n"

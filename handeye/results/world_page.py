@@ -1,0 +1,117 @@
+"""The quantities of a world, as a page for the terminal or as one JSON object."""
+
+from collections.abc import Iterator
+from itertools import groupby
+from textwrap import fill
+from typing import Literal
+
+import msgspec
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from handeye.core.distributions import Fixed, Noise, Normal, Range, Step, Uniform
+from handeye.core.variation import SPREADS, Quantity, Variation, World, WorldSpec
+
+
+class QuantityReport(msgspec.Struct, frozen=True, kw_only=True):
+    """Value of a quantity in one world. Figures are in its unit, but for `si`."""
+
+    name: str
+    value: float
+    unit: str
+    si: float
+    """The value in SI units."""
+    distribution: str
+    spread: float | tuple[float, float] | None
+    """Sigma, half range or size at the level of this world; least and greatest of a range."""
+    nominal: float
+    override: Literal["off", "set"] | None
+    source: str
+    """What it is, with others of its kind, and where that is from."""
+
+
+class WorldReport(msgspec.Struct, frozen=True, kw_only=True):
+    """All quantities of a world."""
+
+    world: WorldSpec
+    quantities: tuple[QuantityReport, ...]
+
+
+def report(table: Variation, world: World) -> WorldReport:
+    """The quantities of a world, in the order of the table."""
+    return WorldReport(world=world.spec, quantities=tuple(_reported(table, world)))
+
+
+def world_json(table: Variation, world: World) -> bytes:
+    """The quantities of a world as one JSON object."""
+    return msgspec.json.format(msgspec.json.encode(report(table, world)), indent=1) + b"\n"
+
+
+def world_page(table: Variation, world: World, columns: int) -> RenderableType:
+    """The quantities of a world, for a terminal of so many columns; those of one source stand below it."""
+    found = report(table, world).quantities
+    parts: list[RenderableType] = [Text(fill(f"The world of {world.spec}", columns), "bold")]
+    width = min(max(len(quantity.name) for quantity in found), columns - 20)
+    for source, quantities in groupby(found, lambda quantity: quantity.source):
+        parts += [
+            Text(),
+            Text(fill(source, columns), "dim"),
+            *(_row(quantity, width, columns) for quantity in quantities),
+        ]
+    return Group(*parts)
+
+
+def _reported(table: Variation, world: World) -> Iterator[QuantityReport]:
+    off = {q.name for name in world.spec.overrides.without for q in table.select(name)}
+    for name, quantity in table.quantities.items():
+        given: Literal["off", "set"] | None = "off" if name in off else None
+        yield QuantityReport(
+            name=name,
+            value=world[name] / quantity.measure.size,
+            unit=quantity.unit,
+            si=world[name],
+            distribution=quantity.distribution.name,
+            spread=_spread(quantity, SPREADS[world.spec.level]),
+            nominal=quantity.nominal,
+            override="set" if name in world.spec.overrides.set else given,
+            source=quantity.source,
+        )
+
+
+def _spread(quantity: Quantity, factor: float) -> float | tuple[float, float] | None:
+    match quantity.distribution:
+        case Range(low, high):
+            return low, high
+        case Step(spread):
+            return spread
+        case Normal(spread) | Uniform(spread) | Noise(spread) | Fixed(spread):
+            return factor * spread
+    return None
+
+
+def _row(quantity: QuantityReport, width: int, columns: int) -> Text:
+    """A line of the page, or two if it has not the columns; names have `width` of them."""
+    how = f"({_how(quantity)})" if quantity.override else _how(quantity)
+    row = Text(f"  {quantity.name.ljust(width)} {quantity.value:10.4g} {quantity.unit:5}")
+    told = (
+        Text(" ").append(quantity.override or "", "yellow").append(" " * bool(quantity.override)).append(how)
+    )
+    return row.append("" if len(row) + len(told) <= columns else "\n     ").append(told)
+
+
+def _how(quantity: QuantityReport) -> str:
+    """How a quantity is distributed."""
+    unit = quantity.unit and f" {quantity.unit}"
+    about = f" about {quantity.nominal:g}{unit}" if quantity.nominal else ""
+    match quantity.spread:
+        case (low, high):
+            return f"{low:g} to {high:g}{unit}"
+        case float(spread) if quantity.distribution == Normal.name:
+            return f"sigma {spread:g}{unit}{about}"
+        case float(spread) if quantity.distribution == Uniform.name:
+            return f"within {spread:g}{unit}{about}"
+        case float(spread) if quantity.distribution == Noise.name:
+            return f"noise, sigma {spread:g}{unit}"
+        case float(spread):
+            return f"always {spread:g}{unit}"
+    return "anywhere in a turn"

@@ -1,1 +1,0 @@
-"""Shows runs to people: reads traces and results, and drives nothing."""

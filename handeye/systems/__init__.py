@@ -1,0 +1,1 @@
+"""Systems of the period, a folder each: language, machines, runs, words and commands."""

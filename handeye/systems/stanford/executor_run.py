@@ -1,0 +1,324 @@
+"""Executor of programs in the cell of a task: the first system that runs drive."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import Final
+
+import numpy as np
+from msgspec import UNSET
+
+from handeye.cell.simulated import SimulatedCell, SimulationError
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import counted
+from handeye.core.units import DEGREE, INCH
+from handeye.core.versions import versions
+from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
+from handeye.execution.context import ExecutionContext
+from handeye.execution.devices import check_devices
+from handeye.execution.executor import Executor
+from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
+from handeye.execution.state import ExecutionState
+from handeye.execution.undo.done import Done, Undoing
+from handeye.execution.undo.undoing import order
+from handeye.planfile.plan import Plan
+from handeye.planfile.store import decode, encode, plan_digest
+from handeye.program.causes import ArmNames
+from handeye.program.events import AnyEvent, Choice, FrictionMeasured, JointFriction, RunStarted
+from handeye.program.program import Position
+from handeye.program.system_state import SystemState
+from handeye.runs.setup import Setup, plan_of
+from handeye.runs.system import Settable, Surroundings, System, SystemKind
+from handeye.systems.stanford.conditions import Conditions, conditions_of
+from handeye.systems.stanford.kept_calibrations import KeptCalibrations
+from handeye.systems.stanford.preparation import Preparation, preparation_of, take_up
+from handeye.tasks import task
+from handeye.tasks.interface import Eye
+from handeye.touch.spiral import spiral
+
+
+class ProgramSystem(System):
+    """Carries out a plan with the arm of a simulated cell."""
+
+    def __init__(self, setup: Setup, around: Surroundings) -> None:
+        """Build the cell.
+
+        Raises:
+            InvalidInput: the plan is for another arm, or the camera cannot work as asked.
+        """
+        self._setup, self._halt, self._viewed = setup, around.halt, around.viewed
+        self._anew, self._kept_until = around.calibrate, 0.0
+        self._unkept: str | None = None
+        self.plan = plan_of(setup)
+        self._eye, self.arm = task(setup.task).eye, task(setup.task).arm
+        check(setup)
+        self._cell = task(setup.task).cell(setup.world, around.parts.camera or setup.camera)
+        check_devices(self.plan.program, self._cell.devices)
+        self.run = ExecutionContext(
+            plan=self.plan,
+            arm=self.arm,
+            cell=self._cell.devices,
+            camera=None if self._eye is None else self._eye.drawing,
+            emit=around.emit,
+            search=around.parts.search or spiral,
+            without=frozenset(setup.without),
+            vision=around.vision,
+        )
+        self.run.drive.halt, self.run.drive.watch = around.halt, around.watch
+        self.executor = Executor(run=self.run)
+
+    @property
+    def state(self) -> ExecutionState:
+        return self.run.state
+
+    @property
+    def cell(self) -> SimulatedCell:
+        return self._cell
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(joint.name for joint in self.arm.joints)
+
+    @property
+    def time(self) -> float:
+        return self.run.time
+
+    @property
+    def trouble(self) -> str | None:
+        return self.state.unable
+
+    @property
+    def kept_until(self) -> float:
+        return self._kept_until
+
+    @property
+    def unkept(self) -> str | None:
+        return self._unkept
+
+    # -- going on -------------------------------------------------------------------------------------
+
+    def begin(self) -> Sequence[AnyEvent]:
+        if self._eye is not None and self.plan.program.written("picture"):
+            seconds = self._prepare(self._eye)
+        else:
+            seconds = self._measure_joints()
+        if self.trouble is not None:
+            with suppress(SimulationError):  # broken physics has no brakes either
+                self.run.drive.stop()
+        return [self._started(), *self._friction(seconds)]
+
+    def _prepare(self, eye: Eye) -> float:
+        """Measure joints and camera, unless an earlier run has kept that; simulated seconds for the joints."""
+        kept = KeptCalibrations.of_user()
+        conditions = None if kept.folder is None else conditions_of(self._setup, self._cell.renderer)
+        earlier = None if conditions is None or self._anew else kept.find(conditions)
+        if earlier is not None and self._goes_on_from(earlier):
+            return earlier.friction_s
+        seconds = self._measure_joints()
+        if self.trouble is None:
+            self._calibrate(eye)
+        if self.trouble is None:
+            made = preparation_of(self.run, self._cell, seconds)
+            take_up(made, self.run, self._cell)  # as a later run will
+            if conditions is not None:
+                self._keep(kept, conditions, made)
+        return seconds
+
+    def _goes_on_from(self, earlier: Preparation) -> bool:
+        """Take up what an earlier run has kept; False if it cannot be used, and nothing is changed."""
+        try:
+            take_up(earlier, self.run, self._cell)
+        except InvalidInput:
+            return False
+        self._kept_until = self.time
+        self._take_calibration()
+        return True
+
+    def _keep(self, kept: KeptCalibrations, conditions: Conditions, made: Preparation) -> None:
+        try:
+            kept.keep(conditions, made)
+        except InvalidInput as fault:
+            self._unkept = str(fault)
+
+    def _started(self) -> RunStarted:
+        return RunStarted(
+            time=self.time,
+            program=self.plan.program.name,
+            steps=len(self.plan.program.steps),
+            plan=plan_digest(self.plan),
+            arm=self.plan.arm,
+            arm_digest=self.plan.arm_digest,
+            world=self._setup.world,
+            task=self._setup.task,
+            camera=self._cell.renderer,
+            versions=versions(),
+            replaced=self._setup.replaced or UNSET,
+            without=self._setup.without or UNSET,
+        )
+
+    def step(self) -> None:
+        assert self.state.at is not None
+        self._cell.begin_stage(self.plan.program.steps[self.state.at].stage + 1)
+        self.executor.step()
+
+    def answer(self, choice: Choice) -> None:
+        self.executor.answer(choice)
+
+    @property
+    def executed(self) -> Sequence[Done]:
+        return self.state.done
+
+    def undo(self, undoing: Undoing) -> None:
+        self.executor.undo(undoing)
+
+    def finish(self) -> bool:
+        return self.executor.finish()
+
+    def restore(self, state: SystemState) -> None:
+        if not isinstance(state, ExecutionState):
+            raise InvalidInput("what the run remembers is not of the executor of programs")
+        self.run.restore(state)
+        self._take_calibration()
+
+    def _measure_joints(self) -> float:
+        """Let the arm measure its friction and weigh its links, if its program feels; simulated seconds of that."""
+        if not self.plan.program.feels:
+            return 0.0
+        before = self.time
+        try:
+            found = measure_joints(self._cell.devices, self.arm, self.state.drive, self._halt)
+            self.state.drive.friction, self.state.drive.links = found.friction, found.links
+        except (FrictionUnknown, SimulationError) as error:
+            self.state.unable = str(error)
+        return round(self.time - before, 6)
+
+    def _friction(self, seconds: float) -> Iterator[FrictionMeasured]:
+        """The event of friction that was measured in so many seconds; none if it was not."""
+        drive = self.state.drive
+        if drive.links is not None:
+            joints = ArmNames.of(self.arm).joints
+            measured = zip(joints, drive.friction.tolist(), strict=True)
+            found = tuple(JointFriction(joint=joint, friction=round(value, 6)) for joint, value in measured)
+            links = tuple(round(factor, 6) for factor in drive.links.tolist())
+            yield FrictionMeasured(time=self.time, joints=found, links=links, seconds=seconds)
+
+    def _calibrate(self, eye: Eye) -> None:
+        """Calibrate the camera; the arm is held where that leaves it."""
+        cell, drive = self._cell.devices, self.state.drive
+        try:
+            self.state.calibration = calibrate_camera(
+                cell, self.arm, drive, eye.drawing, eye.looks, self._halt, self._viewed
+            )
+            self.state.lens = eye.looks[-1].lens
+        except (CalibrationFailed, SimulationError) as error:
+            self.state.unable = str(error)
+        drive.hold_anew(cell.sense(), self.arm)
+        self._take_calibration()
+
+    def _take_calibration(self) -> None:
+        """Look with the calibrated camera, if it is."""
+        if self.state.calibration is not None:
+            self.run.camera = self.state.calibration.model
+        elif self._eye is not None:
+            self.run.camera = self._eye.drawing
+
+    # -- experiments ----------------------------------------------------------------------------------
+
+    def settables(self) -> Mapping[str, Settable]:
+        return {
+            "saved": Settable(
+                noun="saved difference",
+                usage="NAME x y z",
+                names=tuple(sorted(self._saved_names())),
+                units=(INCH, INCH, INCH),
+                fewest=3,
+                present=lambda _: (),
+            ),
+            "position": Settable(
+                noun="position",
+                usage="NAME x y z [o a t]",
+                names=tuple(sorted(self.plan.program.positions)),
+                units=(INCH, INCH, INCH, DEGREE, DEGREE, DEGREE),
+                fewest=3,
+                present=lambda name: self._position(name).at,
+            ),
+        }
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        if what == "saved" and len(value) == 3:
+            self.state.saved[name] = np.array(value)
+        elif what == "position" and len(value) == 6:
+            known = self.plan.program.positions
+            if name not in known:
+                raise InvalidInput(f"no position {name}; there are {', '.join(known)}")
+            x, y, z, o, a, t = value
+            self.state.world.moved[name] = Position(at=(x, y, z, o, a, t), of=known[name].of)
+        else:
+            raise InvalidInput(f"{what} {name} cannot be set to {len(value)} numbers")
+
+    def _saved_names(self) -> set[str]:
+        """The differences that the program saves or restores."""
+        uses = [
+            use for step in self.plan.program.steps for use in (*step.operation.reads, *step.operation.writes)
+        ]
+        return {use.name for use in uses if use.kind == "difference"}
+
+    def _position(self, name: str) -> Position:
+        return self.state.world.moved.get(name, self.plan.program.positions[name])
+
+
+def context_of(system: System) -> ExecutionContext:
+    """The surroundings of the executor of programs.
+
+    Raises:
+        InvalidInput: another system carries the run out.
+    """
+    if not isinstance(system, ProgramSystem):
+        raise InvalidInput("this is no run of a plan of motions: another system carries it out")
+    return system.run
+
+
+def cell_of(system: System) -> SimulatedCell:
+    """The cell of the executor of programs, with its arm.
+
+    Raises:
+        InvalidInput: another system carries the run out.
+    """
+    if not isinstance(system, ProgramSystem):
+        raise InvalidInput("this is no run of a plan of motions: another system drives its cell")
+    return system.cell
+
+
+def check(setup: Setup) -> None:
+    """See that a plan was made for the arm of its task, and that its world can be had.
+
+    Raises:
+        InvalidInput: it was made for another one, the world was drawn in another way, there is no such task, or no
+            such fault.
+    """
+    world, plan = setup.world, plan_of(setup)
+    task(setup.task).check_arm(plan)
+    task(setup.task).variation(world.seed).check(world)
+    task(setup.task).faults(world.seed).check(world.faults)
+    stages = len(plan.program.stages)
+    late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
+    if late is not None:
+        raise InvalidInput(
+            f"the fault {quoted(late.name)} sets in with stage {late.stage}; the program has {counted(stages, 'stage')}"
+        )
+
+
+PROGRAM: Final = SystemKind(
+    name="program",
+    plan=Plan,
+    state=ExecutionState,
+    encode=lambda plan: encode(plan).encode(),
+    decode=decode,
+    listing=lambda plan: plan.program,
+    machine=lambda plan: (plan.arm, plan.arm_digest),
+    check=check,
+    build=ProgramSystem,
+    executed=lambda plan, state: state.done,
+    order=lambda plan, state, undoing: order(state, undoing),
+)
+"""Programs of the first waist, planned for an arm."""

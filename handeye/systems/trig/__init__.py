@@ -1,0 +1,1 @@
+"""TRIG (MIT, 1982): programs that are taught by doing, and run backwards."""

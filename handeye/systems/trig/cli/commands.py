@@ -1,0 +1,165 @@
+"""Commands of TRIG: programs taught by doing, drawn as they grow, and run forwards and backwards."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final, Literal
+
+from cyclopts import App, Parameter
+
+from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say, screen
+from handeye.cli.panic_button import PanicButton
+from handeye.core.errors import InvalidInput
+from handeye.core.extras import MissingExtra
+from handeye.systems.trig.cli.jobs import bucket, palletise
+
+if TYPE_CHECKING:
+    from handeye.systems.trig.language.session import Session
+
+ArmKind = Annotated[
+    Literal["none", "purbrick"],
+    Parameter(
+        name="--arm",
+        help="The arm: `none` is only imagined; `purbrick` is that of the paper, with physics.",
+    ),
+]
+TrigFile = Annotated[
+    Path, Parameter(help="A script of typed lines (.trig), or a program that W has written (.trig.json).")
+]
+ALL: Final = 1_000_000_000
+"""Steps: more than are ever remembered."""
+
+trig = App(
+    name="trig", help="TRIG (MIT, 1982): teach a program by doing, see it as it grows, run it backwards."
+)
+
+
+def register(app: App) -> None:
+    """Add the commands to the command line."""
+    trig.default(edit)
+    for command in (run, show, palletise, bucket):
+        trig.command(command)
+    app.command(trig)
+
+
+def edit(
+    file: Annotated[Path | None, Parameter(help="A program to begin with: .trig or .trig.json.")] = None,
+    /,
+    *,
+    arm: ArmKind = "none",
+) -> int:
+    """Open the editor: type commands, drive the arm with the teach box, and see the program. HELP lists the commands.
+
+    Exit code 0: left; 2: bad input, or a line that was piped in was refused; 130: interrupted.
+    """
+    from handeye.systems.trig.cli.sessions import opened
+
+    with PanicButton() as panic:
+        session = opened(arm, file, panic)
+        if not at_terminal():
+            return _piped(session, panic)
+    return _conversed(session, arm)
+
+
+def run(
+    file: TrigFile,
+    /,
+    *,
+    arm: ArmKind = "none",
+    back: Annotated[bool, Parameter(help="Then run it backwards, to where it began.")] = False,
+    json: Json = False,
+) -> int:
+    """Run a program from the top; a script is typed first, line by line, as by somebody at the editor.
+
+    Exit code 0: the program has ended, and with --back everything is undone; 1: the arm was stopped before;
+    2: bad input; 130: interrupted.
+    """
+    from handeye.systems.trig.cli.sessions import opened, watched
+    from handeye.systems.trig.language.cursor_commands import told_run
+    from handeye.systems.trig.language.reports import report
+
+    with PanicButton() as panic:
+        session = opened(arm, file, panic)
+        tell = note if json else say
+        try:
+            with watched(session, panic):
+                ways = [session.runner.run()]
+            tell(told_run(ways[0]))
+            if back and ways[0].end != "halted":
+                with watched(session, panic):
+                    ways.append(session.runner.back(ALL))
+                tell(told_run(ways[1], back=True))
+        except InvalidInput as error:  # by the arm: the program was read
+            complain(error)
+            return 1
+    if json:
+        put_json(report(session, ways))
+    if ways[-1].end == "halted":
+        raise KeyboardInterrupt
+    return 0 if ways[-1].end in ("none", "beginning") else 1
+
+
+def show(
+    file: TrigFile,
+    /,
+    *,
+    width: Annotated[
+        WholeNumber, Parameter(help="Characters of a line; by default those of the terminal.")
+    ] = 0,
+) -> int:
+    """Show both displays of a program: all of it in miniature, and its steps in full.
+
+    Exit code 0: shown; 2: bad input.
+    """
+    from handeye.systems.trig.cli.sessions import opened
+    from handeye.systems.trig.language.full_display import full_display
+    from handeye.systems.trig.language.partial_display import partial_display
+    from handeye.systems.trig.language.styled import plain
+    from handeye.systems.trig.language.symbols import symbols_for
+
+    if width and not 20 <= width <= 1000:
+        raise InvalidInput(f"a display is 20 to 1000 characters wide, not {width}")
+    with PanicButton() as panic:
+        program = opened("none", file, panic).program
+    symbols, wide = symbols_for(sys.stdout.encoding), width or screen.width
+    height = max(1, len(program.graph.nodes))
+    for display in (full_display, partial_display):
+        say(f"{plain(display(program, wide, height, symbols))}\n", whole=True)
+    return 0
+
+
+def at_terminal() -> bool:
+    """Whether somebody sits at a terminal who can type and see."""
+    return sys.stdin.isatty() and sys.stdout.isatty()
+
+
+def _piped(session: "Session", halted: Callable[[], bool]) -> int:
+    """Hear the lines of standard input; one that is refused is told, and the next is heard."""
+    from handeye.systems.trig.language.hearing import hear
+    from handeye.systems.trig.language.script import Script
+
+    code = 0
+    session.desk = script = Script(iter(sys.stdin.readline, ""), say, halted)
+    while not session.over and (line := script.next_line()) is not None:
+        try:
+            hear(session, line)
+        except InvalidInput as error:
+            say(f"line {script.number}: {error}")
+            code = 2
+    return code
+
+
+def _conversed(session: "Session", arm: str) -> int:
+    """Converse with somebody at a terminal: on a screen, or line by line where that cannot be had."""
+    try:
+        from handeye.systems.trig.cli.screen import PACE, Screen
+    except ModuleNotFoundError:
+        from handeye.systems.trig.cli.lines import converse
+
+        missing = MissingExtra("trig", "prompt_toolkit", "terminal")
+        note(f"{missing}; without it there are lines and no screen")
+        with PanicButton() as panic:
+            converse(session, panic)
+        return 0
+    Screen(session, pace=PACE if arm == "none" else 0.0).run()
+    return 0

@@ -1,0 +1,218 @@
+"""Commands that carry out the paper's two examples in drawn worlds: taught, run, judged, and taken back."""
+
+import shlex
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Final
+
+from cyclopts import Parameter
+from rich.status import Status
+
+from handeye.cli.common import Json, WholeNumber, complain, note, notes, put_json, say
+from handeye.cli.panic_button import PanicButton
+from handeye.cli.videos import drawing
+from handeye.core.errors import InvalidInput
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted
+from handeye.core.variation import checked_seed
+from handeye.program.events import AnyEvent, StepStarted, UndoStarted
+from handeye.runs.observer import Observer
+
+if TYPE_CHECKING:
+    from handeye.runs.folder import RunFolder
+    from handeye.runs.runner import Runner
+    from handeye.runs.snapshot import Checkpoint
+    from handeye.systems.trig.jobs.benches import JobName, TaughtJob
+    from handeye.systems.trig.run.job import JobReport
+    from handeye.systems.trig.run.job_video import JobVideo
+
+Seed = Annotated[WholeNumber, Parameter(help="The world: how far off people teach, machine and blocks are.")]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptOptions:
+    """What is left of a job."""
+
+    out: Annotated[
+        Path | None,
+        Parameter(
+            help="Folder for the run: trace, checkpoints, result, what came of the job (job.json), its program, and a "
+            "report (report.html). `handeye resume` and `handeye dismantle` go on from there."
+        ),
+    ] = None
+    video: Annotated[
+        Path | None,
+        Parameter(help="Video of the job, .webp or .webm, 20 s long at most."),
+    ] = None
+    overwrite: Annotated[
+        bool, Parameter(help="Replace the run in the folder of --out, and the video that is there.")
+    ] = False
+
+
+NOTHING: Final = KeptOptions()
+CODES: Final = {"right": 0, "stopped": 1, "silent": 3}
+
+
+class _Told(Observer):
+    """Tells at a terminal how far a job is."""
+
+    def __init__(self, runner: "Runner", status: Status) -> None:
+        self._runner, self._status = runner, status
+
+    def event(self, event: AnyEvent) -> None:
+        if isinstance(event, StepStarted):
+            steps = counted(len(self._runner.system.executed), "step")
+            way = "undoing" if isinstance(event, UndoStarted) else "running"
+            self._status.update(f"{way}: {steps} done and not undone, at {event.text}")
+
+
+def palletise(
+    *,
+    blocks: Annotated[WholeNumber, Parameter(help="In the stack, 0 to 20; the pallet takes 15.")] = 20,
+    seed: Seed = 0,
+    json: Json = False,
+    kept: KeptOptions = NOTHING,
+) -> int:
+    """Put a stack of blocks into a pallet, and back: the paper's second example, with physics, in a drawn world.
+
+    Its 26 lines are typed into a new editor, by a person whose places are off by .3 mm. Then the program is run from
+    the top, a referee looks, it is run backwards, and the referee looks again. Twenty blocks take some minutes.
+
+    Exit code 0: placed, and every block back where it was; 1: the arm has stopped before; 3: done, and the referee
+    disagrees; 2: bad input; 130: interrupted.
+    """
+    from handeye.systems.trig.jobs.benches import MOST_BLOCKS
+
+    if not 0 <= blocks <= MOST_BLOCKS:
+        raise InvalidInput(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
+    return _work("palletise", checked_seed(seed), blocks, kept, json=json)
+
+
+def bucket(*, seed: Seed = 0, json: Json = False, kept: KeptOptions = NOTHING) -> int:
+    """Drop a block into a bucket, and put another one in its place: the paper's first example, with physics.
+
+    It is taught and run in a drawn world, and a referee looks. It is not run backwards: what lies in a bucket cannot be
+    taken back (`handeye trig run plans/bucket.trig --arm purbrick --back` shows where that stops).
+
+    Exit code 0: done and right; 1: the arm has stopped before; 3: done, and the referee disagrees; 2: bad input;
+    130: interrupted.
+    """
+    return _work("bucket", checked_seed(seed), None, kept, json=json)
+
+
+def _work(name: "JobName", seed: int, blocks: int | None, kept: KeptOptions, *, json: bool) -> int:
+    from handeye.runs.folder import open_new
+    from handeye.systems.trig.run.job import setup_of_job
+    from handeye.systems.trig.run.job_video import JobVideo
+
+    start = setup_of_job(name, seed, blocks)
+    _check_apart(kept)
+    video = None if kept.video is None else JobVideo(kept.video, overwrite=kept.overwrite)
+    folder = None if kept.out is None else open_new(kept.out, start, overwrite=kept.overwrite)
+    with PanicButton() as panic:
+        done, job = _carried_out(start, panic, folder, video)
+    if done.outcome == "halted":
+        if folder is not None:
+            say(f"resume with: handeye resume {shlex.quote(str(folder.path))}", notes, whole=True)
+        raise KeyboardInterrupt
+    if json:
+        put_json(done)
+    else:
+        _tell(done)
+    filmed = video is None or _filmed(video, job, done)
+    return CODES[done.outcome] or (0 if filmed else 2)
+
+
+def _carried_out(
+    start: "Checkpoint",
+    panic: PanicButton,
+    folder: "RunFolder | None",
+    video: "JobVideo | None",
+) -> "tuple[JobReport, TaughtJob]":
+    """Teach a job and carry it out; what it comes to is in its folder before anybody can break it off."""
+    from handeye.results.finishing import finished
+    from handeye.results.outcome import outcome
+    from handeye.runs.host_seconds import Meter
+    from handeye.systems.trig.run.job import account, carry_out, system_of
+
+    meter = Meter(timer=HostTimer.of_process())
+    with notes.status("teaching") as status:
+
+        def observers(runner: "Runner") -> "Sequence[Observer]":
+            watching = [] if folder is None else [folder.watch(runner, start, again=False, meter=meter)]
+            return [_Told(runner, status), *watching]
+
+        runner = _taught(start, panic, folder, observers)
+        job = system_of(runner).job
+        if video is not None:
+            video.watch(job)
+        pause = carry_out(runner, tell=note)
+        if pause.kind != "panic":
+            result = finished(runner, pause, meter, judged=True, folder=folder)
+        else:
+            result = outcome(runner, pause, meter, judged=True)
+            if folder is not None:
+                folder.close()
+    return account(runner, pause, result), job
+
+
+def _taught(
+    start: "Checkpoint",
+    panic: PanicButton,
+    folder: "RunFolder | None",
+    observers: "Callable[[Runner], Sequence[Observer]]",
+) -> "Runner":
+    """The run, its job taught; where it cannot be, a new folder is as if nobody had asked for it.
+
+    Raises:
+        KeyboardInterrupt: somebody wanted it to stop.
+    """
+    from handeye.execution.servo import Halted
+    from handeye.runs.runner import Runner
+
+    note(f"teaching {start.setup.task} in the world of seed {start.setup.world.seed}")
+    try:
+        return Runner(start, halt=panic, observers=observers)
+    except BaseException as error:
+        if folder is not None:
+            folder.discard()
+        if isinstance(error, Halted):
+            raise KeyboardInterrupt from None
+        raise
+
+
+def _filmed(video: "JobVideo", job: "TaughtJob", done: "JobReport") -> bool:
+    """Write the video; False if it cannot be, which is told, and the verdict stands."""
+    try:
+        with drawing() as told:
+            video.write(job, done.ended_s, told)
+    except InvalidInput as error:
+        complain(error)
+        return False
+    return True
+
+
+def _check_apart(kept: KeptOptions) -> None:
+    """Raises InvalidInput if the video is to lie in the folder of the run, which holds nothing else."""
+    if kept.out is None or kept.video is None:
+        return
+    if kept.video.absolute().is_relative_to(kept.out.absolute()):
+        raise InvalidInput(f"{kept.video} lies in the folder of --out, which is that of a run; name another")
+
+
+def _tell(done: "JobReport") -> None:
+    """What the referee has found, and the verdict."""
+    for title, checks in (("The program has ended:", done.checks), ("Undone:", done.checks_back)):
+        if checks:
+            say(title)
+        for check in checks.values():
+            say(f"  {'right' if check.ok else 'WRONG'}  {check.told} {check.unit}")
+    if done.outcome == "stopped":
+        say(done.told[-1])
+    say(
+        {"right": "Right.", "stopped": "The arm has stopped.", "silent": "Done, and the referee disagrees."}[
+            done.outcome
+        ]
+    )

@@ -1,0 +1,97 @@
+"""A desk of lines: TRIG at a terminal that only takes lines and puts lines out."""
+
+import sys
+from collections import deque
+from collections.abc import Callable, Iterable
+
+from handeye.cli.common import say, screen
+from handeye.cli.panic_button import PanicButton
+from handeye.cli.prompt import typed_lines
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.command_table import COMMANDS
+from handeye.systems.trig.language.desk import Button, Desk, Withdrawn, buttons
+from handeye.systems.trig.language.full_display import full_display
+from handeye.systems.trig.language.hearing import hear, stripped
+from handeye.systems.trig.language.partial_display import partial_display
+from handeye.systems.trig.language.place import told_place
+from handeye.systems.trig.language.position import is_named
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.styled import plain
+from handeye.systems.trig.language.symbols import symbols_for
+
+PROMPT = ">"
+BOX_PROMPT = "teach box (X 30, Z BY -5, RECORD, KILL)> "
+ROWS = 12
+"""Of the partial display."""
+
+
+class LineDesk(Desk):
+    """Asks and tells line by line; the teach box is typed."""
+
+    def __init__(self, panic: PanicButton) -> None:
+        self._panic = panic
+        self._pressed = deque[Button]()
+        self.words: Callable[[], Iterable[str]] = lambda: COMMANDS
+
+    def line(self, prompt: str) -> str | None:
+        """A typed line; None: there is none."""
+        return next(typed_lines(prompt, self._panic.aside, self.words, droppable=prompt == PROMPT), None)
+
+    def answer(self, question: str) -> str:
+        try:
+            line = self.line(question)
+        except KeyboardInterrupt:
+            raise Withdrawn from None
+        if not line:
+            raise Withdrawn
+        return line
+
+    def press(self) -> Button:
+        while not self._pressed:
+            try:
+                self._pressed.extend(buttons(stripped(self.answer(BOX_PROMPT))))
+            except InvalidInput as error:
+                self.wrong(error)
+        return self._pressed.popleft()
+
+    def tell(self, sentence: str) -> None:
+        say(sentence)
+
+    def wrong(self, error: InvalidInput) -> None:
+        self._pressed.clear()
+        say(str(error), style="red")
+
+    def halted(self) -> bool:
+        return self._panic()
+
+
+def converse(session: Session, panic: PanicButton) -> None:
+    """Hear lines until somebody leaves; both displays are shown after each that changed something."""
+    session.desk = desk = LineDesk(panic)
+    desk.words = lambda: (*COMMANDS, *_names(session))
+    shown = ""
+    while not session.over:
+        if (picture := _picture(session)) != shown:
+            say(picture, whole=True)
+            shown = picture
+        line = desk.line(PROMPT)
+        if line is None:
+            return
+        try:
+            hear(session, line)
+        except InvalidInput as error:
+            desk.wrong(error)
+
+
+def _names(session: Session) -> Iterable[str]:
+    steps = (node.name for node in session.program.graph.nodes.values() if node.name)
+    return (*filter(is_named, session.program.positions), *steps)
+
+
+def _picture(session: Session) -> str:
+    """Both displays, and where the arm is."""
+    symbols, width = symbols_for(sys.stdout.encoding), screen.width
+    lines = [*full_display(session.program, width, ROWS, symbols), []]
+    lines += partial_display(session.program, width, ROWS, symbols)
+    hand = "closed" if session.arm.closed else "open"
+    return f"\n{plain(lines)}\n\n{told_place(session.arm.here())}, hand {hand}"

@@ -1,0 +1,196 @@
+"""A desk with a screen: TRIG at a terminal, with both displays live and keys for the teach box.
+
+The session works in a thread of its own, so that the screen hears keys while the arm moves. The displays are drawn by
+whichever of the two may look at the program: the screen while the session waits, the session while it works.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from queue import SimpleQueue
+from threading import Event, Thread
+from typing import Final, Literal
+
+from prompt_toolkit.application import Application
+from prompt_toolkit.buffer import Buffer
+from prompt_toolkit.input import Input
+from prompt_toolkit.output import Output
+
+from handeye.core.errors import InvalidInput
+from handeye.core.plain_text import folded
+from handeye.systems.trig.cli.keys import STEPS, bindings
+from handeye.systems.trig.cli.windows import Picture, application, pictured
+from handeye.systems.trig.language.desk import Button, Desk, Jog, Withdrawn
+from handeye.systems.trig.language.hearing import hear
+from handeye.systems.trig.language.place import SIZES
+from handeye.systems.trig.language.session import Session
+
+PROMPT: Final = ">"
+PACE: Final = 0.08
+"""s that a step of an arm without a clock of its own is shown, so that it can be seen and stopped."""
+LONG: Final = 4
+"""Lines; what is longer is shown on a page of its own."""
+_KEPT: Final = 500
+"""Lines that have been told."""
+
+Mode = Literal["line", "box", "busy"]
+
+
+class Screen(Desk):
+    """Shows a session, and hears what is typed."""
+
+    def __init__(
+        self,
+        session: Session,
+        *,
+        pace: float = PACE,
+        waits: Callable[[Mode], None] = lambda _: None,
+        input: Input | None = None,
+        output: Output | None = None,
+    ) -> None:
+        """Sit down at a session.
+
+        Args:
+            pace: s that each step is shown.
+            waits: called when a line or a key is waited for.
+        """
+        self.session, self.question = session, PROMPT
+        self.mode: Mode = "busy"
+        """What is waited for."""
+        self.step = 3
+        """Which of the steps of the teach box."""
+        self.told: deque[tuple[str, str]] = deque(maxlen=_KEPT)
+        """Style and text of lines."""
+        self.page: list[str] = []
+        """A long answer, which is shown in the place of the partial display until the next line."""
+        self.scroll = 0
+        self._pace, self._waits = pace, waits
+        self._lines, self._buttons = SimpleQueue[str | None](), SimpleQueue[Button | None]()
+        self._struck, self._failed = Event(), list[BaseException]()
+        session.desk = self
+        self.app: Application[None] = application(self, bindings(self), input, output)
+        self._picture = pictured(session, self.size)
+
+    # -- the session's side ----------------------------------------------------------------------------
+
+    def answer(self, question: str) -> str:
+        line = self._line(question)
+        if not line:
+            raise Withdrawn
+        return line
+
+    def press(self) -> Button:
+        self._wait("box")
+        button = self._buttons.get()
+        if button is None:
+            raise Withdrawn
+        return button
+
+    def tell(self, sentence: str) -> None:
+        if sentence.count("\n") > LONG:
+            self.page, self.scroll = folded(sentence, self.size[0] - 2).split("\n"), 0
+        else:
+            self._say("told", sentence)
+
+    def wrong(self, error: InvalidInput) -> None:
+        self._say("wrong", str(error))
+
+    def halted(self) -> bool:
+        if self.mode == "box":
+            return False
+        struck = self._struck.wait(self._pace)
+        self._struck.clear()
+        return struck
+
+    def refresh(self) -> None:
+        self._picture = pictured(self.session, self.size)
+        self.app.invalidate()
+
+    def _work(self) -> None:
+        """Hear lines until somebody leaves."""
+        try:
+            while not self.session.over and (line := self._line(PROMPT)) is not None:
+                self.page = []
+                try:
+                    hear(self.session, line)
+                except InvalidInput as error:
+                    self.wrong(error)
+        except BaseException as error:  # told where the terminal is as it was
+            self._failed.append(error)
+        if self.app.loop is not None:
+            self.app.loop.call_soon_threadsafe(self.app.exit)
+
+    def _line(self, question: str) -> str | None:
+        self.question = question
+        self._wait("line")
+        line = self._lines.get()
+        if line is not None:
+            self._say("typed", f"{question}{line}")
+        return line
+
+    def _wait(self, mode: Mode) -> None:
+        self.refresh()
+        self._struck.clear()
+        self.mode = mode
+        self.app.invalidate()
+        self._waits(mode)
+
+    def _say(self, style: str, text: str) -> None:
+        self.told.extend((style, line) for line in folded(text, self.size[0]).split("\n"))
+
+    # -- the terminal's side ---------------------------------------------------------------------------
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows of the terminal."""
+        size = self.app.output.get_size()
+        return size.columns, size.rows
+
+    def run(self) -> None:
+        """Show the session until it is over."""
+        self.app.run(pre_run=Thread(target=self._work, daemon=True).start)
+        if self._failed:
+            raise self._failed[0]
+
+    def picture(self) -> Picture:
+        """What is to be seen now."""
+        if self.mode != "busy":
+            self._picture = pictured(self.session, self.size)
+        return self._picture
+
+    def accept(self, buffer: Buffer) -> bool:
+        """Take a line that was typed."""
+        if self.mode == "line":
+            self.put_line(buffer.text)
+        return False
+
+    def put_line(self, line: str | None) -> None:
+        """Hand the session a line; None: there is none."""
+        self.mode = "busy"
+        self._lines.put(line)
+
+    def put_button(self, button: Button | None) -> None:
+        """Hand the session what was done with the teach box; None: it was put down."""
+        if not isinstance(button, Jog):
+            self.mode = "busy"
+        self._buttons.put(button)
+
+    def jog(self, axis: int, sign: int) -> None:
+        """Press a button of an axis."""
+        self.put_button(Jog(axis, sign * STEPS[self.step] * SIZES[axis]))
+
+    def change_step(self, by: int) -> None:
+        """Make the steps of the teach box larger or smaller."""
+        self.step = max(0, min(self.step + by, len(STEPS) - 1))
+
+    def turn_page(self, by: int) -> None:
+        """Show more of a long answer, or what was before."""
+        self.scroll = max(0, min(self.scroll + 8 * by, len(self.page) - 1))
+
+    def drop_line(self) -> None:
+        """Give up what is asked for; at the prompt there is nothing to give up but the line."""
+        if self.question != PROMPT:
+            self.put_line(None)
+
+    def strike(self) -> None:
+        """Stop what is under way."""
+        self._struck.set()

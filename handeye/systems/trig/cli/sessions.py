@@ -1,0 +1,88 @@
+"""Sessions of TRIG as the command line opens them: with an arm, and what a file brings."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Final
+
+from rich.status import Status
+from rich.text import Text
+
+from handeye.cli.common import note, notes
+from handeye.core.host_time import HostTimer
+from handeye.core.plain_text import counted, printable
+from handeye.core.source import read_source
+from handeye.systems.trig.jobs.benches import ArmName, new_session
+from handeye.systems.trig.language.desk import Desk
+from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.storage import ENDING, read_program
+from handeye.systems.trig.language.teachable import Halted
+
+_SEEN: Final = 0.1
+"""s: nobody sees what stands there for a shorter time."""
+
+
+def opened(arm: ArmName, file: Path | None, halted: Callable[[], bool]) -> Session:
+    """A session with an arm: a new one, or one in which a script has been typed, or a program read.
+
+    Raises:
+        InvalidInput: the file cannot be used.
+        KeyboardInterrupt: somebody wanted to stop while a script was typed.
+    """
+    session = new_session(arm)
+    if file is not None and file.name.endswith(ENDING):
+        session.program, session.file = read_program(file), file
+    elif file is not None:
+        script = Script(read_source(file).text.splitlines(), halted=interrupting(halted))
+        session.desk = script
+        with notes.status(Text(f"typing {printable(str(file))}")):
+            type_script(session, script, str(file))
+    session.desk, session.over = Script((), note, halted), False
+    return session
+
+
+@contextmanager
+def watched(session: Session, halted: Halted) -> Iterator[None]:
+    """While a program runs, show at a terminal how far it is: an arm with physics takes its time."""
+    with watched_desk(session, halted) as desk:
+        session.desk = desk
+        yield
+
+
+@contextmanager
+def watched_desk(session: Session, halted: Halted) -> Iterator[Desk]:
+    """A desk that shows at a terminal how far a program is."""
+    with notes.status("running") as status:
+        yield _Watched(session, status, halted)
+
+
+class _Watched(Script):
+    """A desk that shows where a run is."""
+
+    def __init__(self, session: Session, status: Status, halted: Halted) -> None:
+        super().__init__((), note, halted)
+        self._session, self._status = session, status
+        self._since = HostTimer()
+
+    def refresh(self) -> None:
+        """Tell where it is, at most so often as people can see: to count what a long run has done takes its time."""
+        if self._since.wall_s < _SEEN:
+            return
+        self._since = HostTimer()
+        program = self._session.program
+        steps = sum(program.graph[done.node].shown for done in program.trail if done.node in program.graph)
+        active = program.active
+        what = active.name or active.position or active.type
+        self._status.update(f"running: {counted(steps, 'step')} done and not undone, at {what}")
+
+
+def interrupting(halted: Callable[[], bool]) -> Halted:
+    """Asked while a script is typed, where nobody could say how to go on: to halt is to interrupt."""
+
+    def ask() -> bool:
+        if halted():
+            raise KeyboardInterrupt
+        return False
+
+    return ask

@@ -1,0 +1,134 @@
+"""Both examples of the paper as jobs: typed line by line in a drawn world, carried out, and judged."""
+
+import math
+import re
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from handeye.cell.bench import Bench, BenchAxes
+from handeye.cell.kept import KeptCell
+from handeye.core.pose import Array, Pose
+from handeye.core.resources import plans
+from handeye.core.source import read_source
+from handeye.core.units import MILLIMETRE
+from handeye.judge.finding import Findings
+from handeye.systems.trig.jobs.benches import JobName, Lying, Moment, TaughtJob
+from handeye.systems.trig.jobs.machine import machine
+from handeye.systems.trig.jobs.referee import judge_program
+from handeye.systems.trig.jobs.table import BlockTable
+from handeye.systems.trig.jobs.task import BUCKET, BUCKET_TASK, PALLET, lay
+from handeye.systems.trig.jobs.witness import Stood, Witness, stands
+from handeye.systems.trig.jobs.world import BlocksWorld
+from handeye.systems.trig.language.axes_arm import AxesArm
+from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.teachable import Halted
+
+_LAST_STACK: Final = re.compile(r"\* STACK 20 (X \S+ Y \S+)")
+"""What is laid for a run; the stack before it is for teaching."""
+
+
+def script_of(name: JobName, blocks: int) -> str:
+    """What is typed for a job; `blocks` are those of the palletiser's stack."""
+    text = read_source(plans() / f"{name}.trig").text
+    if name == "bucket":
+        return text
+    return _LAST_STACK.sub(rf"* STACK {blocks} \1" if blocks else "", text)
+
+
+class _Job(TaughtJob):
+    """A script, and the bench on which it is typed."""
+
+    axes: BenchAxes
+
+    def __init__(self, script: str, world: BlocksWorld) -> None:
+        self._script, self._world = script, world
+        self._table, self._witness = BlockTable(world), Witness()
+        self.axes = machine(self._table.bench, world.bending)
+        self.arm = AxesArm(self.axes, self._table.bench)
+        self.session = Session(arm=self.arm, table=self._table, desk=Script(()), files=False)
+
+    @property
+    def bench(self) -> Bench:
+        return self._table.bench
+
+    @cached_property
+    def cell(self) -> KeptCell:
+        bench, nothing = self._table.bench, np.random.Generator(np.random.PCG64(0))
+        return KeptCell(bench.model, bench.data, (bench, self.axes, self._witness), nothing)
+
+    def teach(self, halted: Halted) -> None:
+        script = Script(self._script.splitlines(), halted=halted, slip=self._world.slip)
+        self.session.desk = script
+        type_script(self.session, script, f"{self.task.name}.trig")
+        self._witness.look(self.bench.data, self._table.poses, self.session.program)
+
+    def lay(self) -> None:
+        lay(self._table, self._script)
+
+    def lying(self, when: Moment) -> tuple[Lying, ...]:
+        return tuple(
+            Lying(name=name, at=_mm(X[:3, 3]), turned=round(math.degrees(math.atan2(X[1, 0], X[0, 0])), 3))
+            for name, X in self._taken(self._stood(when).poses)
+        )
+
+    def _stood(self, when: Moment) -> Stood:
+        began = self._witness.began
+        if when == "taught":
+            return began
+        turned = began.turned if when == "turned" else None
+        return turned or stands(self.bench.data, began.blocks)
+
+    def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
+        """Names and poses of the blocks in the order in which they are taken."""
+        return list(poses.items())
+
+    def turn(self) -> None:
+        self._witness.turn(self.bench.data)
+
+
+class PalletJob(_Job):
+    """The second example: a stack is put into a pallet of three rows and five columns."""
+
+    task, undoable = PALLET, True
+
+    def _taken(self, poses: dict[str, Pose]) -> list[tuple[str, Pose]]:
+        return super()._taken(poses)[::-1]
+
+    def built(self) -> Findings:
+        return PALLET.judge_built(self._witness.began, self._stood("turned"))
+
+    @property
+    def stack(self) -> int:
+        return len(self._witness.began.blocks)
+
+    def remembered(self) -> Findings:
+        program = self.session.program
+        pallet = program.positions["PALLET"]
+        return judge_program(
+            (pallet.data, pallet.init), [node.count for node in program.graph.nodes.values()]
+        )
+
+    @property
+    def goals(self) -> tuple[tuple[float, float], ...]:
+        return tuple((x, y) for x, y, _ in map(_mm, PALLET.places(self._witness.began)))
+
+
+class BucketJob(_Job):
+    """The first example: a block is dropped into a bucket, and another one is put in its place."""
+
+    task, undoable = BUCKET_TASK, False
+
+    @property
+    def goals(self) -> tuple[tuple[float, float], ...]:
+        a, b = BUCKET, self._witness.began.place("BLOCK")
+        return (a[0] / MILLIMETRE, a[1] / MILLIMETRE), _mm(b)[:2]
+
+
+def _mm(at: Sequence[float] | Array) -> tuple[float, float, float]:
+    """The first three of a place's coordinates (m), in mm to a thousandth."""
+    x, y, z = (round(float(value) / MILLIMETRE, 3) for value in at[:3])
+    return x, y, z

@@ -1,0 +1,110 @@
+"""The referee of the bench of blocks: it alone sees where blocks and hand truly are, when a program has ended."""
+
+from collections.abc import Mapping, Sequence
+from math import acos, degrees
+from typing import Final
+
+import numpy as np
+
+from handeye.core.pose import Array, Pose, inverse
+from handeye.judge.finding import Finding, Findings, at_most
+from handeye.judge.measured import tilt
+from handeye.systems.trig.jobs.table import HEIGHT
+from handeye.systems.trig.language.place import Place
+
+PLACED: Final = 2.0
+"""mm between a block and its place. The gap between two is 20, and an open finger leaves 5 of it."""
+FLAT: Final = 2.0
+"""deg"""
+ON: Final = 0.5
+"""mm: a block that lies on another one, or on the edge of one, is higher by more."""
+BACK: Final = 3.0
+"""mm from where a block was: a tenth of its length."""
+TURNED: Final = 1.0
+"""deg against how a block lay."""
+BUCKET: Final = 35.0
+"""mm along X and Y: half its width inside."""
+RIM: Final = 60.0
+"""mm: of the bucket."""
+HAND: Final = 0.5
+"""mm between the hand and its place: potentiometers bend by .1 along each axis."""
+_MM: Final = 1e3
+
+Poses = Mapping[str, Pose]
+"""Of blocks over the platter, by their names."""
+
+
+def judge_placed(before: Poses, now: Poses, places: Sequence[Place]) -> Findings:
+    """Whether the uppermost blocks of a stack lie at their places, in order, and all others where they were."""
+    taken = list(before)[::-1][: len(places)]
+    there = [now[name] for name in taken]
+    off = [float(np.hypot(*(X[:2, 3] - place[:2]))) for X, place in zip(there, places, strict=True)]
+    high = [abs(float(X[2, 3]) - HEIGHT / 2) for X in there]
+    return {
+        "placed": at_most(_most(off) * _MM, PLACED, "mm", "farthest block from its place on the taught grid"),
+        "on_the_pallet": at_most(_most(high) * _MM, ON, "mm", "height of a block above the pallet"),
+        "flat": at_most(
+            degrees(_most([tilt(X) for X in there])), FLAT, "deg", "lean of a block on the pallet"
+        ),
+        **_as_before(before, now, [name for name in before if name not in taken], "left in the stack"),
+    }
+
+
+def judge_back(before: Poses, now: Poses) -> Findings:
+    """Whether every block is where it was, which is to be in its old order, too."""
+    return _as_before(before, now, list(before), "back in the stack")
+
+
+def judge_dropped(X: Pose, inside: tuple[float, float], place: Array, other: Pose) -> Findings:
+    """Whether a block lies in a bucket, and another one at a place.
+
+    Args:
+        inside: the middle of the bucket, m.
+        place: x, y where the other one ought to be, m.
+    """
+    aside = float(np.max(np.abs(X[:2, 3] - inside)))
+    return {
+        "below_its_rim": at_most(float(X[2, 3]) * _MM, RIM, "mm", "height of the middle of block A"),
+        "in_the_bucket": at_most(aside * _MM, BUCKET, "mm", "block A from the middle of the bucket"),
+        "replaced": at_most(
+            float(np.hypot(*(other[:2, 3] - place))) * _MM, PLACED, "mm", "block B from where A was grasped"
+        ),
+        "lies": at_most(
+            abs(float(other[2, 3]) - HEIGHT / 2) * _MM, ON, "mm", "height of block B above the platter"
+        ),
+    }
+
+
+def judge_hand(truth: Array, place: Array, what: str) -> Finding:
+    """Whether the hand truly is at a place; both of shape (6,), m and rad."""
+    off = float(np.linalg.norm(truth[:3] - place[:3]))
+    return at_most(off * _MM, HAND, "mm", f"hand from where the program {what}")
+
+
+def judge_program(pallet: tuple[Place, Place], counts: Sequence[int]) -> Findings:
+    """Whether a position that the program sets is as it was taught, and its loops are where they began."""
+    now, taught = pallet
+    off = float(np.linalg.norm(np.array(now) - np.array(taught)))
+    return {
+        "pallet": at_most(off * _MM, 0.0, "mm", "PALLET from what was taught"),
+        "loops": at_most(max(counts, default=0), 0, "rounds", "count of a loop"),
+    }
+
+
+def _as_before(before: Poses, now: Poses, names: Sequence[str], what: str) -> Findings:
+    off = [float(np.linalg.norm(now[name][:3, 3] - before[name][:3, 3])) for name in names]
+    turns = [_turn(inverse(before[name]) @ now[name]) for name in names]
+    return {
+        "blocks": at_most(_most(off) * _MM, BACK, "mm", f"farthest block, {what}, from where it was"),
+        "turned": at_most(
+            degrees(_most(turns)), TURNED, "deg", f"turn of a block, {what}, against how it lay"
+        ),
+    }
+
+
+def _turn(X: Pose) -> float:
+    return acos(max(-1.0, min(1.0, (float(np.trace(X[:3, :3])) - 1) / 2)))
+
+
+def _most(values: Sequence[float]) -> float:
+    return max(values, default=0.0)

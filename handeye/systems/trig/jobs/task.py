@@ -1,0 +1,137 @@
+"""Both examples of the paper as tasks: what the referee looks for when their programs have ended."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final, Literal
+
+import numpy as np
+
+from handeye.core.errors import InvalidInput
+from handeye.core.pose import Array
+from handeye.core.units import MILLIMETRES
+from handeye.core.variation import Variation, WorldSpec
+from handeye.judge.finding import Finding, Findings
+from handeye.systems.trig.jobs.benches import read_taught_plan
+from handeye.systems.trig.jobs.machine import SPECS
+from handeye.systems.trig.jobs.referee import judge_back, judge_dropped, judge_hand, judge_placed
+from handeye.systems.trig.jobs.table import BlockTable
+from handeye.systems.trig.jobs.witness import SEEN, Began, Stood, stands
+from handeye.systems.trig.jobs.world import BlocksWorld
+from handeye.systems.trig.language.hearing import stripped
+from handeye.systems.trig.language.place import Place
+from handeye.systems.trig.language.tabletop import MARK, arrange
+from handeye.tasks.interface import AnyTask, Words
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from handeye.cell.truth import Truth
+
+ROWS: Final = 3
+COLUMNS: Final = 5
+BUCKET: Final = (0.140, 0.0)
+"""m: where the script puts it."""
+_DROPPED: Final = 2
+"""Blocks: the one that is dropped, and the one that takes its place."""
+
+
+class _BlocksTask(AnyTask):
+    """Something that is done with blocks on the platter."""
+
+    force_axes = "the hand's own axes"
+    measures = MILLIMETRES
+
+    @property
+    def joint_kinds(self) -> Mapping[str, Literal["revolute", "prismatic"]]:
+        return {spec.name: spec.kind for spec in SPECS}
+
+    def variation(self, seed: int) -> Variation:
+        """Nothing: worlds of these tasks are drawn from their numbers alone (`systems/trig/jobs/world.py`)."""
+        return Variation()
+
+    def scene(self, spec: WorldSpec) -> mujoco.MjModel:
+        return BlockTable(BlocksWorld(spec.seed)).bench.model
+
+    def recorded_scene(self, spec: WorldSpec, plan: bytes) -> mujoco.MjModel:
+        table = BlockTable(BlocksWorld(spec.seed))
+        lay(table, read_taught_plan(plan, "the plan of the run").script)
+        return table.bench.model
+
+
+class Pallet(_BlocksTask):
+    """A stack is put into a pallet of three rows and five columns."""
+
+    name = "palletise"
+    words = Words(
+        product="the pallet", done="The pallet is loaded.", apart="Every block is back in the stack."
+    )
+
+    def judge(self, truth: Truth) -> Findings:
+        return self.judge_built(began(truth), stands(truth.data, began(truth).blocks))
+
+    def judge_built(self, seen: Began, stood: Stood) -> Findings:
+        """Findings on the finished work, as it stood at a moment."""
+        placed = judge_placed(seen.poses, stood.poses, self.places(seen))
+        return {**placed, "hand": _ends_at(seen, stood, "DONE")}
+
+    def judge_apart(self, truth: Truth) -> Findings:
+        seen = began(truth)
+        stood = stands(truth.data, seen.blocks)
+        back = judge_hand(np.array(stood.hand), np.array(seen.hand), "began")
+        return {**judge_back(seen.poses, stood.poses), "hand": back}
+
+    def places(self, seen: Began) -> list[Place]:
+        """Where the hand lets go one block after another, as it was taught."""
+        above, places = seen.place("PALLET"), []
+        for _ in range(COLUMNS):
+            for _ in range(ROWS):
+                places.append(above.moved(seen.place("PLACE")))
+                above = above.moved(seen.place("NEXT-ROW"))
+            above = above.moved(seen.place("NEWROW"))
+        return places[: len(seen.blocks)]
+
+
+class Bucket(_BlocksTask):
+    """A block is dropped into a bucket, and another one is put in its place."""
+
+    name = "bucket"
+    words = Words(product="the bucket", done="The block is in the bucket, and another one in its place.")
+
+    def judge(self, truth: Truth) -> Findings:
+        seen = began(truth)
+        stood = stands(truth.data, seen.blocks)
+        blocks = [*stood.poses.values()]
+        if len(blocks) != _DROPPED:
+            raise InvalidInput(
+                f"the referee looks at {_DROPPED} blocks, and the script has laid {len(blocks)}"
+            )
+        place: Array = np.array(seen.place("BLOCK")[:2])
+        dropped = judge_dropped(blocks[0], BUCKET, place, blocks[1])
+        return {**dropped, "hand": _ends_at(seen, stood, "CENTER")}
+
+
+def _ends_at(seen: Began, stood: Stood, name: str) -> Finding:
+    return judge_hand(np.array(stood.hand), np.array(seen.place(name)), "ends")
+
+
+def lay(table: BlockTable, script: str) -> None:
+    """Lay a table as it is when a script has been typed.
+
+    Raises:
+        InvalidInput: a line of it says nothing that can be done with a table.
+    """
+    for line in map(stripped, script.splitlines()):
+        if line.startswith(MARK):
+            arrange(table, line)
+
+
+def began(truth: Truth) -> Began:
+    """How it stood before the program was run."""
+    seen = truth.states[SEEN]
+    assert isinstance(seen, Began)
+    return seen
+
+
+PALLET: Final = Pallet()
+BUCKET_TASK: Final = Bucket()

@@ -1,0 +1,235 @@
+"""An arm for TRIG whose axes go where they are told: moves as set-points, and guarded ones that feel with a finger."""
+
+from collections.abc import Iterable
+from typing import Final, Literal
+
+import numpy as np
+
+from handeye.arm.profiles import quintic, slow_line
+from handeye.core.pose import Array
+from handeye.core.record import Record, Vector3
+from handeye.ports.axes import Axes
+from handeye.ports.clock import Clock
+from handeye.systems.trig.language.obstacles import RESISTANCE, LeftBehind, Obstacle, Resisted, Unsupported
+from handeye.systems.trig.language.place import Place
+from handeye.systems.trig.language.teachable import Arrival, Halted, Teachable
+
+OPEN: Final = 0.048
+"""m between the fingers."""
+CLOSED: Final = -0.020
+"""m, as told: it never gets there, and so presses with all its force."""
+ACCELERATION: Final = (0.8, 0.8, 0.8, 10.0, 10.0, 10.0)
+"""m/s2 and rad/s2. A stack of twenty blocks of 12 mm on 30 mm tips at 1.2 m/s2."""
+GUARDED: Final = (0.015, 0.015, 0.015, 0.2, 0.2, 0.2)
+"""m/s and rad/s of a guarded move."""
+SETTLING: Final = 0.15
+"""s that the servos are given behind a move."""
+STANDING: Final = np.array([*3 * (1e-3,), *3 * (1e-2,)])
+"""m and rad that an axis may be from where it was told to be. The platter's servo is pushed so far by 100 N."""
+APPROACH: Final = 5e-3
+"""m from above, straight down, to where what the hand holds is set down: a slanted way would push over a stack."""
+DEEPER: Final = 2e-3
+"""m below that place within which there must be something to set it down on. Places are taught to .3 mm, so that what
+was put down may have dropped by two or three of these, and is grasped again so much higher."""
+CARRIED: Final = 0.28
+"""N, an ounce: upwards on the finger when something else carries what it holds. A block weighs as much."""
+LAG: Final = 0.03
+"""s that an axis may lag behind where it is told to be. The servos lag by .02 s."""
+HAND_SPEED: Final = 0.2
+"""m/s of the gap: told to go at once, fingers strike a block with .8 m/s."""
+GRASPING: Final = 0.2
+"""s that the hand is given behind that."""
+AGAIN: Final = 1.5
+"""Times the force that a move met: so much may be met where it is undone, as on the way back of the pump. A hand that
+presses what it holds onto something feels that force vanish as it rises."""
+_TARE: Final = 10
+"""Readings of the force that are averaged before a guarded move."""
+
+
+class ArmMemory(Record, frozen=True, kw_only=True):
+    """What such an arm remembers between two steps of a program."""
+
+    told: Place
+    """Where its axes were told to be."""
+    opening: float
+    """What its hand was told, m."""
+    closed: bool
+
+
+class AxesArm(Teachable):
+    """Six axes, X, Y, Z, roll, pitch and yaw, and a hand, behind the port of an axes machine."""
+
+    def __init__(self, axes: Axes, clock: Clock) -> None:
+        self._axes, self._clock = axes, clock
+        self._goal, self._closed, self._opening = self._where(), False, OPEN
+        self._met_force = 0.0
+        self._speed = np.array([spec.speed for spec in axes.specs])
+        self._wait(GRASPING)
+
+    def here(self) -> Place:
+        return Place(*map(float, self._goal))
+
+    @property
+    def closed(self) -> bool:
+        return self._closed
+
+    @property
+    def memory(self) -> ArmMemory:
+        """What it remembers."""
+        return ArmMemory(told=self.here(), opening=self._opening, closed=self._closed)
+
+    def remember(self, memory: ArmMemory) -> None:
+        """Go on with what was remembered once."""
+        self._goal, self._opening, self._closed = np.array(memory.told), memory.opening, memory.closed
+
+    @property
+    def travel(self) -> tuple[tuple[float, float], ...]:
+        return tuple((spec.lower, spec.upper) for spec in self._axes.specs)
+
+    def go(self, goal: Place, halted: Halted) -> bool:
+        self.check_travel(goal)
+        way = quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period)
+        before = self._force()
+        self._met_force = 0.0
+        arrived = self._follow(way, halted, before)
+        self._wait(SETTLING)
+        self._notice(before)
+        return arrived
+
+    @property
+    def met(self) -> float:
+        return self._met_force
+
+    def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
+        self.check_travel(goal)
+        self._wait(SETTLING)
+        tare = self._tared()
+        force = self._met_force = 0.0
+        for q in slow_line(self._goal, np.array(goal), np.array(GUARDED), self._axes.period):
+            force = float(np.dot(vector, self._force() - tare))
+            self._notice(tare)
+            if force > threshold or halted():
+                self._stand()
+                return Arrival(kind="tripped" if force > threshold else "halted", force=force)
+            self._put(q)
+        return Arrival(kind="reached", force=force)
+
+    def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
+        self.check_travel(goal)
+        tare, limit = self._tared(), max(RESISTANCE, AGAIN * met)
+        for q in quintic(self._goal, np.array(goal), self._speed, np.array(ACCELERATION), self._axes.period):
+            if halted():
+                self._wait(SETTLING)
+                return "halted"
+            speed = (q - self._goal) / self._axes.period
+            self._put(q)
+            obstacle = self._obstacle(tare, speed, limit)
+            if obstacle is not None:
+                return obstacle
+        self._wait(SETTLING)
+        return self._obstacle(tare, np.zeros(len(self._goal)), limit)
+
+    def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | Obstacle | None:
+        stop = self.back(self.within_travel(goal._replace(z=goal.z + APPROACH)), halted, met)
+        if stop is not None:
+            return stop
+        tare = self._tared()
+        lowest = self.within_travel(goal._replace(z=goal.z - DEEPER))
+        for q in slow_line(self._goal, np.array(lowest), np.array(GUARDED), self._axes.period):
+            if halted():
+                self._stand()
+                return "halted"
+            speed = (q - self._goal) / self._axes.period
+            self._put(q)
+            if (self._force() - tare)[2] > CARRIED:
+                self._stand()
+                return None
+            obstacle = self._obstacle(tare, speed)
+            if obstacle is not None:
+                return obstacle
+        return Unsupported()
+
+    @property
+    def gap(self) -> float:
+        return self._axes.read().channels["gap"]
+
+    def hand(self, closed: bool) -> None:
+        self._closed = closed
+        way = np.array([self._opening]), np.array([CLOSED if closed else OPEN])
+        for opening in slow_line(*way, np.array([HAND_SPEED]), self._axes.period):
+            self._opening = float(opening[0])
+            self._put(self._goal)
+        self._wait(GRASPING)
+
+    def _obstacle(self, tare: Array, speed: Array, limit: float = RESISTANCE) -> Obstacle | None:
+        """What stops the arm, which then stands still: a force on the finger, or an axis that is left behind.
+
+        Args:
+            tare: the force that was felt before, N.
+            speed: that the axes were told last, shape (n,).
+            limit: of that force, N.
+        """
+        found = self._resistance(tare, limit) or self._left_behind(speed)
+        if found is not None:
+            self._stand()
+        return found
+
+    def _stand(self) -> None:
+        """Stand still where the axes are by now, and not where they were told to be."""
+        self._goal = self._where()
+        self._wait(SETTLING)
+
+    def _where(self) -> Array:
+        """Where the axes are, within their travel: at its ends, potentiometers may tell a little more."""
+        lower, upper = np.transpose(self.travel)
+        return np.clip(self._axes.read().q, lower, upper)
+
+    def _resistance(self, tare: Array, limit: float) -> Resisted | None:
+        force = float(np.linalg.norm(self._force() - tare))
+        return Resisted(force=round(force, 6), limit=round(limit, 6)) if force > limit else None
+
+    def _left_behind(self, speed: Array) -> LeftBehind | None:
+        off = np.abs(self._goal - self._axes.read().q)
+        limits = STANDING + LAG * np.abs(speed)
+        axis = int(np.argmax(off / limits))
+        if off[axis] <= limits[axis]:
+            return None
+        return LeftBehind(axis=axis, off=round(float(off[axis]), 6), limit=round(float(limits[axis]), 6))
+
+    def _follow(self, way: Iterable[Array], halted: Halted, before: Array) -> bool:
+        for q in way:
+            if halted():
+                return False
+            self._put(q)
+            self._notice(before)
+        return True
+
+    def _notice(self, before: Array) -> None:
+        """Notice the force on the finger, against what it was before."""
+        self._met_force = max(self._met_force, float(np.linalg.norm(self._force() - before)))
+
+    def _put(self, q: Array) -> None:
+        self._goal = q
+        self._axes.put(q, self._opening)
+        self._clock.advance(self._axes.period)
+
+    def _wait(self, seconds: float) -> None:
+        for _ in range(round(seconds / self._axes.period)):
+            self._put(self._goal)
+
+    def _force(self) -> Array:
+        """The force on the finger, N, along its own axes, which are those of the arm while the hand is level.
+
+        Its gauges tell the force that the finger exerts.
+        """
+        channels = self._axes.read().channels
+        return -np.array([channels[f"force_{axis}"] for axis in "xyz"])
+
+    def _tared(self) -> Array:
+        """The force that is felt while nothing is touched."""
+        readings = []
+        for _ in range(_TARE):
+            self._put(self._goal)
+            readings.append(self._force())
+        felt: Array = np.mean(readings, axis=0)
+        return felt

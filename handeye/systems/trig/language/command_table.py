@@ -1,0 +1,171 @@
+"""The commands of TRIG, one row each: what they take, and what they do."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from handeye.systems.trig.language import (
+    arm_commands,
+    change_commands,
+    cursor_commands,
+    file_commands,
+    position_commands,
+    step_commands,
+)
+from handeye.systems.trig.language.given import Given, Kind
+from handeye.systems.trig.language.session import Session
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrigCommand:
+    """A command, as help has it and as it is carried out."""
+
+    usage: str
+    takes: tuple[Kind, ...] = ()
+    needs: int = 0
+    """So many of its arguments must be given."""
+    act: Callable[[Session, Given], None]
+    help: str
+    group: str
+
+    @property
+    def word(self) -> str:
+        """What is typed."""
+        return self.usage.partition(" ")[0]
+
+
+ARM: Final = "drive the arm, and leave the program as it is"
+STEPS: Final = "add a step below the active one"
+CHANGES: Final = "change steps"
+POSITIONS: Final = "define positions"
+CURSOR: Final = "move the cursor"
+RUNS: Final = "run, keep, leave"
+
+TABLE: Final = (
+    TrigCommand(
+        usage="FREE", group=ARM, act=arm_commands.free, help="drive it with the teach box until save is pressed"
+    ),
+    TrigCommand(
+        usage="GOPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.go, help="go to a position"
+    ),
+    TrigCommand(
+        usage="GOGPOS [-]POS", group=ARM, takes=("signed",), needs=1, act=arm_commands.feel,
+        help="go there slowly until a force stops the arm",
+    ),
+    TrigCommand(usage="GOGRASP", group=ARM, act=arm_commands.close, help="close the hand"),
+    TrigCommand(usage="GOUNGRASP", group=ARM, act=arm_commands.open, help="open the hand"),
+    TrigCommand(
+        usage="M [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None),
+        help="move to a position, which is taught if it is not defined: of its own kind, or that of the move before",
+    ),
+    TrigCommand(
+        usage="MA [POS [n|g]]", group=STEPS, takes=("position", "branch"), act=step_commands.move("absolute"),
+        help="move to an absolute position",
+    ),
+    TrigCommand(
+        usage="MR [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move("relative"),
+        help="move by a relative position",
+    ),
+    TrigCommand(
+        usage="MG [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"), act=step_commands.move(None, guarded=True),
+        help="as M, slowly, and guarded: a force on the finger stops it, and the program goes on by another branch",
+    ),
+    TrigCommand(
+        usage="MAG [POS [n|g]]", group=STEPS, takes=("position", "branch"),
+        act=step_commands.move("absolute", guarded=True), help="as MA, guarded",
+    ),
+    TrigCommand(
+        usage="MRG [[-]POS [n|g]]", group=STEPS, takes=("signed", "branch"),
+        act=step_commands.move("relative", guarded=True), help="as MR, guarded",
+    ),
+    TrigCommand(usage="GRASP", group=STEPS, act=step_commands.hand(True), help="close the hand"),
+    TrigCommand(usage="UNGRASP", group=STEPS, act=step_commands.hand(False), help="open the hand"),
+    TrigCommand(
+        usage="SAVPOS POS [n|g]", group=STEPS, takes=("position", "branch"), needs=1, act=step_commands.save,
+        help="set a position to where the arm is then",
+    ),
+    TrigCommand(
+        usage="LOOP STEP COUNT", group=STEPS, takes=("step", "count"), needs=2, act=step_commands.loop,
+        help="go back to a step so many times before going on",
+    ),
+    TrigCommand(
+        usage="L STEP [n|g]", group=STEPS, takes=("step", "branch"), needs=1, act=step_commands.link,
+        help="go on at a step that there is already; LINK, too",
+    ),
+    TrigCommand(
+        usage="CN STEP", group=CHANGES, takes=("step",), needs=1, act=change_commands.rename,
+        help="name the active step",
+    ),
+    TrigCommand(
+        usage="CP POS", group=CHANGES, takes=("position",), needs=1, act=change_commands.change_position,
+        help="give the active step another position",
+    ),
+    TrigCommand(
+        usage="CT THRESHOLD", group=CHANGES, takes=("threshold",), needs=1, act=change_commands.change_threshold,
+        help="give the active guarded step another threshold, in ounces",
+    ),
+    TrigCommand(
+        usage="CV (X Y Z)", group=CHANGES, takes=("vector",), needs=1, act=change_commands.change_vector,
+        help="give it another force vector",
+    ),
+    TrigCommand(
+        usage="D [STEP [n|g]]", group=CHANGES, takes=("step", "branch"), act=change_commands.delete,
+        help="delete a step; of a guarded one, n or g is the branch that stays",
+    ),
+    TrigCommand(
+        usage="DA [STEP]", group=CHANGES, takes=("step",), act=change_commands.delete_all,
+        help="delete a step and all that can be reached through it only",
+    ),
+    TrigCommand(
+        usage="DLINK STEP [n|g]", group=CHANGES, takes=("step", "branch"), needs=1, act=change_commands.unlink,
+        help="lead no longer from the active step to one that others lead to",
+    ),
+    TrigCommand(usage="FLUSH", group=CHANGES, act=change_commands.flush, help="erase the program"),
+    TrigCommand(
+        usage="HERE POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.here,
+        help="name the place where the arm is",
+    ),
+    TrigCommand(
+        usage="SA POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.here, help="the same"
+    ),
+    TrigCommand(
+        usage="SR POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.here_relative,
+        help="name the way there from where the last step took the arm",
+    ),
+    TrigCommand(
+        usage="CALPOS", group=POSITIONS, act=position_commands.begin_way, help="remember where the arm is, for ENDCAL"
+    ),
+    TrigCommand(
+        usage="ENDCAL POS", group=POSITIONS, takes=("position",), needs=1, act=position_commands.end_way,
+        help="name the way from there to where the arm is",
+    ),
+    TrigCommand(
+        usage="N [COUNT]", group=CURSOR, takes=("count",), act=cursor_commands.next_step, help="go down so many steps"
+    ),
+    TrigCommand(
+        usage="P [COUNT]", group=CURSOR, takes=("count",), act=cursor_commands.previous_step,
+        help="go up so many steps, by those that were active last",
+    ),
+    TrigCommand(
+        usage="GOTO STEP", group=CURSOR, takes=("step",), needs=1, act=cursor_commands.goto, help="go to a named step"
+    ),
+    TrigCommand(
+        usage="RUN [COUNT]", group=RUNS, takes=("count",), act=cursor_commands.run,
+        help="run the program from the top, or so many steps from the active one; with a minus, backwards",
+    ),
+    TrigCommand(usage="W [FILE]", group=RUNS, takes=("file",), act=file_commands.write, help="write the program"),
+    TrigCommand(
+        usage="R FILE", group=RUNS, takes=("file",), needs=1, act=file_commands.read,
+        help="read a program in the place of this one",
+    ),
+    TrigCommand(
+        usage="EX FILE", group=RUNS, takes=("file",), needs=1, act=file_commands.leave_written,
+        help="write it, and leave",
+    ),
+    TrigCommand(usage="Q", group=RUNS, act=file_commands.leave, help="leave, and write nothing"),
+)  # fmt: skip
+"""The 37 of the paper's appendix."""
+COMMANDS: Final = {command.word: command for command in TABLE}
+"""By their words."""
+SYNONYMS: Final = {"LINK": "L"}
+"""What the paper's text calls a command of its appendix."""

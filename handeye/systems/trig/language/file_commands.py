@@ -1,0 +1,46 @@
+"""Commands that read and write files, and that end the session."""
+
+from pathlib import Path
+
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.change_commands import ask_if_unsaved
+from handeye.systems.trig.language.given import Given
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.storage import read_program, trig_file, write_program
+
+
+def write(session: Session, given: Given) -> None:
+    """W: write the program to a file; by default to the last one."""
+    _check_files(session)
+    file = session.file if given.file is None else trig_file(Path(given.file))
+    if file is None:
+        raise InvalidInput("no file has been read or written yet; W takes a name")
+    write_program(file, session.program)
+    session.file, session.program.changed = file, False
+    session.desk.tell(f"written to {file}")
+
+
+def read(session: Session, given: Given) -> None:
+    """R: read a program in the place of the present one."""
+    _check_files(session)
+    file = trig_file(Path(given.file or ""))
+    program = read_program(file)
+    ask_if_unsaved(session, f"Read {file} in its place")
+    session.program, session.file, session.origin = program, file, None
+
+
+def leave_written(session: Session, given: Given) -> None:
+    """EX: write the program, then leave."""
+    write(session, given)
+    session.over = True
+
+
+def leave(session: Session, given: Given) -> None:
+    """Q: leave, and save nothing."""
+    session.over = True
+
+
+def _check_files(session: Session) -> None:
+    """Raises InvalidInput if nothing that is typed may touch a file."""
+    if not session.files:
+        raise InvalidInput("the script of a job reads and writes no files")

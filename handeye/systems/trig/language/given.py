@@ -1,0 +1,157 @@
+"""Given: what stands behind the word of a command, read by what the command takes."""
+
+import re
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.core.record import Vector3
+from handeye.core.units import OUNCE_FORCE
+from handeye.systems.trig.language.desk import number
+from handeye.systems.trig.language.node import GUARDED, NORMAL, TOP_NAME
+from handeye.systems.trig.language.position import name_of
+
+Kind = Literal["position", "signed", "step", "branch", "count", "threshold", "vector", "file"]
+BRANCHES: Final = {"N": NORMAL, "NORMAL": NORMAL, "G": GUARDED, "GUARDED": GUARDED}
+MOST: Final = 999_999_999
+"""Steps of a run, rounds of a loop."""
+_VECTOR: Final = re.compile(r"\(\s*(\S+)[\s,]+(\S+)[\s,]+(\S+?)\s*\)")
+
+
+@dataclass(slots=True, kw_only=True)
+class Given:
+    """The arguments of a command; None: it was not given."""
+
+    position: str | None = None
+    negate: bool = False
+    """The position has a minus before it."""
+    step: str | None = None
+    branch: int | None = None
+    count: int | None = None
+    threshold: float | None = None
+    """N"""
+    vector: Vector3 | None = None
+    file: str | None = None
+
+
+def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Given:
+    """Read what stands behind a command.
+
+    Args:
+        usage: the command and its arguments, for messages.
+        takes: its arguments in order.
+        needs: so many of them it cannot do without.
+
+    Raises:
+        InvalidInput: something is missing, too much, or not what it should be.
+    """
+    given = Given()
+    words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()
+    if len(words) < needs:
+        raise InvalidInput(f"`{usage}` needs {_NOUNS[takes[len(words)]]}")
+    if len(words) > len(takes):
+        raise InvalidInput(f"`{usage}` has no use for {quoted(words[len(takes)])}")
+    for kind, word in zip(takes, words, strict=False):
+        _READ[kind](given, word)
+    return given
+
+
+def read_branch(word: str) -> int:
+    """A branch of a guarded step, as typed.
+
+    Raises:
+        InvalidInput: it is none.
+    """
+    branch = BRANCHES.get(word.strip().rstrip(".").upper())
+    if branch is None:
+        raise InvalidInput(f"{quoted(word.strip())} is no branch; type n (normal) or g (guarded)")
+    return branch
+
+
+def read_threshold(word: str) -> float:
+    """A threshold in ounces, N.
+
+    Raises:
+        InvalidInput: it is none.
+    """
+    ounces = number(word.strip())
+    if ounces < 0:
+        raise InvalidInput(f"a threshold is not less than 0 oz, as {quoted(word.strip())} is")
+    return ounces * OUNCE_FORCE
+
+
+def read_vector(text: str) -> Vector3:
+    """A force vector, three weights in parentheses.
+
+    Raises:
+        InvalidInput: it is none.
+    """
+    found = _VECTOR.fullmatch(text.strip())
+    if found is None:
+        raise InvalidInput(f"{quoted(text.strip())} is no force vector; write it like (0 0 1)")
+    x, y, z = map(number, found.groups())
+    if (x, y, z) == (0, 0, 0):
+        raise InvalidInput("the force vector (0 0 0) heeds no force; (0 0 1) heeds one upwards")
+    return x, y, z
+
+
+def _position(given: Given, word: str) -> None:
+    if word.startswith("-"):
+        raise InvalidInput(f"a minus has no meaning here: give {quoted(word[1:])} without it")
+    given.position = name_of(word)
+
+
+def _signed(given: Given, word: str) -> None:
+    given.negate = word.startswith("-")
+    given.position = name_of(word[1:] if given.negate else word)
+
+
+def _step(given: Given, word: str) -> None:
+    given.step = TOP_NAME if word.upper() == TOP_NAME else name_of(word)
+
+
+def _branch(given: Given, word: str) -> None:
+    given.branch = read_branch(word)
+
+
+def _count(given: Given, word: str) -> None:
+    if not re.fullmatch(r"[+-]?\d+", word, re.ASCII):
+        raise InvalidInput(f"{quoted(word)} is not a whole number")
+    if len(word) > 10 or abs(int(word)) > MOST:
+        raise InvalidInput(f"{quoted(word)} is more than {MOST}")
+    given.count = int(word)
+
+
+def _threshold(given: Given, word: str) -> None:
+    given.threshold = read_threshold(word)
+
+
+def _vector(given: Given, word: str) -> None:
+    given.vector = read_vector(word)
+
+
+def _file(given: Given, word: str) -> None:
+    given.file = word
+
+
+_READ: Final = {
+    "position": _position,
+    "signed": _signed,
+    "step": _step,
+    "branch": _branch,
+    "count": _count,
+    "threshold": _threshold,
+    "vector": _vector,
+    "file": _file,
+}
+_NOUNS: Final[dict[Kind, str]] = {
+    "position": "the name of a position",
+    "signed": "the name of a position",
+    "step": "the name of a step",
+    "branch": "a branch, n or g",
+    "count": "a whole number",
+    "threshold": "a threshold in ounces",
+    "vector": "a force vector such as (0 0 1)",
+    "file": "the name of a file",
+}

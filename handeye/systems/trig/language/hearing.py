@@ -1,0 +1,84 @@
+"""Hearing: a typed line is taken for a command and carried out, or refused in a sentence."""
+
+from typing import Final
+
+from handeye.core.diagnostics import nearest, quoted
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
+from handeye.systems.trig.language.desk import ENDS, Withdrawn
+from handeye.systems.trig.language.given import read_given
+from handeye.systems.trig.language.place import AXES
+from handeye.systems.trig.language.session import Session
+from handeye.systems.trig.language.tabletop import MARK, arrange
+
+WITHDRAWN: Final = "cancelled"
+TABLE_HELP: Final = (
+    "To lay the table, as somebody beside it:",
+    "  * STACK 20 X 150 Y 0  put blocks on each other at a place, in mm",
+    "  * BUCKET X 140 Y 0    put a bucket there",
+    "  * CLEAR               take everything away",
+)
+"""What else can be typed."""
+
+
+def hear(session: Session, line: str) -> None:
+    """Carry out a line. One that is wrong, or is given up, leaves the program as it was.
+
+    Raises:
+        InvalidInput: it cannot be carried out.
+    """
+    word, _, rest = stripped(line).partition(" ")
+    if not word:
+        return
+    if word.startswith(MARK):
+        session.desk.tell(arrange(session.table, f"{word} {rest}"))
+        return
+    if word.upper() in ("HELP", "?"):
+        session.desk.tell(help(rest.strip()))
+        return
+    command = command_of(word)
+    try:
+        command.act(session, read_given(command.usage, command.takes, command.needs, rest.strip()))
+    except Withdrawn:
+        session.desk.tell(WITHDRAWN)
+    session.desk.refresh()
+
+
+def stripped(line: str) -> str:
+    """What of a line is a command: the paper's prompt and remarks are none."""
+    return " ".join(line.partition(";")[0].split()).removeprefix(">").lstrip()
+
+
+def command_of(word: str) -> TrigCommand:
+    """The command of a word, in capitals or not.
+
+    Raises:
+        InvalidInput: there is none.
+    """
+    upper = word.upper()
+    command = COMMANDS.get(SYNONYMS.get(upper, upper))
+    if command is not None:
+        return command
+    if upper in (*AXES, *ENDS):
+        raise InvalidInput(f"{upper} is on the teach box, which is heard while M or FREE waits for it")
+    near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
+    raise InvalidInput(
+        f"there is no command {quoted(word)}; " + (f"did you mean {near}?" if near else "HELP lists them")
+    )
+
+
+def help(word: str) -> str:
+    """All commands, or one of them, as lines.
+
+    Raises:
+        InvalidInput: there is no such command.
+    """
+    if word:
+        command = command_of(word)
+        return f"{command.usage}: {command.help}"
+    lines: list[str] = []
+    width = max(len(command.usage) for command in TABLE)
+    for group in dict.fromkeys(command.group for command in TABLE):
+        rows = [f"  {each.usage:{width}}  {each.help}" for each in TABLE if each.group == group]
+        lines += [*([""] if lines else []), f"To {group}:", *rows]
+    return "\n".join([*lines, "", *TABLE_HELP])

@@ -1,0 +1,46 @@
+"""Loops: every loop has a partner above the step that it goes back to, so that the way there can be gone back, too.
+
+The partner is a bloop. Where several loops go back to one step, the nearest loop below it owns the nearest bloop
+above it, whichever was made first.
+"""
+
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.graph import Graph
+from handeye.systems.trig.language.node import Node
+
+
+def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int) -> Node:
+    """Put a loop below a node, and its bloop above the step that it goes back to.
+
+    Raises:
+        InvalidInput: that step does not stand above the loop.
+    """
+    if after not in graph.distances(target):
+        raise InvalidInput(
+            f"{graph[target].name} does not stand above the active step, and a loop goes back: `L` leads on to it"
+        )
+    loop, bloop = graph.new("loop"), graph.new("bloop")
+    loop.partner, bloop.partner, loop.wanted = bloop.id, loop.id, wanted
+    graph.insert(after, branch, loop)
+    graph.insert_above(_innermost(graph, target, loop), bloop)
+    return loop
+
+
+def _innermost(graph: Graph, target: int, loop: Node) -> int:
+    """The node above which the bloop of a loop belongs: a bloop of a nearer loop, or the target."""
+    below = graph.distances(target)
+    place, bloops = target, _bloops_above(graph, target)
+    for bloop in bloops:
+        if below.get(graph[bloop].partner, -1) > below[loop.id]:
+            break
+        place = bloop
+    return place
+
+
+def _bloops_above(graph: Graph, target: int) -> list[int]:
+    """The bloops that stand above a step, from below."""
+    found, id, top = [], target, graph.entry(target)
+    while id != top:
+        id = graph[id].fathers[0]
+        found.append(id)
+    return found

@@ -1,0 +1,133 @@
+"""An arm that is only imagined: it goes wherever it is told at once, and there is nothing it could sag under or miss.
+
+There may be blocks for it, to see a program do its work before there is an arm. They know no gravity, and no force but
+that which the hand meets on top of one: a guarded move whose vector heeds a force upwards stops there. All other moves
+go through them.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+from handeye.core.record import Vector3
+from handeye.systems.trig.language.place import Place
+from handeye.systems.trig.language.tabletop import Tabletop
+from handeye.systems.trig.language.teachable import Arrival, Halted, Teachable
+
+TRAVEL: Final = (*2 * ((-0.2, 0.2),), (0.0, 0.3), *3 * ((-math.radians(170), math.radians(170)),))
+"""m and rad: that of the Purbrick arm, which the paper does not give."""
+BLOCK: Final = 0.030
+"""m, along and across."""
+OPEN: Final = 0.048
+"""m between the fingers."""
+HEIGHT: Final = 0.012
+"""m, of a block."""
+_SAME: Final = 1e-9
+"""m: places that are no farther apart are the same."""
+_TOUCH: Final = 1.01
+"""Times the threshold: the force at which it is noticed that there is one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Block:
+    """A block, by the middle of its upper face (m)."""
+
+    name: str
+    x: float
+    y: float
+    z: float
+
+    def under(self, place: Place) -> bool:
+        """It lies under a place, or around it."""
+        return max(abs(place.x - self.x), abs(place.y - self.y)) <= BLOCK / 2
+
+    def between(self, place: Place) -> bool:
+        """A hand that closes there has it between its fingers."""
+        return self.under(place) and self.z - HEIGHT < place.z < self.z
+
+
+class NoArm(Teachable, Tabletop):
+    """Arm, hand and blocks, all of them imagined."""
+
+    def __init__(self) -> None:
+        self.blocks: list[Block] = []
+        self.held: Block | None = None
+        self._at = Place(z=TRAVEL[2][1])
+        self._closed = False
+
+    def here(self) -> Place:
+        return self._at
+
+    @property
+    def closed(self) -> bool:
+        return self._closed
+
+    @property
+    def travel(self) -> tuple[tuple[float, float], ...]:
+        return TRAVEL
+
+    @property
+    def met(self) -> float:
+        return 0.0
+
+    def go(self, goal: Place, halted: Halted) -> bool:
+        self.check_travel(goal)
+        if halted():
+            return False
+        self._carry(goal)
+        return True
+
+    def feel(self, goal: Place, vector: Vector3, threshold: float, halted: Halted) -> Arrival:
+        self.check_travel(goal)
+        if halted():
+            return Arrival(kind="halted")
+        top = self._met(goal) if vector[2] > 0 else None
+        self._carry(goal if top is None else goal._replace(z=top))
+        force = 0.0 if top is None else max(_TOUCH * threshold, math.ulp(0.0))
+        return Arrival(kind="reached" if top is None else "tripped", force=force)
+
+    def back(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | None:
+        return None if self.go(goal, halted) else "halted"
+
+    def set_down(self, goal: Place, halted: Halted, met: float = 0.0) -> Literal["halted"] | None:
+        return self.back(goal, halted)
+
+    @property
+    def gap(self) -> float:
+        return BLOCK if self.held else 0.0 if self._closed else OPEN
+
+    def hand(self, closed: bool) -> None:
+        if closed and not self._closed:
+            self.held = next((block for block in self.blocks if block.between(self._at)), None)
+        elif not closed:
+            self.held = None
+        self._closed = closed
+
+    @property
+    def count(self) -> int:
+        return len(self.blocks)
+
+    def bucket(self, x: float, y: float) -> None:
+        """Put a bucket there, into which nothing will fall."""
+
+    def stack(self, count: int, x: float, y: float) -> None:
+        there = len(self.blocks)
+        self.blocks += [
+            Block(name=f"{there + number}", x=x, y=y, z=number * HEIGHT) for number in range(1, count + 1)
+        ]
+
+    def clear(self) -> None:
+        self.blocks, self.held = [], None
+
+    def _met(self, goal: Place) -> float | None:
+        """The height of what the hand meets first on its way down to a goal."""
+        tops = [block.z for block in self.blocks if block.under(goal) and block is not self.held]
+        return max((z for z in tops if goal.z < z <= self._at.z + _SAME), default=None)
+
+    def _carry(self, goal: Place) -> None:
+        if self.held is not None:
+            way = goal.seen_from(self._at)
+            moved = replace(self.held, x=self.held.x + way.x, y=self.held.y + way.y, z=self.held.z + way.z)
+            self.blocks[self.blocks.index(self.held)] = moved
+            self.held = moved
+        self._at = goal

@@ -1,0 +1,148 @@
+"""Commands that add a step below the active one; moves and the hand act at once."""
+
+from collections.abc import Callable
+from typing import Literal
+
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.language.deletion import prune
+from handeye.systems.trig.language.given import Given
+from handeye.systems.trig.language.loops import insert_loop
+from handeye.systems.trig.language.node import NONE, TOP, Node
+from handeye.systems.trig.language.place import told_place
+from handeye.systems.trig.language.position import Position, free_name
+from handeye.systems.trig.language.program import Done
+from handeye.systems.trig.language.session import Session
+
+Acted = Callable[[Session, Given], None]
+
+
+def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False) -> Acted:
+    """M, MA, MR, MG, MAG and MRG: a move to a position, which is taught if it is not defined."""
+
+    def act(session: Session, given: Given) -> None:
+        branch = session.open_branch(given.branch)
+        node = session.program.graph.new("guarded" if guarded else "normal")
+        node.negate = given.negate
+        if given.position in session.program.positions:
+            _to_known(session, given, kind, node, branch)
+        elif given.negate:
+            raise InvalidInput(f"-{given.position} has no opposite yet: {given.position} is not defined")
+        else:
+            relative = session.program.relative_by_default() if kind is None else kind == "relative"
+            _to_taught(session, given.position, relative, node, branch)
+
+    return act
+
+
+def _to_known(session: Session, given: Given, kind: str | None, node: Node, branch: int) -> None:
+    position = session.position(given.position, negate=given.negate)
+    defined = "relative" if position.relative else "absolute"
+    if kind not in (None, defined):
+        raise InvalidInput(f"{given.position} is {defined}; M goes there")
+    node.position = given.position
+    session.confirmed("Move to the predefined location? ")
+    if node.type == "guarded":
+        node.threshold, node.vector = session.threshold(), session.vector()
+    halted = session.runner.execute(node, session.program.cursor) is None
+    taken = session.program.taken
+    _add(session, node, branch)
+    session.program.taken = taken
+    if halted:
+        session.desk.tell(f"stopped at {told_place(session.arm.here())}; RUN 1 goes on with this step")
+
+
+def _to_taught(session: Session, name: str | None, relative: bool, node: Node, branch: int) -> None:
+    program, start, closed = session.program, session.arm.here(), session.arm.closed
+    end = session.taught()
+    if node.type == "guarded":
+        node.threshold, node.vector = session.threshold(), session.vector()
+    data = end.seen_from(start) if relative else end
+    node.position = free_name(program.positions) if name is None else name
+    program.positions[node.position] = Position(relative=relative, init=data, data=data)
+    program.remember(Done(node.id, start, closed))
+    program.ended_at = end
+    _add(session, node, branch)
+
+
+def hand(closed: bool) -> Acted:
+    """GRASP and UNGRASP: close the hand, or open it."""
+
+    def act(session: Session, given: Given) -> None:
+        branch = session.open_branch(None)
+        node = session.program.graph.new("grasp" if closed else "ungrasp")
+        session.runner.execute(node, session.program.cursor)
+        _add(session, node, branch)
+
+    return act
+
+
+def save(session: Session, given: Given) -> None:
+    """SAVPOS: a position becomes where the arm is whenever the step is executed, and now."""
+    branch = session.open_branch(given.branch)
+    name, here = given.position or "", session.arm.here()
+    position = session.program.positions.get(name)
+    if position is None:
+        session.program.positions[name] = Position(relative=False, init=here, data=here)
+    elif position.relative:
+        check_no_opposite(session, name)
+        session.confirmed(f"{name} is relative. Make it the absolute place where the arm is now? ")
+        session.program.positions[name] = Position(relative=False, init=here, data=here)
+    node = session.program.graph.new("savpos")
+    node.position = name
+    session.runner.execute(node, session.program.cursor)
+    _add(session, node, branch)
+
+
+def check_no_opposite(session: Session, name: str) -> None:
+    """Raises InvalidInput if a step goes the other way of a position, which is to become absolute."""
+    if any(node.negate for node in session.program.users(name)):
+        raise InvalidInput(f"a step goes to -{name}, so {name} stays relative; D deletes the step")
+
+
+def loop(session: Session, given: Given) -> None:
+    """LOOP: go back to a step so many times before going on."""
+    target, wanted = session.step(given.step or ""), given.count or 0
+    if target.id == TOP:
+        raise InvalidInput(f"a loop goes back to a step; {target_hint(session)}")
+    if wanted < 0:
+        raise InvalidInput(f"a loop goes back 0 times or more, not {wanted}")
+    program = session.program
+    branch = session.open_branch(None)
+    node = insert_loop(program.graph, program.cursor, branch, target.id, wanted)
+    program.put_cursor(node.id)
+    program.changed = True
+
+
+def target_hint(session: Session) -> str:
+    """How the first step can be named."""
+    first = session.program.first
+    if first == NONE:
+        return "the program is empty"
+    name = session.program.graph[first].name
+    return f"the first is {name}" if name else "P and CN name the first"
+
+
+def link(session: Session, given: Given) -> None:
+    """L: go on at a step that there is already."""
+    program, target = session.program, session.step(given.step or "")
+    if program.cursor == TOP or target.id == TOP:
+        raise InvalidInput("a link leads from a step to a step, and not to or from the top")
+    branch = session.branch(given.branch)
+    entry = program.graph.entry(target.id)
+    son = program.active.sons[branch]
+    if son == entry:
+        raise InvalidInput(f"the active step leads on to {target.name} already")
+    if son != NONE:
+        session.confirmed(f"Another step follows here. Replace it by a link to {target.name}? ")
+    above = program.above(program.cursor)
+    program.graph.attach(program.cursor, branch, entry, link=True)
+    prune(program.graph)
+    program.edited(above)
+
+
+def _add(session: Session, node: Node, branch: int) -> None:
+    """Hang a step that has been carried out below the active one, and make it the active one."""
+    program = session.program
+    program.graph.insert(program.cursor, branch, node)
+    program.put_cursor(node.id)
+    program.changed = True

@@ -1,0 +1,236 @@
+"""Storage: a program as JSON. Of each step stands there what makes it (its major properties), and nothing that comes
+of drawing or running it."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Final, TypeVar
+
+import msgspec
+
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, read_whole, write_over
+from handeye.core.record import Vector3
+from handeye.core.units import OUNCE_FORCE
+from handeye.systems.trig.language.graph import Graph
+from handeye.systems.trig.language.node import NONE, TOP, Node, NodeType
+from handeye.systems.trig.language.place import DECIMALS, Measures, Place
+from handeye.systems.trig.language.position import Position, Positions
+from handeye.systems.trig.language.program import TrigProgram
+from handeye.systems.trig.language.soundness import faults
+
+VERSION: Final = 1
+ENDING: Final = ".trig.json"
+TRIG_FILE: Final = Kind(name="TRIG program", begins=rb'\s*\{\s*"trig"', ending=ENDING)
+LARGEST: Final = 20_000_000
+"""Bytes: ten thousand steps take five million."""
+UNITS: Final = {"length": "mm", "angle": "deg", "force": "oz"}
+_MOST: Final = 1e9
+"""Millimetres, degrees or ounces: no arm is that large."""
+Read = TypeVar("Read")
+
+
+class _Loop(msgspec.Struct, kw_only=True):
+    bloop: int
+    target: int
+    wanted: int
+    count: int
+
+
+class _Node(msgspec.Struct, kw_only=True):
+    id: int
+    type: NodeType
+    name: str | None = None
+    position: str | None = None
+    negate: bool = False
+    sons: list[int]
+    links: list[int] = []
+    fathers: list[int]
+    last_father: int = NONE
+    threshold: float | None = None
+    vector: Vector3 | None = None
+    loop: _Loop | None = None
+    comment: str | None = None
+
+
+class _Position(msgspec.Struct, kw_only=True):
+    relative: bool
+    init: Measures
+    data: Measures
+
+
+class _File(msgspec.Struct, kw_only=True):
+    trig: int
+    units: dict[str, str]
+    positions: dict[str, dict[str, object]]
+    nodes: list[dict[str, object]]
+
+
+def trig_file(path: Path) -> Path:
+    """The file that a name means: `pallet` is `pallet.trig.json`."""
+    return (
+        path if path.name.endswith(ENDING) else path.with_name(f"{path.name}{ENDING}") if path.name else path
+    )
+
+
+def write_program(path: Path, program: TrigProgram) -> None:
+    """Write a program; a file of another kind is not written over.
+
+    Raises:
+        InvalidInput: the file cannot be written.
+    """
+    write_over(path, encoded(program), TRIG_FILE)
+
+
+def read_program(path: Path) -> TrigProgram:
+    """Read a program. Its positions are as they were defined.
+
+    Raises:
+        InvalidInput: it is none, or is not sound.
+    """
+    return decoded(read_whole(path, LARGEST), str(path))
+
+
+# -- writing -------------------------------------------------------------------------------------------
+
+
+def encoded(program: TrigProgram) -> bytes:
+    """A program as the content of a file. The steps are numbered as they are drawn."""
+    graph = program.graph
+    numbers = {id: number for number, id in enumerate(graph.order())} | {NONE: NONE}
+    used = {node.position for node in graph.nodes.values()}
+    positions = {n: p for n, p in sorted(program.positions.items()) if n in used or not n.startswith("_")}
+    content = {
+        "trig": VERSION,
+        "units": UNITS,
+        "positions": {name: _position_fields(position) for name, position in positions.items()},
+        "nodes": [_node_fields(graph, graph[id], numbers) for id in graph.order()],
+        **program.unread,
+    }
+    return msgspec.json.format(msgspec.json.encode(content), indent=1) + b"\n"
+
+
+def _position_fields(position: Position) -> dict[str, object]:
+    measures = {"init": position.init.measures(), "data": position.data.measures()}
+    return {"relative": position.relative, **measures, **position.unread}
+
+
+def _node_fields(graph: Graph, node: Node, numbers: Mapping[int, int]) -> dict[str, object]:
+    target = graph.target(node) if node.type == "loop" else None
+    loop = {
+        "bloop": numbers[node.partner],
+        "target": NONE if target is None else numbers[target.id],
+        "wanted": node.wanted,
+        "count": node.count,
+    }
+    return {
+        "id": numbers[node.id],
+        "type": node.type,
+        "name": node.name,
+        "position": node.position,
+        "negate": node.negate,
+        "sons": [numbers[son] for son in node.sons],
+        "links": sorted(node.links),
+        "fathers": sorted(numbers[father] for father in node.fathers),
+        "last_father": numbers.get(node.recent_father, NONE),
+        "threshold": None if node.threshold is None else round(node.threshold / OUNCE_FORCE, DECIMALS),
+        "vector": node.vector,
+        "loop": loop if node.type == "loop" else None,
+        "comment": node.comment,
+        **node.unread,
+    }
+
+
+# -- reading -------------------------------------------------------------------------------------------
+
+
+def decoded(content: bytes, name: str) -> TrigProgram:
+    """The program in the content of a file.
+
+    Args:
+        name: of the file, for messages.
+
+    Raises:
+        InvalidInput: there is none, or it is not sound.
+    """
+    try:
+        return _program(content)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        raise InvalidInput(f"{name} is no TRIG program: it is not JSON, or has been cut short") from None
+    except _Fault as fault:
+        raise InvalidInput(f"{name} {fault}") from None
+
+
+class _Fault(Exception):
+    """What is wrong with a file, as it goes on behind the name of the file."""
+
+
+def _program(content: bytes) -> TrigProgram:
+    fields = msgspec.json.decode(content)
+    if not isinstance(fields, dict) or not isinstance(fields.get("trig"), int):
+        raise _Fault("is no TRIG program")
+    if fields["trig"] > VERSION:
+        raise _Fault(f"has version {fields['trig']}; this version of handeye reads {VERSION}")
+    file = _read(fields, _File, "the file")
+    if file.units != UNITS:
+        raise _Fault(f"has other units than {', '.join(UNITS.values())}")
+    graph = Graph()
+    nodes = [_node(one) for one in file.nodes]
+    if sorted(node.id for node in nodes) != [*range(len(nodes))] or [
+        n.id for n in nodes if n.type == "top"
+    ] != [TOP]:
+        raise _Fault("is not sound: its steps are not numbered one by one from the top")
+    graph.fill(nodes)
+    program = TrigProgram(graph=graph, positions=_positions(file), unread=_unread(fields, _File))
+    fault = next(faults(graph, program.positions), None)
+    if fault is not None:
+        raise _Fault(f"is not sound: {fault}")
+    return program
+
+
+def _read(fields: object, type: type[Read], what: str) -> Read:
+    try:
+        return msgspec.convert(fields, type)
+    except msgspec.ValidationError as error:
+        raise _Fault(f"is not sound: {what}: {error}") from None
+
+
+def _unread(fields: Mapping[str, object], type: type[msgspec.Struct]) -> dict[str, object]:
+    return {name: value for name, value in fields.items() if name not in type.__struct_fields__}
+
+
+def _positions(file: _File) -> Positions:
+    return {name: _position(name, fields) for name, fields in file.positions.items()}
+
+
+def _position(name: str, fields: dict[str, object]) -> Position:
+    read = _read(fields, _Position, f"position {name!r:.60}")
+    if any(not abs(value) <= _MOST for value in (*read.init, *read.data)):
+        raise _Fault(f"is not sound: position {name!r:.60} is farther away than anything")
+    init = Place.measured(read.init)
+    return Position(relative=read.relative, init=init, data=init, unread=_unread(fields, _Position))
+
+
+def _node(fields: dict[str, object]) -> Node:
+    read = _read(fields, _Node, f"step {fields.get('id')!r:.20}")
+    node = Node(
+        id=read.id,
+        type=read.type,
+        name=read.name,
+        position=read.position,
+        negate=read.negate,
+        threshold=None if read.threshold is None else read.threshold * OUNCE_FORCE,
+        vector=read.vector,
+        sons=read.sons,
+        links={*read.links},
+        fathers=[*dict.fromkeys(read.fathers)],
+        last_father=read.last_father,
+        comment=read.comment,
+        unread=_unread(fields, _Node),
+    )
+    if (read.type == "loop") != (read.loop is not None):
+        raise _Fault(
+            f"is not sound: step {read.id} is {read.type}, and {'says' if read.loop else 'lacks'} how it loops"
+        )
+    if read.loop is not None:
+        node.partner, node.wanted = read.loop.bloop, read.loop.wanted
+    return node

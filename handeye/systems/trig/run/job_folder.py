@@ -1,0 +1,65 @@
+"""What a taught job leaves in the folder of its run, besides what every run does: its account, program, and report."""
+
+from pathlib import Path
+from typing import Any, Final
+
+import msgspec
+
+from handeye.core.errors import InvalidInput
+from handeye.core.files import read_whole, write_whole
+from handeye.results.kept_result import restore_figures
+from handeye.runs.folder import JOB, REPORT, TAUGHT
+from handeye.systems.trig.language.program import TrigProgram
+from handeye.systems.trig.language.storage import decoded, encoded, read_program
+from handeye.systems.trig.run.job import JobReport
+from handeye.systems.trig.run.job_page import job_page
+
+_LARGEST: Final = 1_000_000
+"""Bytes: an account of twenty blocks takes ten thousand."""
+_FARTHEST: Final = 1e6
+"""mm and degrees: no block lies there."""
+
+
+def write_job(path: Path, done: JobReport, program: TrigProgram) -> None:
+    """Write them, each whole or not at all.
+
+    Raises:
+        InvalidInput: the folder cannot be written to.
+    """
+    write_whole(path / JOB, msgspec.json.format(msgspec.json.encode(done), indent=1) + b"\n")
+    taught = encoded(program)
+    write_whole(path / TAUGHT, taught)
+    write_whole(path / REPORT, job_page(done, decoded(taught, TAUGHT)))  # as `kept_job_page` makes it
+
+
+def kept_job_page(path: Path) -> bytes | None:
+    """The report of the job in a folder, made anew; None: the folder holds none that is over.
+
+    Raises:
+        InvalidInput: what is kept of it cannot be read.
+    """
+    if not (path / JOB).is_file():
+        return None
+    return job_page(_read_account(path / JOB), read_program(path / TAUGHT))
+
+
+def _read_account(path: Path) -> JobReport:
+    try:
+        written = msgspec.json.decode(read_whole(path, _LARGEST))
+        for check in _all_checks(written):
+            restore_figures(check)
+        done = msgspec.convert(written, JobReport)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InvalidInput(f"{path} is no account of a job: {error}") from None
+    lying = [
+        figure for blocks in done.lying.values() for each in blocks for figure in (*each.at, each.turned)
+    ]
+    if any(abs(figure) > _FARTHEST for figure in (*lying, *(x for goal in done.goals for x in goal))):
+        raise InvalidInput(f"{path} is no account of a job: a block lies farther away than anything")
+    return done
+
+
+def _all_checks(written: Any) -> list[Any]:
+    """The findings of the referee in what was read, if it is an account."""
+    tables = [written.get(name) for name in ("checks", "checks_back")] if isinstance(written, dict) else []
+    return [check for table in tables if isinstance(table, dict) for check in table.values()]

@@ -1,0 +1,178 @@
+"""The report of a taught job: what the referee found, where the blocks lay, and the program, as one page."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Final
+
+from handeye.core.markup import Markup
+from handeye.core.plain_text import counted
+from handeye.report.page.document import MARK, head, resource
+from handeye.report.page.elements import element, joined, note, section
+from handeye.report.page.plots import Scale, dot, drawing, rule, words
+from handeye.report.page.referee import findings_table
+from handeye.systems.trig.jobs.benches import Lying
+from handeye.systems.trig.language.full_display import full_display
+from handeye.systems.trig.language.partial_display import partial_display
+from handeye.systems.trig.language.program import TrigProgram
+from handeye.systems.trig.language.styled import Line, plain
+from handeye.systems.trig.run.job import JobReport, Outcome
+
+Point = tuple[float, float]
+
+VERDICTS: Final[dict[Outcome, str]] = {
+    "right": "right",
+    "stopped": "the arm has stopped",
+    "silent": "done, and the referee disagrees",
+    "halted": "interrupted",
+}
+_SIDE: Final = 30.0
+"""mm, of a block."""
+_COLUMNS: Final = 110
+"""Characters of a line of the program."""
+_WIDE, _HIGH, _BOTTOM = 960.0, 330.0, 325.0
+_PLATTER: Final = (0.0, 300.0)
+_PANELS: Final = ((350.0, 635.0), (675.0, 960.0))
+"""Where the drawings begin and end, from left to right."""
+_RINGS: Final = (5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05)
+"""mm: distances by which others can be read."""
+_NEAREST: Final = 0.1
+"""mm: no drawing shows less."""
+
+
+def job_page(done: JobReport, program: TrigProgram) -> bytes:
+    """The page of a job that has been carried out."""
+    title = f"{done.job.capitalize()}: {VERDICTS[done.outcome]}"
+    body = element(
+        "body",
+        element("header", element("h1", title), class_=None if done.outcome == "right" else "failed"),
+        element("main", note(_facts(done)), *_ends(done), *_sections(done, program)),
+    )
+    page = element("html", head(title, resource("page.css"), []), body, lang="en")
+    return f"{MARK}{page}\n".encode()
+
+
+def _facts(done: JobReport) -> str:
+    blocks = "" if done.blocks is None else f", with {counted(done.blocks, 'block')}"
+    world = f"TRIG, on the Purbrick arm in the world of seed {done.seed}{blocks}"
+    return f"{world}; {done.arm_s:,.0f} s of the arm’s clock, teaching included."
+
+
+def _ends(done: JobReport) -> Iterator[Markup]:
+    """How both ways have ended."""
+    for told in done.told:
+        yield element("p", f"{told[:1].upper()}{told[1:]}.")
+
+
+def _sections(done: JobReport, program: TrigProgram) -> Iterator[Markup]:
+    yield section("blocks", "Where the blocks lay", *_blocks(done))
+    for name, title, checks in (
+        ("ended", "What the referee measured when the program had ended", done.checks),
+        ("undone", "What the referee measured when it was undone", done.checks_back),
+    ):
+        if checks:
+            yield section(name, title, findings_table(checks.values()))
+    yield section("program", "The program", *map(_display, _displays(program)))
+
+
+def _displays(program: TrigProgram) -> tuple[list[Line], list[Line]]:
+    """All of it in miniature, and its steps in full."""
+    rows = max(1, len(program.graph.nodes))
+    return full_display(program, _COLUMNS, rows), partial_display(program, _COLUMNS, rows)
+
+
+def _display(lines: list[Line]) -> Markup:
+    return element("pre", joined((plain([line]) for line in lines), Markup("\n")))
+
+
+# -- where the blocks lay --------------------------------------------------------------------------------
+
+
+def _blocks(done: JobReport) -> Iterator[Markup]:
+    above = (
+        "The truth, which neither arm nor program sees, from above: outlines where the blocks are wanted and where "
+        "they were, numbers in the order in which they are taken, a cross in the middle of the platter."
+    )
+    off = " Beside it: the middle of each block, seen from where it should be."
+    yield note(above + (off if _placed(done) or done.checks_back else ""))
+    yield element("figure", _drawn(done), class_="chart")
+
+
+def _placed(done: JobReport) -> list[Point]:
+    """How far off each block was placed, if all were, mm."""
+    return _off(done.lying.get("run", ()), done.goals) if "placed" in done.checks else []
+
+
+def _drawn(done: JobReport) -> Markup:
+    taught = done.lying.get("taught", ())
+    back = _off(done.lying.get("undone", ()), [lying.at[:2] for lying in taught]) if done.checks_back else []
+    return drawing(
+        *_platter(done),
+        *_scatter("placed", _placed(done), _limit(done), _PANELS[0]),
+        *_scatter("taken back, seen from above", back, None, _PANELS[1]),
+        wide=_WIDE,
+        high=_HIGH,
+        label="The blocks from above, and how far off they were placed and taken back",
+    )
+
+
+def _off(lying: Sequence[Lying], wanted: Sequence[Point]) -> list[Point]:
+    """How far blocks lie from where they are wanted, as far as any place is, mm."""
+    return [(one.at[0] - x, one.at[1] - y) for one, (x, y) in zip(lying, wanted, strict=False)]
+
+
+def _limit(done: JobReport) -> float | None:
+    """How far off a block may be placed, mm."""
+    return done.checks["placed"].limit if "placed" in done.checks else None
+
+
+def _platter(done: JobReport) -> Iterator[Markup]:
+    """The platter from above: X to the right, Y up."""
+    shown = done.lying.get("run", ())
+    points = [*done.goals, *(each.at[:2] for each in (*shown, *done.lying.get("taught", ()))), (0.0, 0.0)]
+    (west, east), (south, north) = ((min(along), max(along)) for along in zip(*points, strict=True))
+    half = max(east - west, north - south) / 2 + _SIDE
+    x, y = (west + east) / 2, (south + north) / 2
+    xs = Scale(x - half, x + half, *_PLATTER)
+    ys = Scale(y - half, y + half, _BOTTOM, _BOTTOM - (_PLATTER[1] - _PLATTER[0]))
+    yield words(_PLATTER[0], 12, "when the program had ended" if done.checks else "when the program was left")
+    yield rule(xs(-4), ys(0), xs(4), ys(0), class_="axis")
+    yield rule(xs(0), ys(-4), xs(0), ys(4), class_="axis")
+    for x, y in done.goals:
+        yield _square(xs, ys, (x, y), 0.0, "outline")
+    for lying in done.lying.get("taught", ()):
+        yield _square(xs, ys, lying.at[:2], lying.turned, "outline")
+    for number, lying in sorted(enumerate(shown, 1), key=lambda numbered: numbered[1].at[2]):
+        x, y, _ = lying.at
+        yield _square(xs, ys, (x, y), lying.turned, "block")
+        yield words(xs(x), ys(y) + 3.5, str(number), anchor="middle")
+
+
+def _square(xs: Scale, ys: Scale, at: Point, turned: float, class_: str) -> Markup:
+    """A block from above."""
+    turns = (math.radians(turned + 45 + 90 * corner) for corner in range(4))
+    out = _SIDE / math.sqrt(2)
+    corners = ((at[0] + out * math.cos(turn), at[1] + out * math.sin(turn)) for turn in turns)
+    points = " ".join(f"{xs(x):.1f},{ys(y):.1f}" for x, y in corners)
+    return element("polygon", points=points, class_=class_)
+
+
+def _scatter(title: str, off: Sequence[Point], limit: float | None, panel: Point) -> Iterator[Markup]:
+    """How far off each block was, mm, from above."""
+    if not off:
+        return
+    most = max(math.hypot(*each) for each in off)
+    reach = max(1.5 * most, _NEAREST)
+    xs = Scale(-reach, reach, *panel)
+    ys = Scale(-reach, reach, _BOTTOM, _BOTTOM - (panel[1] - panel[0]))
+    told = "" if limit is None else f"; the limit is {limit:g} mm"
+    yield words(panel[0], 12, f"{title}: at most {most:.2f} mm off{told}")
+    yield rule(xs(-reach), ys(0), xs(reach), ys(0), class_="axis")
+    yield rule(xs(0), ys(-reach), xs(0), ys(reach), class_="axis")
+    for radius, class_ in ((next(ring for ring in _RINGS if ring < reach), "ring-of"), (limit, "boundary")):
+        if radius is not None and radius < reach:
+            size = f"{xs(radius) - xs(0):.1f}"
+            yield element("circle", cx=f"{xs(0):.1f}", cy=f"{ys(0):.1f}", r=size, class_=class_)
+            yield words(xs(0) + 4, ys(-radius) - 4, f"{radius:g} mm")
+    for number, (x, y) in enumerate(off, 1):
+        yield dot(xs(x), ys(y), 2.5, class_="moved")
+        yield words(xs(x) + 4, ys(y) - 3, str(number))

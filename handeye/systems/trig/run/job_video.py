@@ -1,0 +1,117 @@
+"""A video of a taught job: what stood where while the arm worked is kept, and drawn when it is over."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+import cv2
+import numpy as np
+
+from handeye.cell.bench import Bench
+from handeye.cell.opengl import context
+from handeye.cell.photograph import Photograph, Photographer
+from handeye.cell.posed import standing
+from handeye.core.errors import InvalidInput
+from handeye.core.files import check_place, write_over
+from handeye.core.folders import Taken
+from handeye.core.pose import Array
+from handeye.report.page.figures import clock
+from handeye.systems.trig.jobs.benches import TaughtJob
+from handeye.video.captions import Caption, captioned
+from handeye.video.formats import format_of
+from handeye.video.frames import RATE
+
+WIDTH, HEIGHT = 400, 300
+"""Points of a frame."""
+LASTS: Final = 20.0
+"""s, at most."""
+_VIEW: Final = "people"
+_FINER: Final = 2
+"""Points of the drawing for one of a frame, along a side."""
+_SHADOW: Final = 2048
+_EVERY: Final = 0.25
+"""s of the arm's clock between two moments that are kept."""
+_HELD: Final = 2 * RATE
+"""Periods for which the last frame stands."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Moment:
+    """Where everything was, and what was being done."""
+
+    time: float
+    """s of the arm's clock."""
+    qpos: Array
+    words: str
+
+
+class JobVideo:
+    """Looks on while a job is carried out."""
+
+    def __init__(self, path: Path, *, overwrite: bool) -> None:
+        """See that there can be a video.
+
+        Raises:
+            Taken: a video is there, and may not be replaced.
+            InvalidInput: it cannot be written there, its name asks for no format that is written, or there is no
+                OpenGL on this machine.
+        """
+        self._path, self._form = path, format_of(path)
+        check_place(path, self._form.kind)
+        if path.exists() and not overwrite:
+            raise Taken(f"{path} is there already; --overwrite replaces it")
+        context()
+        self._moments: list[_Moment] = []
+
+    def watch(self, job: TaughtJob) -> None:
+        """Look on from now: the job has been taught."""
+        bench, program = job.bench, job.session.program
+
+        def look() -> None:
+            if not self._moments or bench.now - self._moments[-1].time >= _EVERY:
+                active = program.active
+                words = active.name or active.position or active.type
+                self._moments.append(_Moment(bench.now, bench.data.qpos.copy(), words))
+
+        bench.passed.append(look)
+
+    def write(self, job: TaughtJob, ended: float | None, told: Callable[[int, int], None]) -> None:
+        """Draw what was seen, and write it, whole or not at all.
+
+        Args:
+            ended: when the program had ended, s of the arm's clock; from then on it was undone.
+            told: told of each frame: its number, of how many.
+
+        Raises:
+            InvalidInput: the arm has not moved, or the file cannot be written.
+        """
+        if not self._moments:
+            raise InvalidInput(f"the arm has not moved: {self._path} was not made")
+        most = int(LASTS * RATE) - _HELD
+        rows = np.unique(np.linspace(0, len(self._moments) - 1, most).round().astype(int))
+        shown = [self._moments[row] for row in rows.tolist()]
+        self._form.check(len(shown), WIDTH, HEIGHT)
+        write_over(
+            self._path, self._form.encode(_drawn(job.bench, shown, ended, told), _HELD), self._form.kind
+        )
+
+
+def _drawn(
+    bench: Bench,
+    moments: Sequence[_Moment],
+    ended: float | None,
+    told: Callable[[int, int], None],
+) -> Iterator[Photograph]:
+    """The frames, one after the other."""
+    photographer = Photographer(bench.model, width=_FINER * WIDTH, height=_FINER * HEIGHT, shadow=_SHADOW)
+    for number, moment in enumerate(moments):
+        told(number, len(moments))
+        fine = photographer.take(*standing(bench.model, moment.qpos), _VIEW)
+        small = np.asarray(cv2.resize(fine, (WIDTH, HEIGHT), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+        back = ended is not None and moment.time > ended
+        caption = Caption(
+            words=f"{'backwards' if back else 'forwards'}: {moment.words}",
+            clock=clock(moment.time - moments[0].time), stages=2, begun=1 + back, stopped=False,
+        )  # fmt: skip
+        yield captioned(small, caption, None)

@@ -1,0 +1,159 @@
+"""Plan of a taught job: the script that teaches it. Its steps are the same in each world, its places are not."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import ClassVar, Final
+
+import msgspec
+
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.jobs.benches import TaughtPlan, new_session, read_taught_plan
+from handeye.systems.trig.language.graph import Graph
+from handeye.systems.trig.language.layout import Cell
+from handeye.systems.trig.language.node import NONE, Node
+from handeye.systems.trig.language.program import TrigProgram
+from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.step_words import loop_words, step_words
+from handeye.systems.trig.language.symbols import ASCII
+
+HANDS: Final = ("grasp", "ungrasp")
+"""Words of steps that work the hand alone."""
+PATIENCE: Final = 100_000
+"""How often an imagined arm may ask whether to halt: a program that is run while it is taught must end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaughtStep:
+    """A step as people see it."""
+
+    node: int
+    line: int
+    text: str
+    word: str
+    label: str
+    ways: tuple[int | None, ...]
+    stage: ClassVar[int] = 0
+    file: ClassVar[str] = ""
+    macro: ClassVar[str] = ""
+    needs: ClassVar[None] = None
+
+    @property
+    def place(self) -> str:
+        """Its line, as people are told."""
+        return str(self.line)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TaughtListing:
+    """The steps of a program as they are drawn, one a line."""
+
+    name: str
+    steps: Sequence[TaughtStep]
+    stages: tuple[str, ...]
+    required: ClassVar[dict[str, str]] = {}
+
+    @property
+    def numbers(self) -> Mapping[int, int]:
+        """Numbers of steps by their nodes."""
+        return {step.node: number for number, step in enumerate(self.steps)}
+
+    @property
+    def source(self) -> str:
+        """The steps, a line each."""
+        return "\n".join(step.text for step in self.steps)
+
+    @property
+    def labels(self) -> Mapping[str, Sequence[int]]:
+        """Names of steps."""
+        return {step.label: (number,) for number, step in enumerate(self.steps) if step.label}
+
+
+def encode(plan: TaughtPlan) -> bytes:
+    """A plan as the content of a file."""
+    return msgspec.json.format(msgspec.json.encode(plan), indent=1) + b"\n"
+
+
+def decode(data: bytes, name: str) -> TaughtPlan:
+    """The plan in some bytes.
+
+    Raises:
+        InvalidInput: there is none, or its script cannot be typed.
+    """
+    plan = read_taught_plan(data, name)
+    try:
+        listing(plan)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name} is not sound: {error}") from None
+    return plan
+
+
+def imagined(plan: TaughtPlan) -> TrigProgram:
+    """The program that a script teaches an imagined arm: its steps are those of any arm, its places are not.
+
+    Raises:
+        InvalidInput: the script cannot be typed, or what is run in it does not end.
+    """
+    session, asked = new_session("none"), 0
+
+    def ask() -> bool:
+        nonlocal asked
+        asked += 1
+        if asked > PATIENCE:
+            raise InvalidInput("what is run in it does not end")
+        return False
+
+    script = Script(plan.script.splitlines(), halted=ask)
+    session.desk, session.files = script, False  # a plan comes with checkpoints and traces, whoever made them
+    type_script(session, script, f"{plan.job}.trig")
+    return session.program
+
+
+@lru_cache(maxsize=4)
+def listing(plan: TaughtPlan) -> TaughtListing:
+    """The steps of a plan."""
+    program = imagined(plan)
+    graph = program.graph
+    numbers = {node.id: number for number, node in enumerate(graph.steps())}
+    steps = tuple(_step(program, node, numbers) for node in graph.steps())
+    return TaughtListing(name=plan.job, steps=steps, stages=(plan.job,))
+
+
+def _step(program: TrigProgram, node: Node, numbers: Mapping[int, int]) -> TaughtStep:
+    graph, number = program.graph, numbers[node.id]
+    return TaughtStep(
+        node=node.id,
+        line=number + 1,
+        text=_text(program, node, number),
+        word=node.type,
+        label=node.name or "",
+        ways=tuple(_ways(graph, node, numbers)),
+    )
+
+
+def _text(program: TrigProgram, node: Node, number: int) -> str:
+    """What a step does, whatever the round: how often a loop has gone back is no part of it."""
+    if node.type == "loop":
+        return loop_words(program.graph, node, ASCII)
+    shown, deed, _ = step_words(
+        program.graph, program.positions, Cell(row=number, column=0, node=node), ASCII
+    )
+    return " ".join(filter(None, (shown if node.name or not deed else "", deed)))
+
+
+def text_now(step: TaughtStep, node: Node) -> str:
+    """A step as it is about to be carried out: of a loop, whether it goes back, and the how-manieth time that is."""
+    if node.type != "loop":
+        return step.text
+    back = f"goes back ({node.count + 1} of {node.wanted})" if node.count < node.wanted else "goes on"
+    return f"{step.text}, {back}"
+
+
+def _ways(graph: Graph, node: Node, numbers: Mapping[int, int]) -> list[int | None]:
+    """The steps that may follow; None: the end."""
+    sons = [graph.step_at(son) for son in node.sons]
+    target = graph.target(node) if node.type == "loop" else None
+    return [
+        *(None if son == NONE else numbers[son] for son in sons),
+        *([numbers[target.id]] if target else []),
+    ]

@@ -1,0 +1,384 @@
+"""The system of taught programs: TRIG, at the arm of a bench."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from handeye.cell.kept import KeptCell
+from handeye.core.errors import InvalidInput
+from handeye.core.mutable_records import put_back
+from handeye.core.pose import Array
+from handeye.core.record import Vector3
+from handeye.core.units import MILLIMETRE
+from handeye.core.variation import WorldSpec
+from handeye.core.versions import versions
+from handeye.execution.servo import Halted
+from handeye.execution.servo_period import ServoPeriod
+from handeye.execution.undo.done import Undoing
+from handeye.planfile.store import written_digest
+from handeye.ports.workcell import Sensed
+from handeye.program.events import (
+    AnyEvent,
+    Choice,
+    OperatorAnswered,
+    OperatorCalled,
+    RunFinished,
+    RunStarted,
+    StageFinished,
+    StageStarted,
+    StageUndone,
+    StepFinished,
+    StepStarted,
+    UndoEnded,
+    UndoFinished,
+    UndoOrdered,
+    UndoStarted,
+)
+from handeye.program.system_state import SystemState
+from handeye.runs.setup import Setup
+from handeye.runs.system import Settable, Surroundings, System, SystemKind
+from handeye.systems.trig.jobs.benches import TaughtJob, TaughtPlan, open_job
+from handeye.systems.trig.language.node import NONE, TOP
+from handeye.systems.trig.language.obstacles import told_obstacle
+from handeye.systems.trig.language.place import AXES
+from handeye.systems.trig.language.position import is_named
+from handeye.systems.trig.language.script import Script
+from handeye.systems.trig.run.plan import TaughtStep, decode, encode, imagined, listing, text_now
+from handeye.systems.trig.run.state import Executed, TaughtState, Turn
+
+ARM: Final = "purbrick"
+
+
+class TaughtSystem(System):
+    """Teaches a program in the world of a run, and carries it out."""
+
+    def __init__(self, setup: Setup, around: Surroundings) -> None:
+        """Build the bench; nothing lies on it, and nothing is taught.
+
+        Raises:
+            InvalidInput: there is no such world, or the plan is of another system.
+        """
+        check(setup)
+        self._setup, self._around, self._plan = setup, around, plan_of(setup)
+        self._steps = listing(self._plan).steps
+        self._numbers = listing(self._plan).numbers
+        self.job: TaughtJob = open_job(self._plan.job, setup.world.seed, self._plan.script)
+        self._state = TaughtState(at=0)
+        self._laid = False
+        self._q = self.job.axes.read().q
+        self._rest, self._felt = np.zeros(3), 0.0
+
+    @property
+    def state(self) -> TaughtState:
+        return self._state
+
+    @property
+    def cell(self) -> KeptCell:
+        if not self._laid:
+            self.job.lay()
+            self.job.session.program = imagined(self._plan)
+            self._look_on()
+        return self.job.cell
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return tuple(spec.name for spec in self.job.axes.specs)
+
+    @property
+    def time(self) -> float:
+        return self.job.bench.now
+
+    @property
+    def trouble(self) -> str | None:
+        return None
+
+    # -- going on -------------------------------------------------------------------------------------
+
+    def begin(self) -> Sequence[AnyEvent]:
+        self.job.teach(self._ask)
+        session = self.job.session
+        session.desk = Script((), halted=self._around.halt)
+        if [node.id for node in session.program.graph.steps()] != [step.node for step in self._steps]:
+            raise InvalidInput("the script teaches other steps in this world than elsewhere")
+        self._look_on()
+        session.program.begin()
+        self._to(session.program.graph[TOP].sons[0])
+        self._note()
+        return [
+            RunStarted(
+                system=TAUGHT.name,
+                time=self.time,
+                program=self._plan.job,
+                steps=len(self._steps),
+                plan=written_digest(encode(self._plan)),
+                arm=ARM,
+                arm_digest="",
+                world=self._setup.world,
+                task=self._setup.task,
+                camera=self.job.cell.renderer,
+                versions=versions(),
+            )
+        ]
+
+    def _ask(self) -> bool:
+        """Asked while the program is taught. Raises Halted if somebody wants to stop."""
+        if self._around.halt():
+            raise Halted
+        return False
+
+    def step(self) -> None:
+        if self._state.undoing is None:
+            self._do()
+        else:
+            self._undo()
+        self._note()
+
+    def _do(self) -> None:
+        state = self._state
+        assert state.at is not None
+        number, step = state.at, self._steps[state.at]
+        if state.stage is None:
+            state.stage = step.stage
+            self._around.emit(StageStarted(time=self.time, stage=self._plan.job))
+        text = text_now(step, self.job.session.program.graph[step.node])
+        self._around.emit(StepStarted(time=self.time, step=number, line=step.line, text=text))
+        refused = self._carried_out(step)
+        hand, gap = self._hand()
+        self._around.emit(StepFinished(time=self.time, step=number, hand=hand, planned=None, gap=gap))
+        if refused is not None:
+            self._call(refused, number)
+        elif state.at is None:
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.job, status="done"))
+            state.stage = None
+
+    def _carried_out(self, step: TaughtStep) -> str | None:
+        """Carry out a step and what nobody sees behind it; why the arm refuses to, if it does."""
+        try:
+            next = self.job.session.runner.carry_out(step.node, self._state.came)
+        except InvalidInput as error:  # by the arm: it cannot go where the step wants it
+            return str(error)
+        if next is None:
+            raise Halted
+        self._state.came = step.node
+        self._to(next)
+        return None
+
+    def _to(self, node: int) -> None:
+        """Come to the next step that people see, or to the end."""
+        program, state = self.job.session.program, self._state
+        while node != NONE and not program.graph[node].shown:
+            next = self.job.session.runner.carry_out(node, state.came)
+            assert next is not None
+            state.came, node = node, next
+        state.at = None if node == NONE else self._numbers[node]
+
+    def _undo(self) -> None:
+        state, job = self._state, self.job
+        number = self.executed[-1].step
+        step = self._steps[number]
+        state.stage = step.stage
+        self._around.emit(UndoStarted(time=self.time, step=number, line=step.line, text=step.text))
+        self._rest, self._felt = self._force(), 0.0
+        refused = self._undone(job)
+        hand, gap = self._hand()
+        felt = round(self._felt, 3)
+        self._around.emit(
+            UndoFinished(time=self.time, step=number, hand=hand, planned=None, gap=gap, force=felt)
+        )
+        if refused is None:
+            self._stand_before(number)
+        else:
+            self._call(refused, number)
+
+    def _undone(self, job: TaughtJob) -> str | None:
+        """Have the last step undone; why the arm has stopped, if it has."""
+        try:
+            ran = job.session.runner.back(1)
+        except InvalidInput as error:  # by the arm: it cannot go back to where it was
+            return str(error)
+        if ran.end == "halted":
+            raise Halted
+        self._state.obstacle = ran.obstacle
+        return None if ran.obstacle is None else told_obstacle(ran.obstacle)
+
+    def _stand_before(self, number: int) -> None:
+        """The step of a number is undone: it is the next one, or all is undone that was to be."""
+        state, program = self._state, self.job.session.program
+        assert state.undoing is not None
+        self._note()
+        left = len(self.executed)
+        if not left:
+            while program.trail:  # what nobody sees before the first step
+                self.job.session.runner.back(1)
+            self._around.emit(StageUndone(time=self.time, stage=self._plan.job))
+            state.stage = None
+        state.came = program.trail[-1].node if program.trail else TOP
+        if left > state.undoing.left:
+            state.at = self.executed[-1].step
+            return
+        halts = state.undoing.halts
+        self._around.emit(UndoEnded(time=self.time, step=number))
+        state.undoing, state.at, state.onward = None, None if halts else number, number if halts else None
+
+    def _call(self, sentence: str, number: int) -> None:
+        """Call the operator, who has the same done again, or ends it."""
+        state = self._state
+        state.stopped = OperatorCalled(time=self.time, message=sentence)
+        state.at, state.onward = None, number
+        self._around.emit(state.stopped)
+
+    def answer(self, choice: Choice) -> None:
+        """Go on where the run stands: `retry` and `proceed` have the step done again, `skip` ends the program.
+
+        Raises:
+            InvalidInput: a step is to be skipped that the arm undoes.
+        """
+        state = self._state
+        if choice == "skip" and state.undoing is not None:
+            raise InvalidInput(
+                "no step is skipped on the way back, where each begins as the last one ends: "
+                "`proceed` has it undone again, `abort` ends the run"
+            )
+        if state.undoing is None:
+            state.turn = None
+        state.at = None if choice == "skip" else state.onward
+        state.stopped, state.onward, state.obstacle = None, None, None
+        self._around.emit(OperatorAnswered(time=self.time, choice=choice, step=state.at))
+        if state.at is None and state.stage is not None:
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.job, status="skipped"))
+            state.stage = None
+
+    @property
+    def executed(self) -> Sequence[Executed]:
+        return self._state.executed(self._plan)
+
+    def undo(self, undoing: Undoing) -> None:
+        turn = Turn(steps=len(self.executed), ended=self._state.at is None, time=self.time)
+        self._state.order(self._plan, undoing)
+        if undoing.asked_by == "job":
+            self._state.turn = turn
+            self.job.turn()
+        asked_by = undoing.asked_by
+        self._around.emit(
+            UndoOrdered(time=self.time, left=undoing.left, halts=undoing.halts, asked_by=asked_by)
+        )
+
+    def finish(self) -> bool:
+        state = self._state
+        if state.stage is not None:
+            self._around.emit(StageFinished(time=self.time, stage=self._plan.job, status="stopped"))
+        completed = state.at is None and state.stopped is None
+        self._around.emit(RunFinished(time=self.time, completed=completed))
+        return completed
+
+    def restore(self, state: SystemState) -> None:
+        if not isinstance(state, TaughtState):
+            raise InvalidInput("what the run remembers is not of a taught program")
+        session = self.job.session
+        state.check(session.program, len(self._steps))
+        put_back(self._state, state)
+        state.put_into(session.program)
+        assert state.arm is not None
+        self.job.arm.remember(state.arm)
+        session.desk = Script((), halted=self._around.halt)
+        self._q = self.job.axes.read().q
+
+    @property
+    def shown(self) -> Mapping[str, Any]:
+        """Millimetres and degrees."""
+        program, arm = self.job.session.program, self.job.arm
+        told = dict(zip(AXES, arm.here().measures(), strict=True))
+        named = {name: p.data.measures() for name, p in program.positions.items() if is_named(name)}
+        loops = [node for node in program.graph.steps() if node.type == "loop"]
+        return {
+            "arm": told,
+            "gap": round(arm.gap / MILLIMETRE, 3),
+            "force": [round(float(each), 3) for each in self._force()],
+            "executed": len(self.executed),
+            "rounds": {self._shown(loop.id): loop.count for loop in loops},
+            "positions": named,
+        }
+
+    def _shown(self, node: int) -> str:
+        """Line and text of a step."""
+        step = self._steps[self._numbers[node]]
+        return f"{step.place} {step.text}"
+
+    def settables(self) -> Mapping[str, Settable]:
+        return {}
+
+    def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
+        raise InvalidInput(f"{what} {name} cannot be set: nothing can be in a taught program")
+
+    # -- inside ---------------------------------------------------------------------------------------
+
+    def _note(self) -> None:
+        self._state.note(self.job.session.program, self.job.arm.memory)
+
+    def _hand(self) -> tuple[Vector3, float]:
+        """Where the hand is over the platter by the potentiometers, m, and the gap between its fingers."""
+        x, y, z = (round(float(value), 6) for value in self.job.axes.read().q[:3])
+        return (x, y, z), round(self.job.arm.gap, 6)
+
+    def _force(self) -> Array:
+        """The force on the finger, shape (3,), N."""
+        channels = self.job.axes.read().channels
+        return np.array([channels[f"force_{axis}"] for axis in "xyz"])
+
+    def _look_on(self) -> None:
+        """From now on tell of every period of the machine."""
+        self._laid = True
+        self._q = self.job.axes.read().q
+        self.job.bench.passed.append(self._tell)
+
+    def _tell(self) -> None:
+        axes = self.job.axes
+        reading = axes.read()
+        rate, self._q = (reading.q - self._q) / axes.period, reading.q
+        self._felt = max(self._felt, float(np.linalg.norm(self._force() - self._rest)))
+        sensed = Sensed(
+            time=reading.time, q=reading.q, qd=rate, gap=reading.channels["gap"], touch=(False, False),
+            tool_torque=0.0, braked=False,
+        )  # fmt: skip
+        self._around.watch(ServoPeriod(sensed=sensed, effort=np.zeros(len(rate)), wrench=-self._force()))
+
+
+def plan_of(setup: Setup) -> TaughtPlan:
+    """The plan of a taught job.
+
+    Raises:
+        InvalidInput: another system carries the run out.
+    """
+    if not isinstance(setup.plan, TaughtPlan):
+        raise InvalidInput(f"this is a run of the system {setup.system}, which nobody has taught")
+    return setup.plan
+
+
+def check(setup: Setup) -> None:
+    """See that a job is done in a world that can be had.
+
+    Raises:
+        InvalidInput: its task is another one, or its world is drawn otherwise than by a seed.
+    """
+    plan, world = plan_of(setup), setup.world
+    if setup.task != plan.job:
+        raise InvalidInput(f"the plan is that of {plan.job}, not of {setup.task}")
+    if world != WorldSpec(seed=world.seed):
+        raise InvalidInput(f"worlds of taught jobs are drawn by their seed alone, not as {world}")
+
+
+TAUGHT: Final = SystemKind(
+    name="trig",
+    plan=TaughtPlan,
+    state=TaughtState,
+    encode=encode,
+    decode=decode,
+    listing=listing,
+    machine=lambda _: (ARM, ""),
+    check=check,
+    build=TaughtSystem,
+    executed=lambda plan, state: state.executed(plan),
+    order=lambda plan, state, undoing: state.order(plan, undoing),
+)
+"""Programs of TRIG, taught in the world of a run."""

@@ -1,0 +1,90 @@
+"""A session of TRIG from Python: lines are typed, and both displays show what has come of them."""
+
+from typing import Final, get_args
+
+from handeye.api.html import frame, page
+from handeye.cell.photograph import Photograph, check_size
+from handeye.core.diagnostics import quoted
+from handeye.core.errors import InvalidInput
+from handeye.systems.trig.jobs.benches import ArmName, SeenTable, new_session
+from handeye.systems.trig.language.full_display import full_display
+from handeye.systems.trig.language.partial_display import partial_display
+from handeye.systems.trig.language.script import Script, type_script
+from handeye.systems.trig.language.styled import plain
+
+_WIDE: Final = 100
+"""Characters of a line of the displays."""
+
+
+class TrigSession:
+    """Somebody at the editor of TRIG, with a teach box: what is typed happens, and the program grows.
+
+    It shows itself as its steps; in notebooks in miniature, too.
+
+    >>> session = handeye.TrigSession()
+    >>> session.type("M CENTER\\nX 0 Y 0 Z 150 RECORD\\nM BLOCK\\nX 60 Z 6 RECORD\\nGRASP")
+    ()
+    >>> session
+       ***  CENTER
+       ***  BLOCK
+    ▶  ***  (grasp)
+    >>> session.type("RUN -1000")
+    ('3 steps undone; there is nothing to undo before this',)
+    """
+
+    def __init__(self, arm: ArmName = "none") -> None:
+        """Sit down at an arm, to write a new program.
+
+        Args:
+            arm: `none` is one that is imagined, `purbrick` that of the paper, with physics.
+
+        Raises:
+            InvalidInput: there is no such arm.
+        """
+        if arm not in get_args(ArmName):
+            raise InvalidInput(f"there is no arm {quoted(str(arm))}; `none` and `purbrick` can be taught")
+        self._session = new_session(arm)
+
+    def type(self, text: str) -> tuple[str, ...]:
+        """Type lines, as a script has them: commands, the teach box, answers, and what somebody does with the table.
+
+        Returns:
+            What was told, a sentence each.
+
+        Raises:
+            InvalidInput: a line cannot be carried out; those before it have been.
+        """
+        told: list[str] = []
+        script = Script(text.splitlines(), told.append)
+        self._session.desk, self._session.over = script, False
+        type_script(self._session, script, "what was typed")
+        return tuple(told)
+
+    @property
+    def hand(self) -> tuple[float, float, float]:
+        """Where the hand was told to be: X, Y and Z of the paper's arm, mm."""
+        x, y, z, *_ = self._session.arm.here().measures()
+        return x, y, z
+
+    def photograph(self, *, width: int = 640, height: int = 480) -> Photograph:
+        """Arm and table as somebody sees them who stands before them, shape (height, width, 3), red, green and blue.
+
+        Raises:
+            InvalidInput: the arm is imagined, there is no OpenGL on this machine, or the size is none of a picture.
+        """
+        table = self._session.table
+        if not isinstance(table, SeenTable):
+            raise InvalidInput("nobody can see an arm that is imagined; TrigSession('purbrick') has one")
+        check_size(width, height)
+        return table.photograph(width, height)
+
+    def __repr__(self) -> str:
+        program = self._session.program
+        return plain(partial_display(program, _WIDE, self._rows))
+
+    def _repr_html_(self) -> str:
+        return page(frame(plain(full_display(self._session.program, _WIDE, self._rows))), frame(repr(self)))
+
+    @property
+    def _rows(self) -> int:
+        return max(1, len(self._session.program.graph.nodes))

@@ -1,0 +1,83 @@
+"""`NAME[=VALUE][@STAGE]` names a fault of a catalogue, or is refused in a sentence."""
+
+import pytest
+
+from handeye.core.errors import InvalidInput
+from handeye.core.fault_options import by_number, faults, from_start_only
+from handeye.core.faults import Catalogue, Fault, FaultKind, Size
+from handeye.core.units import INCH
+
+CATALOGUE = Catalogue(
+    FaultKind(name="lamp.dead", meaning="The lamp stays dark."),
+    FaultKind(name="gap.off", meaning="It reads more.", size=Size(unit="in", usual=0.5, limits=(-4.0, 4.0))),
+    FaultKind(name="gasket.missing", meaning="There is none.", from_start=True),
+    FaultKind(name="base.removed", meaning="Somebody takes it away.", usual_stage=4),
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("lamp.dead", Fault(name="lamp.dead")),
+        (" lamp.dead @ 3 ", Fault(name="lamp.dead", stage=3)),
+        ("gap.off", Fault(name="gap.off", value=0.5 * INCH)),
+        ("gap.off=-1", Fault(name="gap.off", value=-INCH)),
+        ("gap.off=2mm@1", Fault(name="gap.off", value=0.002, stage=1)),
+        ("gasket.missing", Fault(name="gasket.missing")),
+        ("base.removed", Fault(name="base.removed", stage=4)),
+        ("base.removed@2", Fault(name="base.removed", stage=2)),
+    ],
+)
+def test_a_fault_is_named_with_its_size_and_its_stage(text: str, fault: Fault) -> None:
+    assert faults(CATALOGUE, [text], by_number) == (fault,)
+
+
+def test_a_stage_may_have_any_name() -> None:
+    (fault,) = faults(CATALOGUE, ['lamp.dead@"put on=the @ top"'], {"put on=the @ top": 7}.__getitem__)
+    assert fault.stage == 7
+
+
+@pytest.mark.parametrize(
+    ("texts", "sentence"),
+    [
+        (["lamp.daed"], "there is no fault `lamp.daed`; did you mean `lamp.dead`?"),
+        (
+            ["bell"],
+            "there is no fault `bell`; known: `base.removed`, `gap.off`, `gasket.missing`, `lamp.dead`",
+        ),
+        (["lamp"], "`lamp` is a group of faults: `lamp.dead`"),
+        (["lamp.dead=3"], "the fault `lamp.dead` has no value; leave out `=3`"),
+        (["gap.off=wide"], "gap.off cannot be `wide`, which is not a number"),
+        (["gap.off=5in"], "gap.off cannot be `5in`; it can be -4 to 4 in"),
+        (["gap.off=5N"], "gap.off is not measured in `N`; known: `in`, `m`, `mm`"),
+        (["lamp.dead@0"], "`0` is no number of a stage, from 1 up"),
+        (["lamp.dead@"], "`lamp.dead@` names no fault; write NAME, NAME=VALUE or NAME@STAGE"),
+        (["gap.off="], "`gap.off=` names no fault; write NAME, NAME=VALUE or NAME@STAGE"),
+        (["lamp.dead", "lamp.dead@2"], "the fault `lamp.dead` is given twice"),
+        (
+            ["gasket.missing@2"],
+            "the fault `gasket.missing` cannot set in while the cell works; leave out `@2`",
+        ),
+    ],
+)
+def test_what_names_no_fault_is_refused(texts: list[str], sentence: str) -> None:
+    with pytest.raises(InvalidInput) as refused:
+        faults(CATALOGUE, texts, by_number)
+    assert str(refused.value) == sentence
+
+
+def test_where_nothing_has_stages_a_fault_is_there_from_the_beginning() -> None:
+    with pytest.raises(InvalidInput, match=r"^a fault is there from the beginning here; leave out `@2`$"):
+        faults(CATALOGUE, ["lamp.dead@2"], from_start_only)
+
+
+def test_a_fault_is_told_as_it_would_be_typed() -> None:
+    typed = ["gap.off=-0.25in@2", "lamp.dead"]
+    assert [CATALOGUE.told(fault) for fault in faults(CATALOGUE, typed, by_number)] == typed
+
+
+def test_a_recorded_fault_of_another_size_than_it_can_have_is_refused() -> None:
+    with pytest.raises(InvalidInput, match=r"^the fault `gap.off` cannot be of 7\.0: it can be -0\.1016 to"):
+        CATALOGUE.check([Fault(name="gap.off", value=7.0)])
+    with pytest.raises(InvalidInput, match=r"^the fault `lamp.dead` has no value$"):
+        CATALOGUE.check([Fault(name="lamp.dead", value=7.0)])

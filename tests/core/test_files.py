@@ -1,0 +1,66 @@
+"""Files are written whole or not at all."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from handeye.core.errors import InvalidInput
+from handeye.core.files import Kind, read_whole, write_over, write_whole
+
+
+def test_ctrl_c_in_the_middle_of_writing_leaves_the_file_before_and_nothing_beside_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a"
+    write_whole(path, b"before")
+
+    def interrupted(_: int) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("os.fsync", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_whole(path, b"after")
+    assert [file.name for file in tmp_path.iterdir()] == ["a"]
+    assert path.read_bytes() == b"before"
+
+
+def test_what_a_link_leads_to_is_written_and_stays_readable_for_whom_it_was(tmp_path: Path) -> None:
+    file, link = tmp_path / "a", tmp_path / "b"
+    file.touch(mode=0o600)
+    link.symlink_to(file)
+    write_whole(link, b"after")
+    assert link.is_symlink()
+    assert (file.read_bytes(), file.stat().st_mode & 0o777) == (b"after", 0o600)
+
+
+def test_a_pipe_or_device_is_not_replaced_by_a_file(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with pytest.raises(InvalidInput, match=r"pipe cannot be written: it is not a file$"):
+        write_whole(pipe, b"after")
+    assert pipe.is_fifo()
+
+
+def test_a_file_that_is_written_anew_can_be_read_by_whom_the_user_lets_read(tmp_path: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        write_whole(tmp_path / "a", b"new")
+    finally:
+        os.umask(before)
+    assert (tmp_path / "a").stat().st_mode & 0o777 == 0o640
+
+
+def test_a_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "a").write_bytes(b"12345")
+    assert read_whole(tmp_path / "a", largest=5) == b"12345"
+    with pytest.raises(InvalidInput, match=r"a has 5 bytes; the limit is 4$"):
+        read_whole(tmp_path / "a", largest=4)
+
+
+def test_a_file_of_another_kind_is_not_written_over(tmp_path: Path) -> None:
+    path, kind = tmp_path / "a", Kind("list", rb"# list")
+    path.write_bytes(b"# something else")
+    with pytest.raises(InvalidInput, match=r"a exists and is no list; nothing was written$"):
+        write_over(path, b"# list of mine", kind)
+    assert path.read_bytes() == b"# something else"
