@@ -1,7 +1,7 @@
 """Writes the tables of docs/figures.md on speed and growth from what the commands have measured.
 
-handeye bench speed --seed 1 --worlds 2 --camera gl --json > speed.json
-handeye bench growth --json > growth.json
+python -m benchmarks speed --seed 1 --worlds 2 --camera gl --json > speed.json
+python -m benchmarks growth --json > growth.json
 python docs/make_speed.py speed.json growth.json
 """
 

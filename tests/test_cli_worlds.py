@@ -1,7 +1,6 @@
 """Worlds on the command line: the options that choose one, and the command that lists what is in it."""
 
 import json
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,7 +12,6 @@ from handeye.cli.world_options import ErrorOptions, WorldOptions
 from handeye.core.variation import DRAWING, LARGEST_SEED, Overrides, WorldSpec
 from handeye.tasks import task
 from handeye.tasks.water_pump.variation import SEVENTH, variation
-from handeye.trials import breaking
 
 CHOSEN = ("--seed", "3", "--level", "high", "--without", "camera,base.x", "--set", "part_mass=5%")
 SPEC = {
@@ -24,8 +22,8 @@ SPEC = {
     "drawing": DRAWING,
 }
 CHOOSING = [
-    "assemble", "run", "world", "render", "do", "repl", "teach", "bench timing", "bench overhead", "trials base",
-    "trials gasket", "trials breaking", "faults",
+    "assemble", "run", "world", "render", "do", "repl", "teach", "bench timing", "trials base",
+    "trials gasket", "faults",
 ]  # fmt: skip
 """Commands that build a world."""
 
@@ -139,8 +137,8 @@ def test_what_cannot_be_chosen_is_refused_with_what_is_near(
 
 @pytest.mark.parametrize(
     "words",
-    ["assemble", "render -o it.png", "do PARK", "teach it.al", "bench overhead", "trials base 1", "trials gasket 1",
-     "trials assembly", "trials breaking killed", "faults"],
+    ["assemble", "render -o it.png", "do PARK", "teach it.al", "trials base 1", "trials gasket 1",
+     "trials assembly", "faults"],
 )  # fmt: skip
 def test_every_command_refuses_a_name_it_does_not_know(command: Command, words: str) -> None:
     code, out, err = command(*words.split(), "--without", "camra")
@@ -162,41 +160,6 @@ def test_a_world_can_be_chosen_again_by_its_words() -> None:
         "--set", "part_mass=5%", "--set", "friction=0",
     ]  # fmt: skip
     assert WorldOptions().words() == ["--seed", "0"]
-
-
-@pytest.fixture
-def seen(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Words of the commands that trials carry out, each of which fails."""
-    found: list[str] = []
-
-    def handeye(*words: str) -> subprocess.CompletedProcess[str]:
-        found.extend(words)
-        return subprocess.CompletedProcess(words, 1)
-
-    monkeypatch.setattr(breaking, "handeye", handeye)
-    return found
-
-
-def test_runs_that_are_to_be_broken_off_are_in_the_chosen_world(seen: list[str], tmp_path: Path) -> None:
-    with pytest.raises(breaking.TrialFailed):
-        breaking.whole_run(tmp_path, 3, CHOSEN)
-    assert tuple(seen) == ("assemble", *CHOSEN, "--out", str(tmp_path))
-
-
-def test_a_dismantling_that_is_to_be_broken_off_is_of_the_run_that_was_not(
-    seen: list[str], tmp_path: Path
-) -> None:
-    whole = breaking.UnbrokenRun(
-        folder=tmp_path / "pump", seed=3, world=CHOSEN, command=("assemble", *CHOSEN), events=(), stages=()
-    )
-    with pytest.raises(breaking.TrialFailed, match="the pump of seed 3 is not taken apart even without"):
-        breaking.whole_undo(whole, tmp_path / "apart")
-    assert tuple(seen) == ("dismantle", str(tmp_path / "pump"), "--out", str(tmp_path / "apart"))
-
-
-def test_only_runs_are_interrupted_while_they_are_undone(command: Command) -> None:
-    said = "handeye: --dismantling goes with killed and interrupted, not with stepped\n"
-    assert command("trials", "breaking", "stepped", "--dismantling") == (2, "", said)
 
 
 # -- runs ---------------------------------------------------------------------------------------------

@@ -62,7 +62,6 @@ UPWARDS: dict[str, set[str]] = {
     "trials.insertion": {"systems.stanford.executor_run"},
     "trials.prediction.predicted": {"api.arguments", "api.plans", "api.worlds"},
     "trials.results": {"api.arguments", "api.html", "api.parts", "api.plans", "api.worlds"},
-    "trials.speed": {"systems.stanford.executor_run"},
     "view.television": {"systems.stanford.executor_run"},
 }
 """Imports that break the order today; each is a debt, and none may be added."""

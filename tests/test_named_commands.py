@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from cyclopts import App
 
+from benchmarks.__main__ import app as benchmarks
 from handeye.cli import app
 from handeye.planfile.store import read_plan
 
@@ -40,7 +41,7 @@ def options(commands: App) -> Iterator[str]:
                 yield from argument.names
 
 
-OPTIONS = frozenset(options(app))
+OPTIONS = frozenset([*options(app), *options(benchmarks)])
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
@@ -51,6 +52,7 @@ def test_every_command_a_page_names_exists(page: Path) -> None:
     assert {
         (group, word) for group, word in named if group in groups and word and word not in app[group]
     } == set()
+    assert {*re.findall(r"python -m benchmarks ([a-z]+)", page.read_text(encoding="utf-8"))} <= {*benchmarks}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))

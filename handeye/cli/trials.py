@@ -1,8 +1,6 @@
 """Commands that try things in many worlds and count."""
 
-import tempfile
-from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import App, Parameter
 
@@ -16,7 +14,6 @@ from handeye.cli.world_options import (
     ANY_WORLD,
     WorldOptions,
 )
-from handeye.core.errors import InvalidInput
 from handeye.core.variation import WorldSpec
 from handeye.systems.trig.cli.pallet_trials import pallet_trials
 from handeye.tasks import task
@@ -45,7 +42,6 @@ def register(app: App) -> None:
     trials.command(predict_trials, name="predict")
     trials.command(base_vision_trials, name="base")
     trials.command(gasket_vision_trials, name="gasket")
-    trials.command(breaking_trials, name="breaking")
     trials.command(chaos_trials, name="chaos")
     trials.command(pallet_trials, name="pallet")
     app.command(trials)
@@ -135,56 +131,3 @@ def _vision_trial(
         for line in (*counted.lines, f"{cpu_s:.1f} s of processor time each"):
             say(line)
     return 3 if counted.wrong else 0
-
-
-def breaking_trials(
-    kind: Annotated[
-        Literal["killed", "interrupted", "alone", "stepped"],
-        Parameter(
-            help="Kill in each stage, press Ctrl-C at random moments, run each stage alone, or step through "
-            "and go back ten times."
-        ),
-    ],
-    /,
-    *,
-    world: WorldOptions = ANY_WORLD,
-    count: Annotated[WholeNumber, Parameter(help="How often to press Ctrl-C.")] = 20,
-    dismantling: Annotated[
-        bool,
-        Parameter(
-            negative="",
-            help="Interrupt the arm while it takes the pump apart: kill it ten times, or press Ctrl-C.",
-        ),
-    ] = False,
-    jobs: Annotated[WholeNumber, Parameter(help="Processes at a time.")] = 2,
-) -> int:
-    """Interrupt runs, resume them, and check that the result is the same.
-
-    Exit code 0: it always is; 1: it is not.
-    """
-    from handeye.trials import breaking, detours
-
-    positive(jobs, "process")
-    positive(count, "time")
-    if dismantling and kind not in ("killed", "interrupted"):
-        raise InvalidInput(f"--dismantling goes with killed and interrupted, not with {kind}")
-    spec = world.spec
-    with tempfile.TemporaryDirectory(prefix="handeye-") as name:
-        folder = Path(name)
-        whole = breaking.whole_run(folder / "whole", spec.seed, world.words())
-        if dismantling:
-            whole = breaking.whole_undo(whole, folder / "apart")
-        ways = {
-            "killed": lambda: breaking.killed(whole, folder, jobs),
-            "interrupted": lambda: breaking.interrupted(whole, folder, count, jobs),
-            "alone": lambda: breaking.alone(whole, folder, jobs),
-            "stepped": lambda: detours.stepped(whole, folder),
-        }
-        verdicts = []
-        for verdict in ways[kind]():
-            verdicts.append(verdict)
-            said = "; ".join(verdict.faults) or "the same"
-            say(f"{kind} {verdict.name}: {said}")
-    good = sum(not verdict.faults for verdict in verdicts)
-    say(f"{good} of {len(verdicts)}")
-    return 0 if good == len(verdicts) else 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,11 +18,10 @@ from handeye.core.variation import Variation, WorldSpec
 from handeye.execution.calibration_look import CalibrationLook
 from handeye.judge.finding import Findings
 from handeye.planfile.plan import Plan
-from handeye.ports.camera import Picture
-from handeye.program.program import Fixture, Part, Program
+from handeye.program.program import Fixture, Program
 from handeye.program.senses import Sense
 from handeye.tasks.trial import Trial
-from handeye.vision.camera_model import CameraModel, View
+from handeye.vision.camera_model import CameraModel
 
 if TYPE_CHECKING:  # a plan is made and checked without a simulator
     import mujoco
@@ -63,17 +62,6 @@ class ExportedScene:
     """Names of the bodies of what it can be asked for by a name of its own."""
     densities: Mapping[str, float] = field(default_factory=dict)
     """Of the solids that are of one metal throughout, by their names, kg/m3."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sight:
-    """A part seen from far and from near by a camera that is known exactly."""
-
-    part: Part
-    pose: tuple[float, float, float]
-    """Where it really is: x, y (m) and yaw (rad) in W."""
-    far: tuple[Picture, View]
-    near: tuple[Picture, View]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -203,14 +191,6 @@ class Task(AnyTask):
         Raises:
             InvalidInput: there is no such world, or pictures cannot be made so here.
         """
-
-    def sights(self, number: int, camera: str) -> Iterator[Sight]:
-        """So many sights of the part that the eye is to find, always the same; pictures by `auto`, `gl` or `ray`.
-
-        Raises:
-            InvalidInput: this task has no such part, or pictures cannot be made so here.
-        """
-        raise InvalidInput(f"the task {quoted(self.name)} has nothing for the eye to find")
 
     def predict(
         self, program: Program, world: WorldSpec, seeds: Sequence[int], *, without: tuple[Sense, ...] = ()

@@ -1,4 +1,4 @@
-"""The Robotics Toolbox has our arm as we have it, and `bench ik` finds it.
+"""The Robotics Toolbox has our arm as we have it, and `python -m benchmarks ik` finds it.
 
 It is large, so the ordinary suite does without it: `pip install --group xcheck`, then `pytest tests/xcheck`.
 """
@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import roboticstoolbox
 
+from benchmarks.inverse_kinematics import measure, toolbox_chain
 from handeye.arm.kinematics import forward
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.pose import inverse
-from handeye.trials.inverse_kinematics import measure, toolbox_chain
 
 
 @pytest.mark.parametrize("seed", range(5))

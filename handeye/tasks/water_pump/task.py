@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
 from handeye.arm.robots.stanford import STANFORD
@@ -11,7 +11,7 @@ from handeye.core.variation import Variation, WorldSpec
 from handeye.judge.finding import Findings
 from handeye.program.program import Fixture, Program
 from handeye.program.senses import Sense
-from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Predicted, Sight, Task, Words
+from handeye.tasks.interface import Disturbance, ExportedScene, Eye, Period, Predicted, Task, Words
 from handeye.tasks.water_pump.base_trial import BaseTrial
 from handeye.tasks.water_pump.eye import DRAWING, LOOKS
 from handeye.tasks.water_pump.gasket_trial import GasketTrial
@@ -82,11 +82,6 @@ class WaterPump(Task):
         from handeye.tasks.water_pump.cell import build_cell
 
         return build_cell(PumpWorld.draw(spec), camera=camera)
-
-    def sights(self, number: int, camera: str) -> Iterator[Sight]:
-        from handeye.tasks.water_pump.sights import sights
-
-        return sights(number, camera)
 
     def predict(
         self, program: Program, world: WorldSpec, seeds: Sequence[int], *, without: tuple[Sense, ...] = ()

@@ -8,10 +8,10 @@ from typing import Final
 import cv2
 import numpy as np
 
+from benchmarks.opencv_eye import holes_by_blob_detector, holes_by_components, largest_component
+from benchmarks.peers import Comparison, Outcome, Trial, Way
+from benchmarks.sights import Sight
 from handeye.core.pose import Array
-from handeye.tasks.interface import Sight
-from handeye.trials.opencv_eye import holes_by_blob_detector, holes_by_components, largest_component
-from handeye.trials.peers import Comparison, Outcome, Trial, Way
 from handeye.vision.base import (
     Failure,
     GeneralLocation,

@@ -1,4 +1,4 @@
-"""What `handeye bench speed` measures, and that measuring changes nothing."""
+"""What `python -m benchmarks speed` measures, and that measuring changes nothing."""
 
 from itertools import chain
 
@@ -6,13 +6,13 @@ import mujoco
 import pytest
 from short_runs import begin, history, through
 
+from benchmarks.run_components import COMPONENTS
+from benchmarks.run_cost import RunCost
+from benchmarks.speed import Watching, bare, carry_out
 from handeye.execution import drive
 from handeye.runs.observer import Observer
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
-from handeye.trials.run_components import COMPONENTS
-from handeye.trials.run_cost import RunCost
-from handeye.trials.speed import Watching, bare, carry_out
 
 pytestmark = pytest.mark.slow
 SHORT = """

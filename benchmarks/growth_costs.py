@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Final, Literal
 
+from benchmarks.speed import carry_out, peak_memory_mib
 from handeye.al import AL, compile_text
 from handeye.core.source import Source
 from handeye.core.variation import WorldSpec
@@ -22,7 +23,6 @@ from handeye.tasks import task
 from handeye.trace.account import account
 from handeye.trace.compare import first_difference
 from handeye.trace.reading import read_trace
-from handeye.trials.speed import carry_out, peak_memory_mib
 
 Unit = Literal["cpu_s", "mib"]
 Costs = Mapping[tuple[str, Unit], float]

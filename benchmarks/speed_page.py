@@ -7,10 +7,10 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from benchmarks.run_components import COMPONENTS, PHYSICS, PICTURES
+from benchmarks.run_cost import RunCost, Speed
 from handeye.core.diagnostics import visible
 from handeye.results.page import clock
-from handeye.trials.run_components import COMPONENTS, PHYSICS, PICTURES
-from handeye.trials.run_cost import RunCost, Speed
 
 _COLUMNS: Final = {
     PHYSICS: (PHYSICS,),

@@ -1,4 +1,4 @@
-"""What `handeye bench growth` measures, and how it tells what is linear."""
+"""What `python -m benchmarks growth` measures, and how it tells what is linear."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterator
 import pytest
 from conftest import Command
 
+from benchmarks.growth import Growth
+from benchmarks.growth_costs import cells, script, statements
 from handeye.al import AL
 from handeye.core.source import Source
 from handeye.planning.scripts import plan_source
 from handeye.program.taught import load_taught
 from handeye.runs.scripts import default_script
 from handeye.tasks import task
-from handeye.trials.growth import Growth
-from handeye.trials.growth_costs import cells, script, statements
 
 SIZES = (1, 10, 100, 1000, 10000)
 
@@ -56,22 +56,22 @@ def test_everything_that_statements_and_cells_cost_is_measured() -> None:
 LINEAR, SQUARE = growth(lambda n: 2e-5 * n), growth(lambda n: 1e-9 * n**2)
 
 
-def told(command: Command, monkeypatch: pytest.MonkeyPatch, found: Growth, *words: str) -> tuple[int, str]:
+def told(benchmark: Command, monkeypatch: pytest.MonkeyPatch, found: Growth, *words: str) -> tuple[int, str]:
     """Exit code and answer of the command, if this is what is measured."""
 
     def measure(most: int, told: Callable[[str], None]) -> Iterator[Growth]:
         told(f"{most} statements")
         yield found
 
-    monkeypatch.setattr("handeye.trials.growth.measure", measure)
-    code, out, _ = command("bench", "growth", *words)
+    monkeypatch.setattr("benchmarks.growth.measure", measure)
+    code, out, _ = benchmark("growth", *words)
     return code, out
 
 
 def test_the_bench_tells_people_what_one_costs_at_each_size(
-    command: Command, monkeypatch: pytest.MonkeyPatch
+    benchmark: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    code, out = told(command, monkeypatch, LINEAR)
+    code, out = told(benchmark, monkeypatch, LINEAR)
     head, checked, each, *_ = out.splitlines()
     assert code == 0
     assert head.split() == ["statements", "1", "10", "100", "1,000", "10,000", "power"]
@@ -90,15 +90,15 @@ def test_the_bench_tells_people_what_one_costs_at_each_size(
 
 
 def test_the_bench_ends_with_one_if_something_grows_faster(
-    command: Command, monkeypatch: pytest.MonkeyPatch
+    benchmark: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    code, out = told(command, monkeypatch, SQUARE, "--json")
+    code, out = told(benchmark, monkeypatch, SQUARE, "--json")
     (found,) = json.loads(out)["grown"]
     assert (code, found["linear"], found["power"]) == (1, False, pytest.approx(2))
     assert found["cpu_s"] == pytest.approx(SQUARE.values)
 
 
 @pytest.mark.parametrize("most", ["0", "10001"])
-def test_the_bench_wants_programs_that_there_can_be(command: Command, most: str) -> None:
+def test_the_bench_wants_programs_that_there_can_be(benchmark: Command, most: str) -> None:
     said = f"handeye: a program has 1 to 10000 statements, not {most}\n"
-    assert command("bench", "growth", "--most", most) == (2, "", said)
+    assert benchmark("growth", "--most", most) == (2, "", said)

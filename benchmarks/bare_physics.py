@@ -7,7 +7,7 @@ from typing import Any
 
 import mujoco
 
-from handeye.cell.tape import Call, Move, Place, Tape, places, state_of
+from benchmarks.tape import Call, Move, Place, Tape, places, state_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

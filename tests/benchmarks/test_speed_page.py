@@ -1,4 +1,4 @@
-"""How `handeye bench speed` tells what it has measured: to people, to programs, and in docs/figures.md."""
+"""How `python -m benchmarks speed` tells what it has measured: to people, to programs, and in docs/figures.md."""
 
 import importlib.util
 import json
@@ -12,12 +12,12 @@ import pytest
 from conftest import Command
 from results import result
 
-from handeye.cell.bare_physics import Bare
+from benchmarks.bare_physics import Bare
+from benchmarks.growth import Growth
+from benchmarks.run_components import COMPONENTS, OTHER
+from benchmarks.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent
+from benchmarks.speed_page import as_json
 from handeye.runs.setup import Setup
-from handeye.trials.growth import Growth
-from handeye.trials.run_components import COMPONENTS, OTHER
-from handeye.trials.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent
-from handeye.trials.speed_page import as_json
 
 DOCS = Path(__file__).parents[2] / "docs"
 STAGES = ("lift", "lower")
@@ -42,12 +42,12 @@ APART = replace(SPEED, runs=(replace(RUN, bare=replace(ALONE, same=3, apart_s=1.
 REFUSED = replace(SPEED, runs=(replace(RUN, result=msgspec.structs.replace(RUN.result, assembled=False)),))
 
 
-def told(command: Command, monkeypatch: pytest.MonkeyPatch, found: Speed, *words: str) -> tuple[int, str]:
+def told(benchmark: Command, monkeypatch: pytest.MonkeyPatch, found: Speed, *words: str) -> tuple[int, str]:
     """Exit code and answer of the command, if this is what is measured."""
     Path("short.al").write_text("OPEN 1\n", encoding="utf-8")
-    monkeypatch.setattr("handeye.cli.speed.default_script", lambda: Path("short.al"))
-    monkeypatch.setattr("handeye.trials.speed.measure", lambda *_, **__: found)
-    code, out, _ = command("bench", "speed", *words)
+    monkeypatch.setattr("benchmarks.__main__.default_script", lambda: Path("short.al"))
+    monkeypatch.setattr("benchmarks.speed.measure", lambda *_, **__: found)
+    code, out, _ = benchmark("speed", *words)
     return code, " ".join(out.split())
 
 
@@ -68,9 +68,9 @@ def test_several_runs_are_told_together() -> None:
 
 
 def test_people_are_told_phases_components_and_stages(
-    command: Command, monkeypatch: pytest.MonkeyPatch
+    benchmark: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    code, out = told(command, monkeypatch, SPEED)
+    code, out = told(benchmark, monkeypatch, SPEED)
     assert code == 0
     assert {*COMPONENTS} <= {*out.split()}
     for row in (
@@ -90,15 +90,15 @@ def test_people_are_told_phases_components_and_stages(
      (REFUSED, "world 0: not right")],
 )  # fmt: skip
 def test_what_was_not_accepted_or_not_the_same_is_told_and_is_the_exit_code(
-    command: Command, monkeypatch: pytest.MonkeyPatch, found: Speed, said: str
+    benchmark: Command, monkeypatch: pytest.MonkeyPatch, found: Speed, said: str
 ) -> None:
-    code, out = told(command, monkeypatch, found)
+    code, out = told(benchmark, monkeypatch, found)
     assert code == 1
     assert said in out
 
 
-def test_programs_are_told_the_same(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    answer = json.loads(told(command, monkeypatch, APART, "--json")[1])
+def test_programs_are_told_the_same(benchmark: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    answer = json.loads(told(benchmark, monkeypatch, APART, "--json")[1])
     (world,) = answer["worlds"]
     assert (answer["cpu_s"], answer["work_cpu_s"], answer["peak_memory_mib"]) == (11.0, 4.0, None)
     assert [stage["cpu_s"] for stage in world["stages"]] == [2.5, 1.5]
@@ -106,22 +106,22 @@ def test_programs_are_told_the_same(command: Command, monkeypatch: pytest.Monkey
     assert (world["physics_alone"]["ratio"], world["physics_alone"]["apart_simulated_s"]) == (2.0, 1.5)
 
 
-def test_the_worlds_are_those_from_the_seed_on(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_worlds_are_those_from_the_seed_on(benchmark: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[int] = []
 
     def measure(setups: Sequence[Setup], *_: object, **__: object) -> Speed:
         asked.extend(setup.world.seed for setup in setups)
         return SPEED
 
-    told(command, monkeypatch, SPEED)
-    monkeypatch.setattr("handeye.trials.speed.measure", measure)
-    command("bench", "speed", "--seed", "3", "--worlds", "2")
+    told(benchmark, monkeypatch, SPEED)
+    monkeypatch.setattr("benchmarks.speed.measure", measure)
+    benchmark("speed", "--seed", "3", "--worlds", "2")
     assert asked == [3, 4]
 
 
-def test_the_bench_wants_a_world(command: Command) -> None:
+def test_the_bench_wants_a_world(benchmark: Command) -> None:
     said = "handeye: at least one world is needed; 0 is too few\n"
-    assert command("bench", "speed", "--worlds", "0") == (2, "", said)
+    assert benchmark("speed", "--worlds", "0") == (2, "", said)
 
 
 def maker() -> ModuleType:

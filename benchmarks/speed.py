@@ -12,8 +12,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
-from handeye.cell.bare_physics import Bare, play
-from handeye.cell.tape import Tape
+from benchmarks.bare_physics import Bare, play
+from benchmarks.cpu_account import CpuAccount
+from benchmarks.run_components import charged_to
+from benchmarks.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent
+from benchmarks.tape import Tape
 from handeye.program.events import AnyEvent, StageStarted
 from handeye.results.outcome import outcome
 from handeye.runs.advance import advance
@@ -24,9 +27,6 @@ from handeye.runs.runner import Runner
 from handeye.runs.setup import Setup
 from handeye.runs.snapshot import Checkpoint
 from handeye.systems.stanford.executor_run import cell_of
-from handeye.trials.cpu_account import CpuAccount
-from handeye.trials.run_components import charged_to
-from handeye.trials.run_cost import PREPARATION, REFEREE, STAGE, RunCost, Speed, Spent
 
 
 @dataclass(slots=True)

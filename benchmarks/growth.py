@@ -6,8 +6,8 @@ from math import fsum, log
 from statistics import fmean
 from typing import Final, Literal
 
+from benchmarks.growth_costs import Costs, Unit, cells, statements
 from handeye.core.plain_text import counted
-from handeye.trials.growth_costs import Costs, Unit, cells, statements
 
 LINEAR: Final = 1.15
 """The power up to which growth counts as linear: what no longer fits into caches of the processor costs more."""

@@ -6,11 +6,11 @@ import mujoco
 import pytest
 from driving import BRAKED, Drive, tick
 
-from handeye.cell import tape
-from handeye.cell.bare_physics import Bare, play
+from benchmarks import tape
+from benchmarks.bare_physics import Bare, play
+from benchmarks.tape import Tape
 from handeye.cell.simulated import SimulatedCell
 from handeye.cell.sleep import asleep
-from handeye.cell.tape import Tape
 from handeye.tasks.water_pump.cell import build_cell
 from handeye.tasks.water_pump.pump_world import PumpWorld
 

@@ -1,4 +1,4 @@
-"""What `handeye bench vision` and `handeye bench ik` measure, and how they say so."""
+"""What `python -m benchmarks vision` and `python -m benchmarks ik` measure, and how they say so."""
 
 import json
 from collections.abc import Iterator
@@ -8,11 +8,11 @@ import pytest
 from conftest import Command
 from synthetic import Canvas, draw_base, part, view
 
+from benchmarks import inverse_kinematics, vision
+from benchmarks.peers import Comparison, Outcome, Way
+from benchmarks.sights import Sight
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.units import DEGREE, INCH
-from handeye.tasks.interface import Sight
-from handeye.trials import inverse_kinematics, vision
-from handeye.trials.peers import Comparison, Outcome, Way
 
 POSE = (44.5 * INCH, 28 * INCH, 90 * DEGREE)
 OURS = Way(
@@ -84,12 +84,12 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> None:
         assert times == 9
         yield COMPARED
 
-    monkeypatch.setattr("handeye.trials.vision.measure", measure)
+    monkeypatch.setattr("benchmarks.vision.measure", measure)
 
 
 @pytest.mark.usefixtures("measured")
-def test_the_bench_tells_a_person_what_each_way_found_and_how_long_it_took(command: Command) -> None:
-    code, out, _ = command("bench", "vision")
+def test_the_bench_tells_a_person_what_each_way_found_and_how_long_it_took(benchmark: Command) -> None:
+    code, out, _ = benchmark("vision")
     assert code == 0
     assert [" ".join(line.split()) for line in out.splitlines()] == [
         "holes beams 2 of 3 0.2, at worst 0.3 points 6.0% read 2.000 ms",
@@ -99,8 +99,8 @@ def test_the_bench_tells_a_person_what_each_way_found_and_how_long_it_took(comma
 
 
 @pytest.mark.usefixtures("measured")
-def test_the_bench_tells_a_program_the_same(command: Command) -> None:
-    code, out, _ = command("bench", "vision", "--json")
+def test_the_bench_tells_a_program_the_same(benchmark: Command) -> None:
+    code, out, _ = benchmark("vision", "--json")
     (said,) = json.loads(out)["compared"]
     ours, theirs = said["ways"]
     assert (code, said["not_measured"]) == (0, ["a-library"])
@@ -110,9 +110,9 @@ def test_the_bench_tells_a_program_the_same(command: Command) -> None:
 
 
 @pytest.mark.parametrize("bench", ["vision", "ik"])
-def test_a_bench_wants_to_measure_at_least_once(command: Command, bench: str) -> None:
+def test_a_bench_wants_to_measure_at_least_once(benchmark: Command, bench: str) -> None:
     said = "handeye: at least one time is needed; 0 is too few\n"
-    assert command("bench", bench, "--times", "0") == (2, "", said)
+    assert benchmark(bench, "--times", "0") == (2, "", said)
 
 
 def test_nothing_found_has_no_error() -> None:

@@ -6,12 +6,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from benchmarks.peers import Comparison, Outcome, Trial, Way, timed
 from handeye.arm.ik import branches, solve
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.core.pose import Array, Pose, inverse
 from handeye.core.versions import installed
-from handeye.trials.peers import Comparison, Outcome, Trial, Way, timed
 
 SEED: Final = 0
 TOOLBOX: Final = "roboticstoolbox-python"

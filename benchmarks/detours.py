@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final
 
+from benchmarks.breaking import UnbrokenRun, Verdict, handeye
 from handeye.program.events import WentBack
 from handeye.runs.folder import EVENTS, TRACE
 from handeye.trace.eventlist import effective, read_events
-from handeye.trials.breaking import UnbrokenRun, Verdict, handeye
 
 DETOURS: Final = 10
 """Times that the run goes back."""

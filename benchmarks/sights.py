@@ -1,11 +1,12 @@
 """Sights of the pump base on the belt, for measuring the eye alone."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 from handeye.core.variation import Overrides, WorldSpec
 from handeye.ports.camera import CLOSE_UP, WIDE, Picture
-from handeye.tasks.interface import Sight
+from handeye.program.program import Part
 from handeye.tasks.water_pump.base_trial import base_poses
 from handeye.tasks.water_pump.pump_world import PumpWorld
 from handeye.tasks.water_pump.still_pump import StillPump, look, pump_base, put_base
@@ -14,6 +15,17 @@ from handeye.vision.holes import hole_places
 
 WORLD_POSES: Final = 4
 """Of one world, and of one light."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sight:
+    """A part seen from far and from near by a camera that is known exactly."""
+
+    part: Part
+    pose: tuple[float, float, float]
+    """Where it really is: x, y (m) and yaw (rad) in W."""
+    far: tuple[Picture, View]
+    near: tuple[Picture, View]
 
 
 def sights(number: int, camera: str) -> Iterator[Sight]:

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from handeye.cell.bare_physics import Bare
+from benchmarks.bare_physics import Bare
+from benchmarks.cpu_account import Place
+from benchmarks.run_components import COMPONENTS, PICTURES
 from handeye.results.result import Result
-from handeye.trials.cpu_account import Place
-from handeye.trials.run_components import COMPONENTS, PICTURES
 
 PREPARATION: Final[Place] = ("preparation",)
 REFEREE: Final[Place] = ("referee",)

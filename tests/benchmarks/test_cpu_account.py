@@ -4,7 +4,7 @@ from itertools import count
 
 import pytest
 
-from handeye.trials.cpu_account import OTHER, CpuAccount
+from benchmarks.cpu_account import OTHER, CpuAccount
 
 
 class Machine:

@@ -7,7 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from handeye.trials.growth import LINEAR, Growth
+from benchmarks.growth import LINEAR, Growth
 
 _UNITS: Final = {"cpu_s": "CPU s", "mib": "MiB"}
 

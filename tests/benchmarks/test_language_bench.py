@@ -1,4 +1,4 @@
-"""What `handeye bench language` measures, and how it says so."""
+"""What `python -m benchmarks language` measures, and how it says so."""
 
 import json
 import re
@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import pytest
 from conftest import Command
 
+from benchmarks.keystrokes import typed
+from benchmarks.language import Waiting, script
 from handeye.al import compile_text
 from handeye.core.source import Source
 from handeye.program.taught import Taught
-from handeye.trials.keystrokes import typed
-from handeye.trials.language import Waiting, script
 
 QUICK = Waiting(what="a check", seconds=(0.03, 0.01, 0.02), target=0.025)
 SLOW = Waiting(what="a plan", seconds=(2.0, 3.0), target=1.0)
@@ -22,7 +22,7 @@ def result_of(monkeypatch: pytest.MonkeyPatch, *found: Waiting) -> None:
         assert times == 15
         yield from found
 
-    monkeypatch.setattr("handeye.trials.language.measure", measured)
+    monkeypatch.setattr("benchmarks.language.measure", measured)
 
 
 @pytest.mark.parametrize("lines", [1000, 2400])
@@ -46,10 +46,10 @@ def test_a_median_is_held_to_its_target() -> None:
 
 
 def test_the_bench_ends_with_one_if_a_target_is_missed(
-    monkeypatch: pytest.MonkeyPatch, command: Command
+    monkeypatch: pytest.MonkeyPatch, benchmark: Command
 ) -> None:
     result_of(monkeypatch, QUICK, SLOW)
-    code, out, _ = command("bench", "language")
+    code, out, _ = benchmark("language")
     assert code == 1
     assert out.splitlines() == [
         "a check                       20.0 ms  (under 25 ms)  15 times, 10.0 to 30.0 ms",
@@ -58,10 +58,10 @@ def test_the_bench_ends_with_one_if_a_target_is_missed(
 
 
 def test_the_bench_tells_a_program_what_it_measured(
-    monkeypatch: pytest.MonkeyPatch, command: Command
+    monkeypatch: pytest.MonkeyPatch, benchmark: Command
 ) -> None:
     result_of(monkeypatch, QUICK)
-    code, out, err = command("bench", "language", "--json")
+    code, out, err = benchmark("language", "--json")
     (measured,) = json.loads(out)["measured"]
     assert (code, measured["median_wall_s"], measured["met"], len(measured["each_wall_s"])) == (
         0,
@@ -72,8 +72,8 @@ def test_the_bench_tells_a_program_what_it_measured(
     assert err.startswith("a check")
 
 
-def test_the_bench_wants_to_measure_at_least_once(command: Command) -> None:
-    assert command("bench", "language", "--times", "0") == (
+def test_the_bench_wants_to_measure_at_least_once(benchmark: Command) -> None:
+    assert benchmark("language", "--times", "0") == (
         2,
         "",
         "handeye: at least one time is needed; 0 is too few\n",

@@ -9,14 +9,14 @@ from contextlib import contextmanager
 from functools import partial
 from typing import Any, Final
 
+from benchmarks.cpu_account import OTHER, CpuAccount
+from benchmarks.tape import physics_through
 from handeye.arm.trajectory import Trajectory
 from handeye.cell.camera import SimulatedCamera
 from handeye.cell.simulated import SimulatedCell
-from handeye.cell.tape import physics_through
 from handeye.execution import camera_calibration, drive, motion_actions, vision_actions
 from handeye.runs import advance
 from handeye.runs.runner import Runner
-from handeye.trials.cpu_account import OTHER, CpuAccount
 
 PHYSICS: Final = "physics"
 PICTURES: Final = ("rendering", "vision")

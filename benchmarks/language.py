@@ -14,6 +14,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from benchmarks.keystrokes import typed
 from handeye.al import AL, compile_text
 from handeye.core.source import Source, read_source
 from handeye.planning.scripts import plan_source
@@ -21,7 +22,6 @@ from handeye.program.program import Position
 from handeye.program.taught import Taught, load_taught
 from handeye.runs.scripts import default_script
 from handeye.tasks import task
-from handeye.trials.keystrokes import typed
 
 LINES: Final = 2400
 TYPED_LINES: Final = 1000

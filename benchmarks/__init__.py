@@ -1,0 +1,1 @@
+"""Developers' stopwatches: what runs, languages and the eye cost. Run from a checkout, not shipped."""
