@@ -8,7 +8,7 @@ from typing import Any, Final, Self
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 
 _URI: Final = "untitled:pins.al"
 
@@ -86,6 +86,6 @@ class _Editor:
             name, _, value = header.partition(b":")
             size = int(value) if name == b"Content-Length" else size
         if not size:
-            raise InvalidInput("the language server has ended; `handeye lsp` may say why")
+            raise Refused("the language server has ended; `handeye lsp` may say why")
         heard: dict[str, Any] = msgspec.json.decode(self.server.stdout.read(size))
         return heard

@@ -97,9 +97,15 @@ GROUPS: Final = {
         "handeye.tasks.register": "tasks.register",
     },
     "Errors": {
-        "handeye.HandeyeError": "errors.HandeyeError",
-        "handeye.InvalidInput": "errors.InvalidInput",
+        "handeye.HandeyeError": "core.errors.HandeyeError",
+        "handeye.InvalidInput": "core.errors.InvalidInput",
+        "handeye.BadArgument": "core.errors.BadArgument",
+        "handeye.NoSuchName": "core.errors.NoSuchName",
+        "handeye.BadFile": "core.errors.BadFile",
+        "handeye.CannotWrite": "core.errors.CannotWrite",
+        "handeye.Refused": "core.errors.Refused",
         "handeye.ScriptError": "api.diagnostic.ScriptError",
+        "handeye.PhysicsFailed": "core.errors.PhysicsFailed",
     },
 }
 """Names by what they are for, and where each is defined; those without `handeye.` are records that others hold."""

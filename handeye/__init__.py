@@ -23,7 +23,16 @@ if TYPE_CHECKING:
     from handeye.api.state import State
     from handeye.api.worlds import World
     from handeye.comparison.comparison import Comparison
-    from handeye.core.errors import HandeyeError, InvalidInput
+    from handeye.core.errors import (
+        BadArgument,
+        BadFile,
+        CannotWrite,
+        HandeyeError,
+        InvalidInput,
+        NoSuchName,
+        PhysicsFailed,
+        Refused,
+    )
     from handeye.judge.finding import Finding, at_least, at_most
     from handeye.results.result import Result
     from handeye.systems.trig.session_api import TrigSession
@@ -33,12 +42,18 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "BadArgument",
+    "BadFile",
+    "CannotWrite",
     "Comparison",
     "Diagnostic",
     "Finding",
     "HandeyeError",
     "InvalidInput",
+    "NoSuchName",
+    "PhysicsFailed",
     "Plan",
+    "Refused",
     "Result",
     "Run",
     "ScriptError",
@@ -63,12 +78,18 @@ __all__ = [
 ]
 
 _HOMES = {
+    "BadArgument": "handeye.core.errors",
+    "BadFile": "handeye.core.errors",
+    "CannotWrite": "handeye.core.errors",
     "Comparison": "handeye.comparison.comparison",
     "Diagnostic": "handeye.api.diagnostic",
     "Finding": "handeye.judge.finding",
     "HandeyeError": "handeye.core.errors",
     "InvalidInput": "handeye.core.errors",
+    "NoSuchName": "handeye.core.errors",
+    "PhysicsFailed": "handeye.core.errors",
     "Plan": "handeye.api.plans",
+    "Refused": "handeye.core.errors",
     "Result": "handeye.results.result",
     "Run": "handeye.api.run",
     "ScriptError": "handeye.api.diagnostic",

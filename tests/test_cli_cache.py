@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from conftest import Command
 
+from handeye.core.errors import CalibrationFailed
 from handeye.core.packed import packed, sealed
 from handeye.core.variation import WorldSpec
-from handeye.execution.camera_calibration import CalibrationFailed
 from handeye.ports.camera import Renderer
 from handeye.systems.stanford import executor_run as programs
 from handeye.systems.stanford.conditions import Conditions

@@ -11,7 +11,7 @@ from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.operands import Mistake, read_operands
 from handeye.al.scanner import scan
 from handeye.al.syntax import Text
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.source import LARGEST, Source, Span, read_source
 
 REQUIRE: Final = "REQUIRE"
@@ -62,7 +62,7 @@ def sewn_of(source: Source, files: Mapping[str, str]) -> Source:
 
     def read(key: str) -> str:
         if key not in files:
-            raise InvalidInput(f"{key}: there is no such file")
+            raise BadFile(f"{key}: there is no such file")
         return files[key]
 
     return sewn(source, read)

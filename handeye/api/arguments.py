@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.whole_numbers import whole
 
 
@@ -19,10 +19,10 @@ def given_file(given: object, what: str) -> Path:
         InvalidInput: it is no name of a file.
     """
     if not isinstance(given, (str, os.PathLike)):
-        raise InvalidInput(f"{what}, not {given!r}")
+        raise BadArgument(f"{what}, not {given!r}")
     name = os.fspath(given)
     if not isinstance(name, str) or not name:
-        raise InvalidInput(f"{what}, not {given!r}")
+        raise BadArgument(f"{what}, not {given!r}")
     _check_name(name)
     return Path(name)
 
@@ -35,7 +35,7 @@ def _check_name(name: str) -> None:
         pass
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InvalidInput(f"{quoted(name)} cannot be used as a file: {reason}") from None
+        raise BadArgument(f"{quoted(name)} cannot be used as a file: {reason}") from None
 
 
 def given_names(given: object, what: str) -> tuple[str, ...]:
@@ -47,7 +47,7 @@ def given_names(given: object, what: str) -> tuple[str, ...]:
     names = (given,) if isinstance(given, str) or not isinstance(given, Iterable) else tuple(given)
     for name in names:
         if not isinstance(name, str):
-            raise InvalidInput(f"{what} takes names, not {name!r}")
+            raise BadArgument(f"{what} takes names, not {name!r}")
     return names
 
 
@@ -59,7 +59,7 @@ def given_count(given: object, what: str) -> int:
     """
     count = whole(given)
     if count is None or count < 1:
-        raise InvalidInput(f"{what} are a whole number from 1 up, not {given!r}")
+        raise BadArgument(f"{what} are a whole number from 1 up, not {given!r}")
     return count
 
 
@@ -70,5 +70,5 @@ def given_place(given: object) -> str:
         InvalidInput: it is neither.
     """
     if isinstance(given, bool) or not isinstance(given, (str, int)):
-        raise InvalidInput(f"a place is a text or the number of a line, not {given!r}")
+        raise BadArgument(f"a place is a text or the number of a line, not {given!r}")
     return str(given)

@@ -12,7 +12,7 @@ from handeye.api.plans import FileName, Planned
 from handeye.api.run import Keeping, Place, Run
 from handeye.api.starts import Start, Wanted, start_of
 from handeye.api.worlds import World
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.core.variation import WorldSpec
@@ -170,7 +170,7 @@ def _rule(on_stop: object) -> Operator:
     with suppress(InvalidInput):  # whose sentence speaks of the command line
         operator = parse_policy(on_stop, ()) if isinstance(on_stop, str) else None
     if operator is None:
-        raise InvalidInput(f"on_stop is `abort`, `retry:N` with N from 1 up, or `unwind`; not {on_stop!r}")
+        raise BadArgument(f"on_stop is `abort`, `retry:N` with N from 1 up, or `unwind`; not {on_stop!r}")
     return operator
 
 
@@ -180,7 +180,7 @@ def _new_folder(path: Path, state: Checkpoint, overwrite: bool) -> RunFolder:
         return open_new(path, state, overwrite=overwrite)
     except HoldsRun:
         name = repr(str(path))
-        raise InvalidInput(
+        raise CannotWrite(
             f"{path} holds a run: overwrite=True replaces it, another folder keeps it, and "
             f"handeye.begin({name}, out={name}) goes on with it"
         ) from None

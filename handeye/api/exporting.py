@@ -4,8 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from handeye.api.arguments import given_file
-from handeye.core.errors import InvalidInput
-from handeye.core.folders import Taken
+from handeye.core.errors import BadArgument, CannotWrite, Taken
 from handeye.runs.exhibit import Exhibit
 
 if TYPE_CHECKING:
@@ -22,8 +21,8 @@ def exported(given: object, shown: Callable[[], Exhibit], part: object, *, overw
 
     path = given_file(given, "an export is written to a folder, or to a file that ends in .glb")
     if part is not None and not isinstance(part, str):
-        raise InvalidInput(f"a part is given by its name, not {part!r}")
+        raise BadArgument(f"a part is given by its name, not {part!r}")
     try:
         return export(path, shown, part=part, overwrite=overwrite)
     except Taken:
-        raise InvalidInput(f"{path} holds an export of handeye already; overwrite=True replaces it") from None
+        raise CannotWrite(f"{path} holds an export of handeye already; overwrite=True replaces it") from None

@@ -9,7 +9,7 @@ import numpy as np
 from handeye.cell.rendering import RendererMaker
 from handeye.cell.replaced_camera import CameraMaker, ReplacedCamera
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.results.judging import Limits, Referee, checked_findings, checked_limits
 from handeye.runs.parts import Parts, name_of
 from handeye.touch.spiral import SearchPattern
@@ -32,7 +32,7 @@ def parts_of(search: SearchPattern | None, camera: Camera) -> Parts:
     if isinstance(camera, str):
         if camera not in CAMERAS:
             near = suggestion(camera, CAMERAS)
-            raise InvalidInput(f"there is no camera {quoted(camera)}; {near}")
+            raise NoSuchName(f"there is no camera {quoted(camera)}; {near}")
         maker = None
     else:
         maker = _checked_camera(camera)
@@ -57,7 +57,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
     if given is None or isinstance(given, Mapping):
         return None
     if not callable(given):
-        raise InvalidInput(
+        raise BadArgument(
             f"a referee is called with the truth of a cell, or is a table of limits; not {given!r}"
         )
     name = name_of(given)
@@ -66,7 +66,7 @@ def referee_of(given: Referee | Limits | None) -> Referee | None:
 
 def _checked_search(search: SearchPattern) -> SearchPattern:
     if not callable(search):
-        raise InvalidInput(f"a search is called with the number of a place and gives it; not {search!r}")
+        raise BadArgument(f"a search is called with the number of a place and gives it; not {search!r}")
 
     name = name_of(search)
 
@@ -88,13 +88,13 @@ def _checked_place(name: str, number: int, given: object) -> tuple[float, float]
     except (TypeError, ValueError):
         x = y = np.nan
     if not np.isfinite([x, y]).all():
-        raise InvalidInput(f"the search `{name}` must give two numbers for place {number}, not {given!r}")
+        raise BadArgument(f"the search `{name}` must give two numbers for place {number}, not {given!r}")
     return x, y
 
 
 def _checked_camera(camera: CameraMaker) -> RendererMaker:
     if not callable(camera):
-        raise InvalidInput(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
+        raise BadArgument(f"a camera is `auto`, `gl`, `ray`, or is called with a scene; not {camera!r}")
     name = name_of(camera)
     return _named(lambda model: ReplacedCamera(name, camera, model), camera)
 

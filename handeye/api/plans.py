@@ -12,7 +12,7 @@ from handeye.api.diagnostic import Diagnostic, ScriptError
 from handeye.api.flow import FlowDrawing, flow_drawing
 from handeye.api.plan_page import plan_page
 from handeye.core.diagnostics import has_errors
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import read_whole
 from handeye.core.plain_text import counted
 from handeye.core.source import Source
@@ -148,7 +148,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
             _check_untaught(file, taught)
             return Plan(record=decode(read_whole(file), str(file)))
         if isinstance(script, str) and not file.exists():
-            raise InvalidInput(f"{script}: there is no such file; a text has a line end in it")
+            raise BadFile(f"{script}: there is no such file; a text has a line end in it")
         made = plan_script(file, known, work)
     found = tuple(Diagnostic.of(each, made.source) for each in made.diagnostics)
     if made.plan is None or has_errors(made.diagnostics):
@@ -159,7 +159,7 @@ def plan(script: FileName | Planned, *, taught: FileName | None = None, task: st
 def _check_untaught(made: object, taught: object) -> None:
     """Raises InvalidInput if something is taught for what is planned already."""
     if taught is not None:
-        raise InvalidInput(f"{made} is a plan, which has its positions; nothing can be taught for it")
+        raise BadArgument(f"{made} is a plan, which has its positions; nothing can be taught for it")
 
 
 def _taught(given: FileName) -> Taught:

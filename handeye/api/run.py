@@ -17,7 +17,7 @@ from handeye.api.exporting import exported
 from handeye.api.plans import Plan
 from handeye.api.run_page import run_page
 from handeye.api.state import State, state_of
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
 from handeye.debugger.breakpoints import breakpoint, stage_number
@@ -111,7 +111,7 @@ class Run:
         if place is not None:
             stops.append(breakpoint(given_place(place), self._runner.listing))
             if not is_ahead(stops[0], self._runner.checkpoint()):
-                raise InvalidInput(f"the run never comes to {place} from here")
+                raise BadArgument(f"the run never comes to {place} from here")
         return self._go(stops)
 
     def back(self, steps: Place = 1) -> State:
@@ -127,12 +127,12 @@ class Run:
         if isinstance(steps, str):
             stage = stage_number(steps, self._runner.listing)
             if stage not in beginnings(self._runner):
-                raise InvalidInput(f"stage {self._runner.stages[stage]} has not begun yet")
+                raise Refused(f"stage {self._runner.stages[stage]} has not begun yet")
             position = beginnings(self._runner)[stage]
         else:
             position = self._runner.position - given_count(steps, "steps")
             if position < 0:
-                raise InvalidInput(f"{steps} steps cannot be undone; {self._runner.position} are done")
+                raise Refused(f"{steps} steps cannot be undone; {self._runner.position} are done")
         self._hands.back_to(position)
         return self._stand("gone back")
 
@@ -163,7 +163,7 @@ class Run:
         else:
             left = len(executed) - given_count(steps, "steps")
             if left < 0:
-                raise InvalidInput(f"{steps} steps cannot be undone; {len(executed)} were executed")
+                raise Refused(f"{steps} steps cannot be undone; {len(executed)} were executed")
         return self._stand(reason(self._hands.have_undone(left)))
 
     def dismantle(self) -> State:
@@ -206,7 +206,7 @@ class Run:
         """
         self._check_open()
         if not isinstance(line, str):
-            raise InvalidInput(f"a command of the stepper is a text, not {line!r}")
+            raise BadArgument(f"a command of the stepper is a text, not {line!r}")
         reply = self._stepper.do(line)
         self._why = None if reply.pause is None else reason(reply.pause)
         if self._stepper.over:
@@ -230,10 +230,10 @@ class Run:
             return self.state
         try:
             if not is_ahead(begins, self._runner.checkpoint()):
-                raise InvalidInput(f"the run never comes to “{name}” from where it begins")
+                raise BadArgument(f"the run never comes to “{name}” from where it begins")
             state = self._go([begins])
             if not begins.met_before(self._runner):
-                raise InvalidInput(f"the run stopped before “{name}”: {state.why}")
+                raise Refused(f"the run stopped before “{name}”: {state.why}")
         except BaseException:
             self.close()
             raise
@@ -297,11 +297,9 @@ class Run:
             InvalidInput: the run has no folder, or is not closed.
         """
         if self.out is None:
-            raise InvalidInput("the run has no folder, and so no trace; begin it with out=...")
+            raise Refused("the run has no folder, and so no trace; begin it with out=...")
         if self._closed is None:
-            raise InvalidInput(
-                "the trace is complete when the run is closed: leave its `with`, or close() it"
-            )
+            raise Refused("the trace is complete when the run is closed: leave its `with`, or close() it")
         return read_trace(self.out / TRACE)
 
     @property
@@ -343,7 +341,7 @@ class Run:
         if path is None:
             folder = self._keeping.folder
             if folder is None:
-                raise InvalidInput("this run has no folder for checkpoints; name a file")
+                raise Refused("this run has no folder for checkpoints; name a file")
             return folder.kept.save(kept)
         file = given_file(path, "a checkpoint is kept in a file")
         check_place(file, CHECKPOINT)
@@ -401,7 +399,7 @@ class Run:
 
     def _check_open(self) -> None:
         if self._closed is not None:
-            raise InvalidInput("the run is closed; begin another, or go on from a checkpoint of it")
+            raise Refused("the run is closed; begin another, or go on from a checkpoint of it")
 
     def __enter__(self) -> Self:
         return self

@@ -11,7 +11,7 @@ from handeye.api.arguments import given_file
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.host_time import HostTimer
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.debugger.breakpoints import stage_number
@@ -52,13 +52,13 @@ class Wanted:
         if self.world is None:
             return None if self.seed is None else WorldSpec(seed=checked_seed(self.seed))
         if self.seed is not None:
-            raise InvalidInput("give a seed or a world, not both: a world has its seed")
+            raise BadArgument("give a seed or a world, not both: a world has its seed")
         if isinstance(self.world, World):
             return self.world.spec
         if isinstance(self.world, WorldSpec):
             checked_seed(self.world.seed)
             return self.world
-        raise InvalidInput(f"a world is a handeye.World, not {self.world!r}")
+        raise BadArgument(f"a world is a handeye.World, not {self.world!r}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,7 +87,7 @@ def start_of(
     """
     if isinstance(script, (str, os.PathLike)) and _is_kept(script):
         if taught is not None:
-            raise InvalidInput("a run that is taken up has its positions; nothing can be taught for it")
+            raise Refused("a run that is taken up has its positions; nothing can be taught for it")
         if out is not None and stage is None and os.path.realpath(out) == os.path.realpath(script):
             return _again(script, wanted)
         return Start(state=_kept(script, stage, wanted))
@@ -147,10 +147,10 @@ def _again(given: FileName, wanted: Wanted) -> Start:
     path = given_file(given, "a run is taken up from a folder")
     folder, start, _ = open_again(path)
     if has_ended(path, start, judged=start.setup.judged):
-        raise InvalidInput(f"the run in {path} has ended; without out=..., it can be taken up and go back")
+        raise Refused(f"the run in {path} has ended; without out=..., it can be taken up and go back")
     _check_same(path, start.setup, wanted)
     if wanted.replaced or wanted.limits not in (None, start.setup.limits):
-        raise InvalidInput(
+        raise Refused(
             f"parts of a run that is in {path} cannot be replaced there; choose another folder as out=..."
         )
     return Start(state=start, folder=folder)
@@ -159,13 +159,13 @@ def _again(given: FileName, wanted: Wanted) -> Start:
 def _check_same(path: Path, begun: Setup, wanted: Wanted) -> None:
     """Raises InvalidInput unless a run carries out a plan, in the world and with the camera that are wanted."""
     if not isinstance(begun.plan, Plan):
-        raise InvalidInput(
+        raise Refused(
             f"{path} is of a run of the system {quoted(begun.system)}; from Python only runs of plans are taken up"
         )
     if wanted.spec is not None and wanted.spec != begun.world:
-        raise InvalidInput(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
+        raise Refused(f"the run in {path} is in the world of {begun.world}, not of {wanted.spec}")
     if wanted.camera is not None and wanted.camera != begun.camera:
-        raise InvalidInput(f"the run in {path} has the camera `{begun.camera}`, not `{wanted.camera}`")
+        raise Refused(f"the run in {path} has the camera `{begun.camera}`, not `{wanted.camera}`")
 
 
 def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
@@ -176,7 +176,7 @@ def _with_parts(start: Checkpoint, wanted: Wanted) -> Checkpoint:
     replaced = setup.replaced | wanted.replaced
     for part, name in setup.replaced.items():
         if part != "referee" and part in wanted.replaced and wanted.replaced[part] != name:
-            raise InvalidInput(
+            raise Refused(
                 f"the run was begun with `{name}` as its {part}; `{wanted.replaced[part]}` is another"
             )
     events = start.events

@@ -11,7 +11,7 @@ from handeye.api.arguments import given_names
 from handeye.api.exporting import exported
 from handeye.api.html import heading, page, table
 from handeye.core import fault_options
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.fault_options import by_number
 from handeye.core.variation import SPREADS, Level, WorldSpec, checked_seed
 from handeye.core.world_options import overrides
@@ -62,9 +62,9 @@ class World:
         """
         number = checked_seed(seed)
         if not isinstance(level, str) or level not in SPREADS:
-            raise InvalidInput(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
+            raise NoSuchName(f"there is no level {level!r}; there are {', '.join(SPREADS)}")
         if not isinstance(set, Mapping | None):
-            raise InvalidInput(f"`set` is a table of values by the names of quantities, not {set!r}")
+            raise BadArgument(f"`set` is a table of values by the names of quantities, not {set!r}")
         self._without, self._set = given_names(without, "`without`"), dict(set or {})
         self._faults = given_names(faults, "`faults`")
         self._table, self._task = tasks.task(task).variation(number), task
@@ -140,10 +140,10 @@ class World:
     def _quantity(self, name: str) -> str:
         """The name of one quantity."""
         if not isinstance(name, str):
-            raise InvalidInput(f"a quantity is given by its name, not {name!r}")
+            raise BadArgument(f"a quantity is given by its name, not {name!r}")
         if name not in self._table.quantities:
             group = [quantity.name for quantity in self._table.select(name)]
-            raise InvalidInput(f"`{name}` is a group of quantities: {', '.join(group)}")
+            raise BadArgument(f"`{name}` is a group of quantities: {', '.join(group)}")
         return name
 
     def __eq__(self, other: object) -> bool:

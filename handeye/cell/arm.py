@@ -15,7 +15,7 @@ from handeye.cell.mechanism import Mechanism
 from handeye.cell.sleep import allow, wake
 from handeye.cell.state import figures, finite
 from handeye.cell.watchdog import Watchdog
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.arm import ArmPort, ArmReading
@@ -102,7 +102,7 @@ class SimulatedArm(Mechanism[ArmState], ArmPort):
         if torque is not None:
             joints = len(self.dofs)
             if np.shape(torque) != (joints,):
-                raise InvalidInput(
+                raise BadArgument(
                     f"torques of shape {np.shape(torque)} were put out to an arm of {joints} joints"
                 )
             torque = finite(

@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 from handeye.cell.mechanism import Mechanism
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile, InvalidInput
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.ports.axes import Axes, AxesReading, AxisSpec
@@ -71,7 +71,7 @@ class Bench(Clock, Mechanism[BenchTime]):
 
     def check(self, state: BenchTime) -> None:
         if not 0 <= state.microseconds < _LATEST:
-            raise InvalidInput("its clock shows what it cannot")
+            raise BadFile("its clock shows what it cannot")
 
     def restore(self, state: BenchTime) -> None:
         self._now = state.microseconds
@@ -143,7 +143,7 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     def put(self, goal: Array, hand: float) -> None:
         if not (np.isfinite(goal).all() and np.isfinite(hand)):
-            raise InvalidInput("a goal of an axis is not a finite number")
+            raise BadArgument("a goal of an axis is not a finite number")
         data, told = self._bench.data, self._put
         self._servos = self._numbers()
         self._goal, self._left = goal + self._bent(goal), self._steps
@@ -155,9 +155,9 @@ class BenchAxes(Axes, Mechanism[AxesState]):
 
     def check(self, state: AxesState) -> None:
         if not len(state.goal) == len(state.way) == len(self._specs) or not 0 <= state.left <= self._steps:
-            raise InvalidInput("its machine has other axes")
+            raise BadFile("its machine has other axes")
         if not np.isfinite((*state.goal, *state.way)).all():
-            raise InvalidInput("a goal of its machine is not a finite number")
+            raise BadFile("a goal of its machine is not a finite number")
 
     def restore(self, state: AxesState) -> None:
         self._goal, self._way, self._left = np.array(state.goal), np.array(state.way), state.left

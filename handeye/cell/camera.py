@@ -15,7 +15,7 @@ from handeye.cell.raycasting import cast
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.state import check_noise, finite, noise_state, set_noise
 from handeye.cell.vidicon import Vidicon, blur_disc
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.core.record import Record
 from handeye.core.units import DEGREE
@@ -100,9 +100,7 @@ class SimulatedCamera(Mechanism[CameraState], TvCamera):
     def focus(self, distance: float) -> float:
         nearest = max(lens.focal_length for lens in self._model.lenses)
         if not distance > nearest:
-            raise InvalidInput(
-                f"the camera cannot be focused at {distance:g} m; it must be over {nearest:g} m"
-            )
+            raise Refused(f"the camera cannot be focused at {distance:g} m; it must be over {nearest:g} m")
         way = abs(1 / distance - 1 / self._focus)
         self._focus = distance
         return way / REFOCUS

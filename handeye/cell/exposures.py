@@ -16,7 +16,7 @@ from handeye.cell.gloss import polish
 from handeye.cell.lens import Lens
 from handeye.cell.photograph import Near, Photograph, Photographer, check_size, smooth_photograph
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.pose import Array
 
 USUAL: Final = 24
@@ -44,10 +44,10 @@ class Exposing:
     def __post_init__(self) -> None:
         """Raises InvalidInput if there is no such film, or so many exposures cannot be."""
         if self.film not in FILMS:
-            raise InvalidInput(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
+            raise NoSuchName(f"there is no film {quoted(self.film)}; there are {', '.join(FILMS)}")
         whole = isinstance(self.exposures, (int, np.integer))
         if not whole or not 1 <= self.exposures <= MOST:
-            raise InvalidInput(f"{self.exposures} exposures cannot be made; there are 1 to {MOST}")
+            raise BadArgument(f"{self.exposures} exposures cannot be made; there are 1 to {MOST}")
 
 
 def exposing(*, fine: bool, film: str | None, exposures: int | None) -> Exposing | None:

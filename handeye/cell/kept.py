@@ -10,7 +10,7 @@ import numpy as np
 from handeye.cell.mechanism import Mechanism
 from handeye.cell.state import CellState, check_noise, noise_state, set_noise
 from handeye.cell.truth import Drawn, Truth
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.ports.camera import Renderer
 
 INTEGRATION: Final = int(mujoco.mjtState.mjSTATE_INTEGRATION)
@@ -86,7 +86,7 @@ class KeptCell:
             self._check(state)
             states = [self._checked(part, state) for part in self._mechanisms]
         except (ValueError, KeyError, TypeError, OverflowError, RecursionError, InvalidInput) as error:
-            raise InvalidInput(f"this is not a state of this work cell: {error}") from None
+            raise BadFile(f"this is not a state of this work cell: {error}") from None
         model, data = self._model, self._data
         set_noise(self._noise, state.noise)
         for name, values in state.figures.items():

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 import trimesh
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 
 SCENE: Final = "scene.xml"
 MESHES: Final = "meshes"
@@ -92,7 +92,7 @@ def _in_full() -> Iterator[None]:
         before = functions._mjPRIVATE__get_xml_precision()
         functions._mjPRIVATE__set_xml_precision(_ALL)
     except (ValueError, OSError, AttributeError):
-        raise InvalidInput(
+        raise Refused(
             f"MuJoCo {mujoco.__version__} writes figures to six places only, which is too coarse for a scene"
         ) from None
     try:

@@ -16,7 +16,7 @@ import numpy as np
 
 from handeye.cell.rendering import FINE, LUMA, SHOWN, SceneRenderer, averaged
 from handeye.cell.vidicon import Luminance
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 
@@ -143,7 +143,7 @@ def context() -> tuple[str, Any]:
             gl = importlib.import_module(module).GLContext(_WIDTH, _HEIGHT)
             gl.make_current()
             return name, gl
-    raise InvalidInput(
+    raise Refused(
         "OpenGL does not work on this machine (on Debian, install libegl1, libgl1-mesa-dri and libopengl0);"
         " photographs need it, and so does the camera without `--camera ray`"
     )

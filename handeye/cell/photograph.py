@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from handeye.cell.opengl import MOST_GEOMS, context
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.files import Kind
 
 PNG: Final = Kind("PNG picture", rb"\x89PNG\r\n\x1a\n", ending=".png")
@@ -125,7 +125,7 @@ def _number(model: mujoco.MjModel, camera: str) -> int:
     """
     names = [model.camera(i).name for i in range(model.ncam)]
     if camera not in names:
-        raise InvalidInput(f"no camera {camera}; there are {', '.join(names)}")
+        raise NoSuchName(f"no camera {camera}; there are {', '.join(names)}")
     return names.index(camera)
 
 
@@ -172,7 +172,7 @@ def check_size(width: int, height: int) -> None:
     """
     whole = all(isinstance(side, (int, np.integer)) for side in (width, height))
     if not (whole and SMALLEST <= width <= LARGEST and SMALLEST <= height <= LARGEST):
-        raise InvalidInput(
+        raise BadArgument(
             f"a picture of {width} x {height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
         )
 

@@ -5,7 +5,7 @@ import mujoco
 from handeye.cell.opengl import OpenGlRenderer
 from handeye.cell.raycasting import RayRenderer
 from handeye.cell.rendering import RendererMaker, SceneRenderer
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import InvalidInput, NoSuchName
 
 
 def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRenderer:
@@ -21,7 +21,7 @@ def make_renderer(kind: str | RendererMaker, model: mujoco.MjModel) -> SceneRend
     if kind == "gl":
         return OpenGlRenderer(model)
     if kind != "auto":
-        raise InvalidInput(f"no renderer `{kind}`; choose `auto`, `gl` or `ray`")
+        raise NoSuchName(f"no renderer `{kind}`; choose `auto`, `gl` or `ray`")
     try:
         return OpenGlRenderer(model)
     except InvalidInput:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from handeye.cell.rendering import SceneRenderer
 from handeye.cell.vidicon import Luminance
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.ports.camera import COLUMNS, ROWS, Renderer
 from handeye.vision.camera_model import View
 
@@ -50,7 +50,7 @@ class ReplacedCamera(SceneRenderer):
         self._scene = copy(model)
         self._maker = camera(self._scene)
         if not callable(getattr(self._maker, "render", None)):
-            raise InvalidInput(
+            raise BadArgument(
                 f"the camera `{self.identity.platform}` must give an object that has `render`, not {self._maker!r}"
             )
         self._model, self._data = model, mujoco.MjData(self._scene)
@@ -70,6 +70,6 @@ class ReplacedCamera(SceneRenderer):
 
     def _no_picture(self, what: str) -> InvalidInput:
         name = self.identity.platform
-        return InvalidInput(
+        return BadArgument(
             f"the camera `{name}` must give a picture of {ROWS} by {COLUMNS} finite numbers, not {what[:_SHOWN]}"
         )

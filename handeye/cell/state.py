@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.pose import Array
 from handeye.core.record import Record
 
@@ -67,5 +67,5 @@ def finite(values: V, what: str) -> V:
         InvalidInput: one of them is not a finite number.
     """
     if not all(map(math.isfinite, values)):
-        raise InvalidInput(f"{what} holds a value that is not a finite number")
+        raise BadFile(f"{what} holds a value that is not a finite number")
     return values

@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import check_place, write_over
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
@@ -102,9 +102,9 @@ def assembly_trials(
     from handeye.trials.batch.trial import Trial
 
     if tables and out is None:
-        raise InvalidInput("--tables needs --out, the folder that they are left in")
+        raise BadArgument("--tables needs --out, the folder that they are left in")
     if scheduler is not None and engine != "dask":
-        raise InvalidInput("--scheduler goes with --engine dask")
+        raise BadArgument("--scheduler goes with --engine dask")
     timer = HostTimer()
     chosen = _chosen(n, seed, seeds)
     numbers = _numbers(len(chosen), only)
@@ -115,7 +115,7 @@ def assembly_trials(
     record = compiled(default_script()) if plan is None else read_plan(plan)
     world = broken(errors.spec(chosen[0]), fault, record.program)
     if parse_policy(on_stop, record.program.stages) is None:
-        raise InvalidInput(
+        raise BadArgument(
             "nobody can be asked in a batch: --on-stop takes abort, retry:N, unwind or unwind:STAGE"
         )
     trial = Trial(
@@ -203,7 +203,7 @@ def compare_trials(
     from handeye.trials.batch.folder import read_batch
 
     if not others:
-        raise InvalidInput("at least two batches are compared; name another folder")
+        raise BadArgument("at least two batches are compared; name another folder")
     names = [str(path) for path in (first, *others)]
     found = paired(names, [read_batch(path) for path in (first, *others)])
     if json:
@@ -222,11 +222,11 @@ def _chosen(n: int | None, seed: int | None, seeds: str | None) -> range:
         positive(count, "trial")
         return range(first, first + count)
     if n is not None or seed is not None:
-        raise InvalidInput("--seeds says both: leave --n and --seed out, or --seeds")
+        raise BadArgument("--seeds says both: leave --n and --seed out, or --seeds")
     found = re.fullmatch(r"([0-9]{1,19})(?:-([0-9]{1,19}))?", seeds)
     first, last = (0, -1) if found is None else (int(found[1]), int(found[2] or found[1]))
     if last < first:
-        raise InvalidInput(f"seeds are given as a number or a range such as 0-19; {seeds!r} is neither")
+        raise BadArgument(f"seeds are given as a number or a range such as 0-19; {seeds!r} is neither")
     positive(last - first + 1, "trial")
     return range(first, last + 1)
 
@@ -236,14 +236,14 @@ def _numbers(count: int, only: int | None) -> range:
     if only is None:
         return range(count)
     if not 0 <= only < count:
-        raise InvalidInput(f"there is no trial {only}: this batch has trials 0 to {count - 1}")
+        raise BadArgument(f"there is no trial {only}: this batch has trials 0 to {count - 1}")
     return range(only, only + 1)
 
 
 def _limits(*seconds: float) -> None:
     for limit in seconds:
         if not 0 < limit < inf:
-            raise InvalidInput(f"a limit of time is a number of seconds above 0; {limit:g} is not")
+            raise BadArgument(f"a limit of time is a number of seconds above 0; {limit:g} is not")
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from rich.console import Console
 
 from handeye.core.diagnostics import LIMIT, Diagnostic, as_json, quoted, visible
 from handeye.core.diagnostics import render as render_diagnostic
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile, InvalidInput
 from handeye.core.plain_text import folded
 from handeye.core.source import Source
 from handeye.planfile.plan import Plan
@@ -50,9 +50,9 @@ def positive(count: int, what: str) -> None:
         InvalidInput: so many cannot be had; `what`: one of them.
     """
     if count < 1:
-        raise InvalidInput(f"at least one {what} is needed; {count} is too few")
+        raise BadArgument(f"at least one {what} is needed; {count} is too few")
     if count > MOST:
-        raise InvalidInput(f"at most {MOST:,} {what}s can be had; {count} are too many")
+        raise BadArgument(f"at most {MOST:,} {what}s can be had; {count} are too many")
 
 
 WholeNumber = Annotated[int, Parameter(converter=whole)]
@@ -137,7 +137,7 @@ def compiled(file: Path) -> Plan:
         return made.plan
     errors = sum(d.severity == "error" for d in made.diagnostics)
     count = "1 error" if errors == 1 else f"{errors}{' or more' if errors == LIMIT else ''} errors"
-    raise InvalidInput(f"{file} has {count}; there is no plan")
+    raise BadFile(f"{file} has {count}; there is no plan")
 
 
 def show(diagnostics: list[Diagnostic], source: Source, *, json: bool) -> None:

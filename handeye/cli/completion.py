@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 from cyclopts import App, Parameter
 
 from handeye.cli.common import say
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 Shell = Literal["bash", "zsh", "fish"]
 
@@ -47,7 +47,7 @@ def _shell_of_the_user() -> Shell:
     if named in SHELLS:
         return SHELLS[named]
     found = f"SHELL names `{named}`" if named else "SHELL names none"
-    raise InvalidInput(
+    raise BadArgument(
         f"completion can be written for bash, zsh and fish, and {found}: choose one with --shell"
     )
 

@@ -11,7 +11,7 @@ from handeye.cli.batches import kept_batch, progress
 from handeye.cli.common import Camera, Json, Out, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.runs import Overwrite
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions, Faults, broken
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
@@ -75,7 +75,7 @@ def _check_apart(path: Path, out: Path | None) -> None:
 
     run = path.parent.parent if path.parent.name == CHECKPOINTS else path
     if out is not None and run.is_dir() and run.resolve() in (out.resolve(), *out.resolve().parents):
-        raise InvalidInput(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
+        raise CannotWrite(f"--out {out}: {path} stays as it is; keep its dismantling in another folder")
 
 
 def _newest(path: Path) -> "Checkpoint":

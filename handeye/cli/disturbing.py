@@ -8,7 +8,7 @@ from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positi
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.core.plain_text import counted
 from handeye.runs.scripts import default_script
 
@@ -69,7 +69,7 @@ def _chosen(known: "Sequence[Disturbance]", only: "list[str] | None") -> "list[D
     for name in only or ():
         if name not in names:
             near = suggestion(name, names) or "--list lists them"
-            raise InvalidInput(f"there is no disturbance {quoted(name)}; {near}")
+            raise NoSuchName(f"there is no disturbance {quoted(name)}; {near}")
     return [each for each in known if not only or each.name in only]
 
 

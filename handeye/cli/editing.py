@@ -11,7 +11,7 @@ from handeye.al.includes import read_script
 from handeye.al.syntax_check import check_form
 from handeye.cli.common import note, put, say, show
 from handeye.core.diagnostics import has_errors, quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile
 from handeye.core.files import write_whole
 from handeye.core.source import Source
 
@@ -39,7 +39,7 @@ def fmt(
         Scripts to format in their places.
     """
     if not files:
-        raise InvalidInput("fmt needs the name of a script, or - for standard input")
+        raise BadArgument("fmt needs the name of a script, or - for standard input")
     for file in files:
         _check_name(file)
     code = 0
@@ -53,7 +53,7 @@ def _check_name(file: Path) -> None:
     """Raises InvalidInput if a name is meant for an option: cyclopts takes `-` for a file only if it takes all such."""
     if file.name.startswith("-") and file != STANDARD_INPUT and not file.exists():
         near = suggestion(file.name, ("--check", "--help"))
-        raise InvalidInput(f"`fmt` has no option {quoted(file.name)}{f'; {near}' if near else ''}")
+        raise BadArgument(f"`fmt` has no option {quoted(file.name)}{f'; {near}' if near else ''}")
 
 
 def _fmt(file: Path, source: Source, *, check: bool) -> int:
@@ -79,9 +79,7 @@ def _standard_input() -> Source:
     try:
         return Source(name="standard input", text=sys.stdin.buffer.read().decode("utf-8-sig"))
     except UnicodeDecodeError as error:
-        raise InvalidInput(
-            f"standard input is not UTF-8 text: {error.reason} at byte {error.start}"
-        ) from None
+        raise BadFile(f"standard input is not UTF-8 text: {error.reason} at byte {error.start}") from None
 
 
 def explain(word: str | None = None, /) -> int:

@@ -7,7 +7,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, note, put_json, say
 from handeye.cli.world_options import ANY_WORLD, WorldOptions
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 if TYPE_CHECKING:
     from handeye.results.export import Export
@@ -83,7 +83,7 @@ def _exhibit(run: Path | None, world: WorldOptions) -> "Exhibit":
     if run is None:
         return drawn(world.spec)
     if world != ANY_WORLD:
-        raise InvalidInput(
+        raise BadArgument(
             f"{run} brings its own world; --seed, --level, --without and --set do not go with it"
         )
     exhibit, faults = kept(run)

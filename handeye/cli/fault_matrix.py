@@ -9,7 +9,7 @@ from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positi
 from handeye.cli.kept_records import KeptRecords
 from handeye.cli.tally import Tally
 from handeye.cli.world_options import ANY_WORLD, WorldOptions, stage_of
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import Kind
 from handeye.runs.scripts import default_script
 from handeye.tasks import task
@@ -70,9 +70,9 @@ def faults(
     spec = world.spec
     catalogue = with_panic(task().faults(spec.seed))
     if every and only:
-        raise InvalidInput("--all excludes --only")
+        raise BadArgument("--all excludes --only")
     if listed and (stage is not None or out is not None):
-        raise InvalidInput("--list tries nothing: leave --stage and --out out")
+        raise BadArgument("--list tries nothing: leave --stage and --out out")
     positive(workers, "worker")
     everything = every or (listed and not only)
     kinds = chosen(catalogue, tuple(catalogue.kinds) if everything else only or ())

@@ -8,7 +8,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, WholeNumber, positive, put_json, screen
 from handeye.cli.tally import Tally
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import Kind, check_place, write_over
 from handeye.core.variation import checked_seed
 
@@ -119,7 +119,7 @@ def _conditions(
         asked.items(), ((0.05, 1.0), (0.0, 2.0), (0.0, MOST_SD)), strict=True
     ):
         if value is not None and not least <= value <= most:
-            raise InvalidInput(f"--{name} can be {least:g} to {most:g} mm; {value:g} is not")
+            raise BadArgument(f"--{name} can be {least:g} to {most:g} mm; {value:g} is not")
     return [Condition(search=search, **{name: value for name, value in asked.items() if value is not None})]
 
 
@@ -128,7 +128,7 @@ def _kind(out: Path) -> Kind:
 
     kinds = {kind.ending: kind for kind in (PAGE, ROWS)}
     if out.suffix.lower() not in kinds:
-        raise InvalidInput(f"{out}: the name must end in .html (a page with drawings) or .csv (all trials)")
+        raise BadArgument(f"{out}: the name must end in .html (a page with drawings) or .csv (all trials)")
     return kinds[out.suffix.lower()]
 
 

@@ -13,7 +13,7 @@ from handeye.cli.common import note, notes, put, put_line, say, screen
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import PipedLines, typed_already, typed_lines
 from handeye.cli.reports import write_report
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.debugger.ask import Ask
 from handeye.debugger.breakpoints import breakpoint
@@ -101,7 +101,7 @@ class _KeepStages(Observer):
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+            raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
         self._kept = CheckpointStore(folder)
         self._kept.claim(setup)
 

@@ -7,7 +7,7 @@ import msgspec
 from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, PlanFile, put, put_json, say
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import Kind, write_over
 from handeye.planfile.store import read_plan
 
@@ -40,14 +40,14 @@ def inspect(
     from handeye.inspection.inspection import inspection, inspection_text
 
     if graph is not None and json:
-        raise InvalidInput("--graph and --json do not go together")
+        raise BadArgument("--graph and --json do not go together")
     plan = read_plan(file)
     number = None if stage is None else stage_number(stage, plan.program) + 1
     if graph is not None:
         shown = flow(plan, number)
         _write(flow_svg(shown) if graph == "svg" else flow_dot(shown), output, DRAWINGS[graph])
     elif output is not None:
-        raise InvalidInput("--output needs --graph svg or --graph dot")
+        raise BadArgument("--output needs --graph svg or --graph dot")
     elif json:
         found = inspection(plan)
         kept = tuple(s for s in found.stages if number in (None, s.number))

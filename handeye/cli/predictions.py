@@ -9,7 +9,7 @@ from cyclopts import Parameter
 from handeye.cli.batches import command_of, kept_batch, progress
 from handeye.cli.common import Camera, Json, WholeNumber, compiled, note, positive, put_json, screen
 from handeye.cli.world_options import ANY_ERRORS, WORLD, ErrorOptions
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
@@ -78,9 +78,9 @@ def predict_trials(
     for count, what in ((worlds, "world"), (worst, "world"), (workers, "process")):
         positive(count, what)
     if against is not None and (simulate or plan is not None):
-        raise InvalidInput("--against takes plan and trials of its folder: leave --plan and --simulate out")
+        raise BadArgument("--against takes plan and trials of its folder: leave --plan and --simulate out")
     if against is not None and (n is not None or seed is not None or errors != ANY_ERRORS):
-        raise InvalidInput(
+        raise BadArgument(
             "--against takes the worlds of its folder: leave --n, --seed, --level, --without and --set out"
         )
     timer = HostTimer()
@@ -123,7 +123,7 @@ def _of_batch(folder: Path) -> _Asked:
 
     head, rows = read_batch(folder)
     if not rows:
-        raise InvalidInput(f"no trial of the batch in {folder} has ended")
+        raise Refused(f"no trial of the batch in {folder} has ended")
     seeds = [row.seed for row in rows]
     return _Asked(
         plan=read_plan_of(folder, head), world=head.world, seeds=seeds, without=head.without, rows=rows

@@ -5,7 +5,7 @@ from typing import Final
 
 from handeye.cli.common import CameraKind
 from handeye.cli.trace_files import trace_file
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile, Refused
 from handeye.core.plain_text import counted
 from handeye.core.variation import DRAWING
 from handeye.planfile.plan import Plan
@@ -39,7 +39,7 @@ def _beginning(path: Path) -> RunStarted:
     """The beginning of a recorded run."""
     events = _events(path)
     if not events or not isinstance(events[0], RunStarted):
-        raise InvalidInput(f"{path} does not hold the start of a run, which tells its world")
+        raise BadFile(f"{path} does not hold the start of a run, which tells its world")
     return events[0]
 
 
@@ -55,7 +55,7 @@ def _check_drawing(path: Path, begun: RunStarted) -> None:
     """Raises InvalidInput if this handeye draws another world from the seed of a run."""
     world = begun.world
     if world.drawing != DRAWING:
-        raise InvalidInput(
+        raise Refused(
             f"the world of {path} was drawn by another handeye: seed {world.seed} gives another world here "
             f"(drawing {world.drawing} there, {DRAWING} here)"
         )
@@ -65,7 +65,7 @@ def _check_parts(path: Path, begun: RunStarted) -> None:
     """Raises InvalidInput if code of its caller, which is not here, had a part in how a run went."""
     own = [part for part in begun.own_parts if part != "referee"]
     if own:
-        raise InvalidInput(
+        raise Refused(
             f"{path} was carried out with code of its caller for {', '.join(own)}, which is not here"
         )
 
@@ -75,6 +75,6 @@ def _check_faults(path: Path, begun: RunStarted, plan: Plan) -> None:
     stages = len(plan.program.stages)
     for fault in begun.world.faults:
         if fault.stage is not None and fault.stage > stages:
-            raise InvalidInput(
+            raise BadArgument(
                 f"the fault {fault} in the world of {path} cannot set in: the plan has {counted(stages, 'stage')}"
             )

@@ -7,7 +7,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import note, say
 from handeye.cli.trace_files import TraceFile, motion_file
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 if TYPE_CHECKING:
     from handeye.report.recorded import Recorded
@@ -50,14 +50,14 @@ def report(
     from handeye.core import resources
 
     if (run is None) != demo or (demo and other is not None):
-        raise InvalidInput("a report is of one run: give its folder or its trace, or --demo")
+        raise BadArgument("a report is of one run: give its folder or its trace, or --demo")
     if run is None:
         place = output or Path(DEMO)
         write_report(resources.demo(), place, overwrite=overwrite)
         note(f"open {place} in a browser")
     elif other is not None:
         if output is None:
-            raise InvalidInput("a page of two runs belongs to neither; say with -o where it is to be written")
+            raise BadArgument("a page of two runs belongs to neither; say with -o where it is to be written")
         place = output
         write_comparison(run, other, place, overwrite=overwrite)
     else:

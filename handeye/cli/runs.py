@@ -8,7 +8,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Calibrate, Camera, Json, Out, PlanFile, compiled, note
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, CannotWrite
 from handeye.core.plain_text import counted
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
@@ -86,9 +86,9 @@ def assemble(
     from handeye.runs.snapshot import Checkpoint
 
     if any(part != ("dismantle", "assemble")[n % 2] for n, part in enumerate(then or ())):
-        raise InvalidInput("--then dismantle and --then assemble go in turn: what stands is dismantled first")
+        raise BadArgument("--then dismantle and --then assemble go in turn: what stands is dismantled first")
     if report and out is None:
-        raise InvalidInput("--report needs --out, the folder that the page is left in")
+        raise BadArgument("--report needs --out, the folder that the page is left in")
     world, senses = world.apart()
     spec = world.spec
     started = time.process_time()
@@ -166,13 +166,13 @@ def run(
     wanted = world
     world, senses = world.apart()
     if stage is not None and (first is not None or to is not None):
-        raise InvalidInput("--stage excludes --from and --to")
+        raise BadArgument("--stage excludes --from and --to")
     if world_of is None:
         spec = broken(world.spec, fault, plan.program)
         setup = Setup(plan=plan, world=spec, camera=camera, judged=judge, without=senses)
     elif wanted != ANY_WORLD or fault or camera != "auto":
         others = "--seed, --level, --without, --set, --fault and --camera"
-        raise InvalidInput(f"{world_of} brings its own world; {others} do not go with --world-of")
+        raise BadArgument(f"{world_of} brings its own world; {others} do not go with --world-of")
     else:
         setup = in_world_of(world_of, plan, judged=judge)
     start = Checkpoint(setup=setup)
@@ -248,7 +248,7 @@ def resume(
         path = path.parent
     if path.is_dir():
         if out is not None:
-            raise InvalidInput(
+            raise BadArgument(
                 f"{path} is the folder of a run, which resumes there; --out needs a checkpoint file"
             )
         folder, start, faults = open_again(path)
@@ -287,7 +287,7 @@ def resume(
 def _check_live(live: bool, step: bool) -> None:
     """Raises InvalidInput if nobody is there to look on."""
     if live and not step:
-        raise InvalidInput("--live goes with --step: it tells a run that is stepped as it goes")
+        raise BadArgument("--live goes with --step: it tells a run that is stepped as it goes")
 
 
 def _stops(listing: "Listing", *, to: str | None, until: str | None, breaks: list[str]) -> list["AnyStop"]:
@@ -315,7 +315,7 @@ def _check_order(listing: "Listing", first: str | None, last: str | None) -> Non
     stages = listing.stages
     begin, end = stages[stage_number(first, listing)], stages[stage_number(last, listing)]
     if stages.index(end) < stages.index(begin):
-        raise InvalidInput(f"the run begins with “{begin}”, after “{end}”")
+        raise BadArgument(f"the run begins with “{begin}”, after “{end}”")
 
 
 def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str]) -> None:
@@ -331,7 +331,7 @@ def _check_ahead(start: "Checkpoint", stops: list["AnyStop"], breaks: list[str])
 
     for stop in stops:
         if isinstance(stop, BeforeStep) and not is_ahead(stop, start):
-            raise InvalidInput(f"the run never reaches step {stop.step} from where it begins")
+            raise BadArgument(f"the run never reaches step {stop.step} from where it begins")
     for text in breaks:
         if not is_ahead(breakpoint(text, listing_of(start.setup)), start):
             note(f"the run never reaches {text} from where it begins")
@@ -355,7 +355,7 @@ def _at_stage(start: "Checkpoint", name: str, kept: Path | None, out: Path | Non
     from handeye.runs.systems import listing_of
 
     if out is not None and (out / EVENTS).exists():
-        raise InvalidInput(f"{out} holds a run; give it as --checkpoints, and another folder as --out")
+        raise CannotWrite(f"{out} holds a run; give it as --checkpoints, and another folder as --out")
     listing = listing_of(start.setup)
     number = stage_number(name, listing)
     wanted = listing.stages[number]

@@ -10,7 +10,7 @@ from handeye.cli.common import Calibrate, Camera, Json, note, put_line, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.prompt import typed_lines
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import beside, check_place
 from handeye.core.source import read_source
 from handeye.program.taught import Taught, load_taught
@@ -67,7 +67,7 @@ def do(
     from handeye.teaching.repl import Repl
 
     if not all(map(str.strip, functions or ("",))):
-        raise InvalidInput('give a function, such as `handeye do "OPEN 3"`')
+        raise BadArgument('give a function, such as `handeye do "OPEN 3"`')
     if keep is not None:
         check_place(keep, CHECKPOINT)
     with PanicButton() as panic:
@@ -230,7 +230,7 @@ def _workplace(
     from handeye.teaching.workplace import Workplace
 
     if first is not None and (world != ANY_WORLD or fault):
-        raise InvalidInput(
+        raise BadArgument(
             f"{first} brings its own world; --seed, --level, --without, --set and --fault do not go with --from"
         )
     if first is not None:

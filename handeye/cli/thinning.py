@@ -7,7 +7,7 @@ from cyclopts import Parameter
 
 from handeye.cli.common import say
 from handeye.cli.trace_files import TraceFile, trace_file
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite
 
 
 def thin(
@@ -29,7 +29,7 @@ def thin(
     trace = read_trace(whole)
     check_place(output, TRACE)
     if output.exists() and output.samefile(whole):
-        raise InvalidInput(f"{output} holds the trace that is to be thinned")
+        raise CannotWrite(f"{output} holds the trace that is to be thinned")
     check_free(output, "trace", overwrite=overwrite)
     kept = write_thinned(trace, output)
     say(f"{output}: {kept} of {len(trace.times)} servo periods")

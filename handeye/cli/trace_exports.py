@@ -9,7 +9,7 @@ from handeye.cli.common import say
 from handeye.cli.reports import read_recorded
 from handeye.cli.trace_files import TraceFile
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import check_place, write_over
 from handeye.core.plain_text import counted
 
@@ -49,7 +49,7 @@ def plot(
 
     kind = KINDS.get(output.suffix.lower())
     if kind is None:
-        raise InvalidInput(
+        raise BadArgument(
             f"a plot is a file whose name ends in {', '.join(KINDS)}; {quoted(output.name)} does not"
         )
     check_place(output, kind)

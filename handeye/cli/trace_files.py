@@ -6,7 +6,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from handeye.cli.common import note
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Refused
 
 File = Annotated[Path, Parameter(help="A trace.mcap, an events.jsonl, or the folder of a run.")]
 TraceFile = Annotated[Path, Parameter(help="A trace.mcap, or the folder of a run.")]
@@ -31,7 +31,7 @@ def trace_file(path: Path) -> Path:
         return path / TRACE
     if (path / PLAN).exists() and not (path / EVENTS).exists():
         check_no_batch(path)
-        raise InvalidInput(f"the run in {path} has not begun")
+        raise BadFile(f"the run in {path} has not begun")
     return path / EVENTS
 
 
@@ -40,7 +40,7 @@ def check_no_batch(folder: Path) -> None:
     from handeye.trials.batch.folder import TRIALS
 
     if (folder / TRIALS).is_file():
-        raise InvalidInput(f"{folder} is the folder of a batch of trials, not of a run")
+        raise BadFile(f"{folder} is the folder of a batch of trials, not of a run")
 
 
 def motion_file(path: Path) -> Path:
@@ -51,9 +51,7 @@ def motion_file(path: Path) -> Path:
     """
     file = trace_file(path)
     if not file.exists():
-        raise InvalidInput(f"{path} holds no run" if path.is_dir() else f"{path}: there is no such file")
+        raise BadFile(f"{path} holds no run" if path.is_dir() else f"{path}: there is no such file")
     if file.suffix == ".jsonl":
-        raise InvalidInput(
-            f"{file} is an event list, which does not say where things were; take the trace.mcap"
-        )
+        raise Refused(f"{file} is an event list, which does not say where things were; take the trace.mcap")
     return file

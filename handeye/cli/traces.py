@@ -23,7 +23,7 @@ from handeye.cli.common import (
 from handeye.cli.photographs import PLAIN, FineOptions
 from handeye.cli.thinning import thin
 from handeye.cli.trace_files import File, TraceFile, trace_file
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.files import check_place, write_over
 
 if TYPE_CHECKING:
@@ -86,13 +86,11 @@ def photograph(
     check_place(output, PNG)
     trace, _ = _read(file)
     if trace is None:
-        raise InvalidInput(
-            f"{file} is an event list, which does not hold where things were; use the trace.mcap"
-        )
+        raise Refused(f"{file} is an event list, which does not hold where things were; use the trace.mcap")
     trace.check_repeatable()
     begin, end = map(trace.elapsed, trace.covers)
     if not begin - SHOWN <= at <= end + SHOWN:
-        raise InvalidInput(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
+        raise BadArgument(f"{file} covers {begin:.2f} to {end:.2f} s; {at:g} s is outside")
     moment = trace.head.time + at
     state = trace.at(moment)
     write_over(output, png(how.take(posed(trace.scene, state.poses, state.time), camera, width, height)), PNG)
@@ -114,9 +112,7 @@ def verify(file: TraceFile, /) -> int:
 
     trace, events = _read(file)
     if trace is None:
-        raise InvalidInput(
-            f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too"
-        )
+        raise Refused(f"{file} is an event list; verify the trace.mcap beside it, which holds the plan too")
     trace.check_repeatable()
     changed = [name for name, version in versions().items() if trace.head.versions.get(name) != version]
     if changed:

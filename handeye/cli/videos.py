@@ -11,7 +11,7 @@ from cyclopts import App, Parameter
 from handeye.cli.common import note, notes, say
 from handeye.cli.trace_files import TraceFile, motion_file
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 if TYPE_CHECKING:
     from handeye.trace.trace import Trace
@@ -94,7 +94,7 @@ def _size(typed: str) -> tuple[int, int]:
     """
     found = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", typed)
     if found is None:
-        raise InvalidInput(f"{quoted(typed)} is no size; one is written as 480x360")
+        raise BadArgument(f"{quoted(typed)} is no size; one is written as 480x360")
     return int(found[1]), int(found[2])
 
 

@@ -12,7 +12,7 @@ from handeye.cli.reports import page_of
 from handeye.cli.runs import Overwrite
 from handeye.cli.teaching import left_unsaved, teacher_of
 from handeye.cli.world_options import ANY_WORLD, Faults, WorldOptions, broken
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.planfile.store import read_plan
 from handeye.runs.scripts import default_script
 
@@ -68,16 +68,16 @@ def view(
     from handeye.view.server import Server
 
     if demo and file is not None:
-        raise InvalidInput("--demo brings its own program; give a plan or --demo")
+        raise BadArgument("--demo brings its own program; give a plan or --demo")
     if teach is not None:
         if demo or file is not None or out is not None or overwrite:
-            raise InvalidInput(
+            raise BadArgument(
                 "--teach carries out no plan and keeps no run; give it without plan, --demo and --out"
             )
         return _teach(teach, port, world, fault, camera)
     if file is not None and (file.is_dir() or file.suffix in _RECORDED):
         if world != ANY_WORLD or fault or camera != "auto" or out is not None or overwrite:
-            raise InvalidInput(
+            raise BadArgument(
                 f"{file} is a run that was carried out; of the options, only --port goes with it"
             )
         return _play(file, port)

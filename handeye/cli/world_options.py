@@ -7,7 +7,7 @@ import msgspec
 from cyclopts import Group, Parameter
 
 from handeye.cli.common import whole
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.fault_options import StageNumber, faults, from_start_only
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.core.world_options import overrides
@@ -68,12 +68,12 @@ class ErrorOptions:
         checked_seed(seed)
         off = self._names()
         if "" in off:
-            raise InvalidInput(
+            raise BadArgument(
                 "--without needs names of errors, with one comma between two; `handeye world` lists them"
             )
         lacking = next((name for name in off if name in SENSES), None)
         if lacking is not None:
-            raise InvalidInput(
+            raise BadArgument(
                 f"`{lacking}` is a sense and no error of the world: here, no program can go without it"
             )
         wanted = overrides(task().variation(seed), off, self.settings or ())

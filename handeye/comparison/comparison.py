@@ -13,7 +13,7 @@ from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.parting import Parting, Turning, parting
 from handeye.comparison.place import Place
 from handeye.comparison.searched import Searches, searches
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Refused
 from handeye.program.events import StepStarted
 from handeye.report.facts.outcome import Kind, outcome
 from handeye.report.recorded import Recorded
@@ -107,10 +107,10 @@ def _check(run: Recorded) -> None:
     """Raises InvalidInput if a run carried out no plan, or steps that its plan does not have."""
     name, system = run.trace.name, run.trace.head.system
     if system != "program":
-        raise InvalidInput(f"{name} is a run of the system {system}; only runs of plans are compared")
+        raise Refused(f"{name} is a run of the system {system}; only runs of plans are compared")
     steps = len(run.program.steps)
     if any(isinstance(event, StepStarted) and not 0 <= event.step < steps for event in run.trace.events):
-        raise InvalidInput(f"{name} tells of steps that its plan lacks")
+        raise BadFile(f"{name} tells of steps that its plan lacks")
 
 
 def _compared(run: Recorded) -> Compared:

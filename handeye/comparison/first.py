@@ -11,7 +11,7 @@ from handeye.comparison.otherwise import otherwise
 from handeye.comparison.pairing import TwoRuns
 from handeye.comparison.place import Place, place_of
 from handeye.comparison.stretches import Stretch, stretches
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.plain_text import one_line
 from handeye.inspection.difference import step_changes
 from handeye.program.events import AnyEvent, StepStarted
@@ -56,7 +56,7 @@ def first_difference(runs: TwoRuns) -> First | None:
                 return found
     except (DecodeError, msgspec.DecodeError, KeyError, ValueError):
         names = " or ".join(run.trace.name for run in (runs.a, runs.b))
-        raise InvalidInput(f"a message in {names} cannot be understood") from None
+        raise BadFile(f"a message in {names} cannot be understood") from None
     return None
 
 

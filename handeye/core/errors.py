@@ -2,7 +2,24 @@
 
 A wrong script is a `Diagnostic`, collected and never raised. A world that does not cooperate is an error
 *number*, tested by SKIPE and SKIPN. The exceptions here are for a caller who misuses the interface or hands
-over an unusable file; each carries one clear sentence for the user.
+over an unusable file, and for a run that broke down; each carries one clear sentence for the user:
+
+    HandeyeError
+    ├── InvalidInput              what was given cannot be used
+    │   ├── BadArgument           an argument, an option or a typed command
+    │   │   └── NoSuchName        nothing is called that; the sentence says what there is
+    │   ├── BadFile               missing, unreadable, damaged, or of another version, plan or run
+    │   ├── CannotWrite           a file or a folder
+    │   │   ├── Taken             one of its kind is there, and may not be replaced
+    │   │   └── HoldsRun          a folder that holds a run (runs.folder)
+    │   ├── Refused               understood, but this machine, system or state does not do it
+    │   │   └── MissingExtra      a package of an extra is not installed (core.extras)
+    │   └── ScriptError           a script has errors: the diagnostics are with it (api)
+    ├── PhysicsFailed             the simulation of a work cell broke down
+    ├── CalibrationFailed         the camera could not be calibrated
+    └── FrictionUnknown           the friction of the joints could not be measured
+
+A system or a sweep may have its own beneath these. The command line ends with exit code 2 on whichever reaches it.
 """
 
 from typing import Final
@@ -13,7 +30,43 @@ class HandeyeError(Exception):
 
 
 class InvalidInput(HandeyeError):
-    """A file or an argument cannot be used."""
+    """A file or an argument cannot be used, or what it asks for cannot be done."""
+
+
+class BadArgument(InvalidInput):
+    """An argument, an option or a typed command cannot be used."""
+
+
+class NoSuchName(BadArgument):
+    """Nothing is called that."""
+
+
+class BadFile(InvalidInput):
+    """A file is missing, cannot be read, is damaged, or is of another version, plan or run."""
+
+
+class CannotWrite(InvalidInput):
+    """A file or a folder cannot be written, or holds what is not to be replaced."""
+
+
+class Taken(CannotWrite):
+    """A folder or file of the kind is there, and may not be replaced."""
+
+
+class Refused(InvalidInput):
+    """What is asked for is understood, but this machine, system or state does not do it."""
+
+
+class PhysicsFailed(HandeyeError):
+    """The simulation of a work cell broke down; not an event of its work."""
+
+
+class CalibrationFailed(HandeyeError):
+    """The camera could not be calibrated: the lamp was not seen often enough."""
+
+
+class FrictionUnknown(HandeyeError):
+    """The arm did not move as it must for its friction to be measured, or has links of a weight that cannot be."""
 
 
 JOINT_LIMIT: Final = 1

@@ -1,9 +1,9 @@
 """Extras: packages that a few commands need, and that are not installed with the rest."""
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 
 
-class MissingExtra(InvalidInput):
+class MissingExtra(Refused):
     """A package of an extra is not installed."""
 
     def __init__(self, command: str, package: str, extra: str) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.faults import Catalogue, Fault, FaultKind
 from handeye.core.world_options import value_of
 
@@ -27,7 +27,7 @@ def _fault(catalogue: Catalogue, text: str, stage: StageNumber) -> Fault:
     name, equals, value = (part.strip() for part in what.partition("="))
     where = where.strip().strip('"').strip()
     if not name or (at and not where) or (equals and not value):
-        raise InvalidInput(f"{quoted(text)} names no fault; write NAME, NAME=VALUE or NAME@STAGE")
+        raise BadArgument(f"{quoted(text)} names no fault; write NAME, NAME=VALUE or NAME@STAGE")
     kind = catalogue.kind(name)
     return Fault(name=name, value=_value(kind, value), stage=stage(where) if at else kind.usual_stage)
 
@@ -37,7 +37,7 @@ def _value(kind: FaultKind, text: str) -> float | None:
     if not text:
         return kind.usual().value
     if kind.size is None:
-        raise InvalidInput(f"the fault {quoted(kind.name)} has no value; leave out {quoted(f'={text}')}")
+        raise BadArgument(f"the fault {quoted(kind.name)} has no value; leave out {quoted(f'={text}')}")
     return value_of(kind, text)
 
 
@@ -48,7 +48,7 @@ def by_number(text: str) -> int:
         InvalidInput: it is no number from 1 up.
     """
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
-        raise InvalidInput(f"{quoted(text)} is no number of a stage, from 1 up")
+        raise BadArgument(f"{quoted(text)} is no number of a stage, from 1 up")
     return int(text)
 
 
@@ -58,4 +58,4 @@ def from_start_only(text: str) -> int:
     Raises:
         InvalidInput: always.
     """
-    raise InvalidInput(f"a fault is there from the beginning here; leave out {quoted(f'@{text}')}")
+    raise BadArgument(f"a fault is there from the beginning here; leave out {quoted(f'@{text}')}")

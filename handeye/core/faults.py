@@ -10,7 +10,7 @@ from typing import Annotated, Final
 import msgspec
 
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.core.record import Record
 from handeye.core.units import UNITS, Unit
 
@@ -109,15 +109,15 @@ class FaultKind:
             InvalidInput: its value or its stage does not fit it.
         """
         if fault.stage is not None and self.from_start:
-            raise InvalidInput(
+            raise BadArgument(
                 f"the fault {quoted(self.name)} cannot set in while the cell works; leave out `@{fault.stage}`"
             )
         if self.size is None and fault.value is not None:
-            raise InvalidInput(f"the fault {quoted(self.name)} has no value")
+            raise BadArgument(f"the fault {quoted(self.name)} has no value")
         if self.size is not None:
             low, high = (limit * self.measure.size for limit in self.limits)
             if fault.value is None or not low <= fault.value <= high:
-                raise InvalidInput(
+                raise BadArgument(
                     f"the fault {quoted(self.name)} cannot be of {fault.value!r}: it can be {low:g} to {high:g} in SI "
                     "units"
                 )
@@ -145,12 +145,12 @@ class Catalogue:
             return self.kinds[name]
         inside = [known for known in self.kinds if known.startswith(f"{name}.")]
         if inside:
-            raise InvalidInput(f"{quoted(name)} is a group of faults: {', '.join(map(quoted, inside))}")
+            raise BadArgument(f"{quoted(name)} is a group of faults: {', '.join(map(quoted, inside))}")
         first = dict.fromkeys(known.split(".")[0] for known in self.kinds)
         near = suggestion(name, self.kinds) or (
             f"there are {', '.join(map(quoted, first))}" if first else "this task has none"
         )
-        raise InvalidInput(f"there is no fault {quoted(name)}; {near}")
+        raise NoSuchName(f"there is no fault {quoted(name)}; {near}")
 
     def select(self, name: str) -> tuple[FaultKind, ...]:
         """The fault of a name, or those of a group.
@@ -189,5 +189,5 @@ def once(names: Iterable[str]) -> None:
     seen: set[str] = set()
     for name in names:
         if name in seen:
-            raise InvalidInput(f"the fault {quoted(name)} is given twice")
+            raise BadArgument(f"the fault {quoted(name)} is given twice")
         seen.add(name)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, CannotWrite
 
 LARGEST: Final = 1 << 30
 """Bytes: a hundred times what the trace of a whole run takes."""
@@ -37,18 +37,18 @@ def read_whole(path: str | Path, largest: int = LARGEST) -> bytes:
     file = Path(path)
     try:
         if not file.exists():
-            raise InvalidInput(f"{path}: there is no such file")
+            raise BadFile(f"{path}: there is no such file")
         if file.is_dir():
-            raise InvalidInput(f"{path} is a directory, not a file")
+            raise BadFile(f"{path} is a directory, not a file")
         if not file.is_file():
-            raise InvalidInput(f"{path} is a device or a pipe, not a file")
+            raise BadFile(f"{path} is a device or a pipe, not a file")
         size = file.stat().st_size
         if size > largest:
-            raise InvalidInput(f"{path} has {size} bytes; the limit is {largest}")
+            raise BadFile(f"{path} has {size} bytes; the limit is {largest}")
         return file.read_bytes()
     except (OSError, ValueError) as error:  # ValueError: a name with a NUL in it
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InvalidInput(f"{path} cannot be read: {reason}") from None
+        raise BadFile(f"{path} cannot be read: {reason}") from None
 
 
 def beside(path: Path, ending: str) -> Path:
@@ -58,7 +58,7 @@ def beside(path: Path, ending: str) -> Path:
         InvalidInput: the path has no name: it is a directory.
     """
     if not path.name:
-        raise InvalidInput(f"{path} is a directory, not a file")
+        raise CannotWrite(f"{path} is a directory, not a file")
     return path.with_suffix(ending)
 
 
@@ -69,18 +69,18 @@ def check_place(path: Path, kind: Kind) -> None:
         InvalidInput: it may not, or cannot.
     """
     if not path.name.lower().endswith(kind.ending):
-        raise InvalidInput(f"{path}: the name of the {kind.name} must end in {kind.ending}")
+        raise CannotWrite(f"{path}: the name of the {kind.name} must end in {kind.ending}")
     try:
         _check_file(path, path)
         if path.exists():
             with path.open("rb") as file:
                 front = file.read(_FRONT)
             if front and not re.match(kind.begins, front):
-                raise InvalidInput(f"{path} exists and is no {kind.name}; nothing was written")
+                raise CannotWrite(f"{path} exists and is no {kind.name}; nothing was written")
         with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
             pass
     except OSError as error:
-        raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+        raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
 
 
 def check_free(path: Path, what: str, *, overwrite: bool) -> None:
@@ -90,7 +90,7 @@ def check_free(path: Path, what: str, *, overwrite: bool) -> None:
         InvalidInput: it may not; `what`: it.
     """
     if path.exists() and not overwrite:
-        raise InvalidInput(f"{path} holds a {what} already; --overwrite replaces it")
+        raise CannotWrite(f"{path} holds a {what} already; --overwrite replaces it")
 
 
 def write_over(path: Path, data: bytes, kind: Kind) -> None:
@@ -126,13 +126,13 @@ def write_whole(path: Path, data: bytes) -> None:
         if temporary is not None:
             Path(temporary).unlink(missing_ok=True)
         if isinstance(error, OSError):
-            raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+            raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
         raise
 
 
 def _check_file(place: Path, named: Path) -> None:
     if place.exists() and not place.is_file():
-        raise InvalidInput(f"{named} cannot be written: it is not a file")
+        raise CannotWrite(f"{named} cannot be written: it is not a file")
 
 
 def _umask() -> int:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, Taken
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,10 +25,6 @@ class FolderKind:
     """Patterns of the names of all its files."""
 
 
-class Taken(InvalidInput):
-    """A folder or file of the kind is there, and may not be replaced."""
-
-
 def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     """Look whether a folder of a kind may be written, and can be: it takes the place of one of its kind at most.
 
@@ -41,12 +37,12 @@ def check_folder(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
         with tempfile.TemporaryFile(dir=Path(os.path.realpath(path)).parent):
             pass
     except OSError as error:
-        raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+        raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
 
 
 def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     if path.exists() and not path.is_dir():
-        raise InvalidInput(f"{path} is not a folder")
+        raise CannotWrite(f"{path} is not a folder")
     inside = sorted(
         place.relative_to(path) for place in path.rglob("*") if not place.is_dir() or place.is_symlink()
     )
@@ -55,11 +51,11 @@ def _refuse_others(path: Path, kind: FolderKind, *, overwrite: bool) -> None:
     others = [name for name in inside if not (ours and any(_fits(name, pattern) for pattern in kind.holds))]
     if others:
         what = quoted(str(others[0]))
-        raise InvalidInput(f"{path} holds other things ({what}); choose a new folder, or an empty one")
+        raise CannotWrite(f"{path} holds other things ({what}); choose a new folder, or an empty one")
     if inside and not overwrite:
         raise Taken(f"{path} holds {kind.name} already; --overwrite replaces it")
     if path.exists() and path.samefile(Path.cwd()):
-        raise InvalidInput(f"{path} is the folder that you are in, which cannot be replaced; name another")
+        raise CannotWrite(f"{path} is the folder that you are in, which cannot be replaced; name another")
 
 
 def _fits(name: Path, pattern: str) -> bool:
@@ -82,7 +78,7 @@ def write_folder(path: Path, files: Mapping[str, bytes]) -> None:
             place.rename(temporary / "old")
         _put(temporary, place)
     except OSError as error:
-        raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+        raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
     finally:  # after Ctrl-C too
         if temporary is not None:
             shutil.rmtree(temporary, ignore_errors=True)

@@ -5,7 +5,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, InvalidInput
 
 
 class LineFile:
@@ -22,7 +22,7 @@ class LineFile:
         """
         self.path = path
         if path.exists() and not path.is_file():  # to open a pipe that nobody reads would wait for ever
-            raise InvalidInput(f"{path} cannot be written: it is not a file")
+            raise CannotWrite(f"{path} cannot be written: it is not a file")
         try:
             self._file = path.open("ab", buffering=0)
             self._lock(writer)
@@ -62,7 +62,7 @@ class LineFile:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 self._file.close()
-                raise InvalidInput(f"{writer} is writing to {self.path} now") from None
+                raise CannotWrite(f"{writer} is writing to {self.path} now") from None
 
     def _unwritable(self, error: OSError) -> InvalidInput:
-        return InvalidInput(f"{self.path} cannot be written: {error.strerror}")
+        return CannotWrite(f"{self.path} cannot be written: {error.strerror}")

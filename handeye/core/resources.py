@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _ROOTS = (_PACKAGE / "_data", _PACKAGE.parent)
@@ -18,7 +18,7 @@ def folder(name: str) -> Path:
     for root in _ROOTS:
         if (root / name).is_dir():
             return root / name
-    raise InvalidInput(f"the folder `{name}` is missing from this installation of handeye")
+    raise BadFile(f"the folder `{name}` is missing from this installation of handeye")
 
 
 def scenes() -> Path:

@@ -10,7 +10,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
 from handeye.core.plain_text import printable
 
@@ -115,4 +115,4 @@ def read_source(path: str | Path) -> Source:
         # `utf-8-sig` counts from behind a byte order mark, if there is one.
         byte = error.object[error.start]
         offset = error.start + len(data) - len(error.object)
-        raise InvalidInput(f"{path} is not UTF-8 text: byte {offset} is 0x{byte:02x}") from None
+        raise BadFile(f"{path} is not UTF-8 text: byte {offset} is 0x{byte:02x}") from None

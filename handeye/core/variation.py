@@ -16,7 +16,7 @@ import numpy as np
 
 from handeye.core.diagnostics import quoted, suggestion
 from handeye.core.distributions import Distribution
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.core.faults import Fault
 from handeye.core.random_streams import random_numbers, streams
 from handeye.core.record import Record
@@ -62,7 +62,7 @@ class Quantity:
         """
         low, high = (limit * self.measure.size for limit in self.limits)
         if type(value) not in (int, float) or not low <= value <= high:  # not a number is not between two
-            raise InvalidInput(
+            raise BadArgument(
                 f"{self.name} cannot be set to {value!r}: it can be {low:g} to {high:g} in SI units"
             )
 
@@ -146,7 +146,7 @@ class Variation:
             first = dict.fromkeys(known.split(".")[0] for known in self.quantities)
             near = suggestion(name, {*self.quantities, *self.groups})
             known = near or f"there are {', '.join(map(quoted, first))}"
-            raise InvalidInput(f"the world has no quantity {quoted(name)}; {known}")
+            raise NoSuchName(f"the world has no quantity {quoted(name)}; {known}")
         return found
 
     def draw(self, spec: WorldSpec) -> World:
@@ -178,9 +178,9 @@ class Variation:
             InvalidInput: as `draw`.
         """
         if spec.level not in SPREADS:
-            raise InvalidInput(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
+            raise NoSuchName(f"there is no level {spec.level!r}; there are {', '.join(SPREADS)}")
         if spec.drawing != DRAWING:
-            raise InvalidInput(
+            raise Refused(
                 f"the world of seed {spec.seed} was drawn by another handeye; this one draws another world from that "
                 "seed, so begin the run again"
             )
@@ -189,7 +189,7 @@ class Variation:
         for name in spec.overrides.set:
             if name not in self.quantities:
                 self.select(name)
-                raise InvalidInput(f"{quoted(name)} is a group of quantities, which cannot have one value")
+                raise BadArgument(f"{quoted(name)} is a group of quantities, which cannot have one value")
             self.quantities[name].check(spec.overrides.set[name])
 
 
@@ -215,7 +215,7 @@ def checked_seed(seed: object) -> int:
     """
     number = whole(seed)
     if number is None or number < 0:
-        raise InvalidInput(f"a seed is a whole number from 0 up; {seed!r} is not")
+        raise BadArgument(f"a seed is a whole number from 0 up; {seed!r} is not")
     if number > LARGEST_SEED:
-        raise InvalidInput(f"the largest seed is {LARGEST_SEED}; {seed} is larger")
+        raise BadArgument(f"the largest seed is {LARGEST_SEED}; {seed} is larger")
     return number

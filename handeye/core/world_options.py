@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.units import UNITS, Unit, split_value, unit_named
 from handeye.core.variation import Overrides, Variation, within
 
@@ -55,7 +55,7 @@ def _setting(variation: Variation, text: str) -> dict[str, float]:
     """The values (SI) that `NAME=VALUE` gives to quantities."""
     name, equals, value = (part.strip() for part in text.partition("="))
     if not equals:
-        raise InvalidInput(f"{quoted(text)} sets nothing; write NAME=VALUE")
+        raise BadArgument(f"{quoted(text)} sets nothing; write NAME=VALUE")
     return {quantity.name: value_of(quantity, value) for quantity in variation.select(name)}
 
 
@@ -67,12 +67,12 @@ def value_of(quantity: Measured, text: str) -> float:
     """
     written = split_value(text)
     if written is None:
-        raise InvalidInput(f"{quantity.name} cannot be {quoted(text)}, which is not a number")
+        raise BadArgument(f"{quantity.name} cannot be {quoted(text)}, which is not a number")
     number, word = written
     value = number * (_unit(quantity, word) if word else quantity.measure).size
     low, high = (limit * quantity.measure.size for limit in quantity.limits)
     if not (np.isfinite(value) and low <= value <= high):
-        raise InvalidInput(f"{quantity.name} cannot be {quoted(text)}{_limits(quantity)}")
+        raise BadArgument(f"{quantity.name} cannot be {quoted(text)}{_limits(quantity)}")
     return value
 
 
@@ -82,7 +82,7 @@ def _unit(quantity: Measured, word: str) -> Unit:
     if unit is None or unit.dimension != wanted:
         known = [name for name, other in UNITS.items() if name and other.dimension == wanted]
         near = suggestion(word, known) or f"known: {', '.join(map(quoted, sorted(known)))}"
-        raise InvalidInput(f"{quantity.name} is not measured in {quoted(word)}; {near}")
+        raise BadArgument(f"{quantity.name} is not measured in {quoted(word)}; {near}")
     return unit
 
 

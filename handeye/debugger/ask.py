@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput, Refused
 from handeye.debugger.breakpoints import stage_number
 from handeye.debugger.choices import choices
 from handeye.debugger.formatting import shown_lines
@@ -64,7 +64,7 @@ class Ask:
         if choice is None or rest or not choice.startswith(word) or choice not in (*given, "abort"):
             said = quoted(f"{word} {rest}".strip())
             letters = ", ".join(name[0] for name in given)
-            raise InvalidInput(f"{said} is not an answer; answer {letters}, b, u, a or show")
+            raise BadArgument(f"{said} is not an answer; answer {letters}, b, u, a or show")
         return choice
 
     def _say(self, lines: Sequence[str]) -> None:
@@ -76,7 +76,7 @@ def _begun(runner: Runner, text: str) -> int:
     present = runner.stage
     stage = present if not text and present is not None else stage_number(text, runner.listing)
     if stage not in beginnings(runner):
-        raise InvalidInput(f"{numbered_stage(runner.listing, stage)}, has not begun yet")
+        raise Refused(f"{numbered_stage(runner.listing, stage)}, has not begun yet")
     return stage
 
 

@@ -6,7 +6,7 @@ from typing import Final
 
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.core.diagnostics import nearest, quoted
-from handeye.core.errors import ERRORS, InvalidInput
+from handeye.core.errors import ERRORS, BadArgument, NoSuchName, Refused
 from handeye.core.source import line_name
 from handeye.debugger.source_places import Place, named_place
 from handeye.program.stage_names import stage_called, stage_index
@@ -30,10 +30,10 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
     """
     text = text.strip()
     if not text:
-        raise InvalidInput("give an error (error:23), a line, a label, an instruction or a stage")
+        raise BadArgument("give an error (error:23), a line, a label, an instruction or a stage")
     if error := _ERROR.fullmatch(text):
         if isinstance(listing, TaughtListing):
-            raise InvalidInput(
+            raise Refused(
                 "steps of a taught program raise no errors; where the arm is stopped, the run stops"
             )
         return _on_error(error["number"] or error["any"])
@@ -42,12 +42,10 @@ def breakpoint(text: str, listing: Listing) -> AnyStop:
         return _at_line(place, listing)
     stop = _at_label(text, listing) or _at_word(text, listing) or _at_stage(text, listing)
     if stop is None and text.upper() in INSTRUCTIONS:
-        raise InvalidInput(f"no step of the program begins with {text.upper()}")
+        raise NoSuchName(f"no step of the program begins with {text.upper()}")
     if stop is None:
         known = [*listing.labels, *_words(listing), *listing.stages]
-        raise InvalidInput(
-            f"the program has no label, instruction or stage {quoted(text)}{meant(text, known)}"
-        )
+        raise NoSuchName(f"the program has no label, instruction or stage {quoted(text)}{meant(text, known)}")
     return stop
 
 
@@ -69,15 +67,15 @@ def step_number(text: str, listing: Listing) -> int:
     text, steps = text.strip(), listing.steps
     if _NUMBER.fullmatch(text):
         if int(text) >= len(steps):
-            raise InvalidInput(f"there is no step {int(text)}; the program has steps 0 to {len(steps) - 1}")
+            raise NoSuchName(f"there is no step {int(text)}; the program has steps 0 to {len(steps) - 1}")
         return int(text)
     found = listing.labels.get(text)
     if found is None:
         known = listing.labels
-        raise InvalidInput(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
+        raise BadArgument(f"{quoted(text)} is neither a step's number nor a label{meant(text, known)}")
     if len(found) > 1:
         where = ", ".join(map(str, found))
-        raise InvalidInput(f"label {quoted(text)} belongs to steps {where}; give one by its number")
+        raise BadArgument(f"label {quoted(text)} belongs to steps {where}; give one by its number")
     return found[0]
 
 
@@ -95,7 +93,7 @@ def meant(name: str, known: Iterable[str]) -> str:
 
 def _on_error(number: str) -> AnyStop:
     if not _NUMBER.fullmatch(number) or int(number) not in ERRORS:
-        raise InvalidInput(f"there is no error {quoted(number)}; there are {', '.join(map(str, ERRORS))}")
+        raise NoSuchName(f"there is no error {quoted(number)}; there are {', '.join(map(str, ERRORS))}")
     return OnError(number=int(number))
 
 
@@ -103,11 +101,11 @@ def _at_line(place: Place, listing: Listing) -> AnyStop:
     file, line = place
     lines = {i: step.line for i, step in enumerate(listing.steps) if step.file == file}
     if not lines:
-        raise InvalidInput(f"no step stands in {quoted(file or listing.name)}")
+        raise BadArgument(f"no step stands in {quoted(file or listing.name)}")
     last = max(lines.values())
     if line > last:
         wanted, on = line_name(line, file), line_name(last, file)
-        raise InvalidInput(f"line {wanted} is after the last step, which is on line {on}")
+        raise BadArgument(f"line {wanted} is after the last step, which is on line {on}")
     first = min(number for number in lines.values() if number >= line)
     steps = tuple(i for i, number in lines.items() if number == first)
     return AtLine(steps=steps, file=file, line=first)

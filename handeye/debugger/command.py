@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 Act = TypeVar("Act", bound=Callable[..., Any])
 
@@ -53,7 +53,7 @@ def check_bare(named: Iterable[Command[Any]], rest: str) -> None:
     """
     commands = list(named)
     if rest and all(command.bare for command in commands):
-        raise InvalidInput(f"`{commands[0].name}` takes nothing after it; {quoted(rest)} is too much")
+        raise BadArgument(f"`{commands[0].name}` takes nothing after it; {quoted(rest)} is too much")
 
 
 def rows(commands: Iterable[Command[Any]]) -> list[str]:

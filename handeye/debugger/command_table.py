@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName, Refused
 from handeye.debugger import commands as acts
 from handeye.debugger.breakpoints import meant
 from handeye.debugger.command import Command, check_bare, rows
@@ -32,7 +32,7 @@ def find(line: str) -> tuple[StepperCommand, str]:
         near = meant(word, [command.name for command in COMMANDS])
         if word.casefold() in _ELSEWHERE:
             near = f"; did you mean {quoted(_ELSEWHERE[word.casefold()])}?"
-        raise InvalidInput(f"there is no command {quoted(word)}{near or '; `help` lists them'}")
+        raise NoSuchName(f"there is no command {quoted(word)}{near or '; `help` lists them'}")
     check_bare(named, rest)
     return named[0], rest
 
@@ -66,7 +66,7 @@ def _help(hands: DebugSession, rest: str) -> CommandResult:
     name = find(rest.partition(" ")[0])[0].name
     told = [f"{each.shown}: {each.help}" for each in commands_of(hands.runner) if each.name == name]
     if not told:
-        raise InvalidInput(f"`{name}` has nothing to do in a run of a taught program")
+        raise Refused(f"`{name}` has nothing to do in a run of a taught program")
     return CommandResult(said="\n".join(told))
 
 

@@ -8,7 +8,7 @@ from typing import Final
 from msgspec import UNSET
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, CannotWrite, NoSuchName, Refused
 from handeye.core.files import check_place
 from handeye.core.plain_text import counted
 from handeye.debugger import experiments
@@ -81,7 +81,7 @@ def _count(text: str, expected: str) -> int:
     if not text:
         return 1
     if not re.fullmatch(r"0*[1-9][0-9]{0,6}", text):
-        raise InvalidInput(f"{expected}, not {quoted(text)}")
+        raise BadArgument(f"{expected}, not {quoted(text)}")
     return int(text)
 
 
@@ -96,10 +96,10 @@ def back(hands: DebugSession, rest: str) -> CommandResult:
     else:
         position = done - _count(rest, "back takes a number from 1 up, or `stage`")
     if position is None or not done:
-        raise InvalidInput("this is the beginning of the run")
+        raise Refused("this is the beginning of the run")
     first = hands.first()
     if position < first:
-        raise InvalidInput(reach(first) if first else f"`back` can undo only {counted(done, 'step')}")
+        raise Refused(reach(first) if first else f"`back` can undo only {counted(done, 'step')}")
     hands.back_to(position)
     undone = done - position
     return CommandResult(source=hands.source(), said=f"{counted(undone, 'step')} undone")
@@ -113,9 +113,9 @@ def undo(hands: DebugSession, rest: str) -> CommandResult:
     else:
         left = len(done) - _count(rest, "undo takes a number from 1 up, or `stage`")
     if not done:
-        raise InvalidInput("the arm has done nothing that it could undo")
+        raise Refused("the arm has done nothing that it could undo")
     if left < 0:
-        raise InvalidInput(f"`undo` can undo only {counted(len(done), 'step')}")
+        raise Refused(f"`undo` can undo only {counted(len(done), 'step')}")
     return _told(hands, hands.have_undone(left))
 
 
@@ -141,9 +141,9 @@ def delete(hands: DebugSession, rest: str) -> CommandResult:
     there = f"breakpoints: {', '.join(map(str, hands.breaks)) or 'none'}"
     if not re.fullmatch(r"[0-9]{1,7}", rest):
         wrong = f", not {quoted(rest)}" if rest else ""
-        raise InvalidInput(f"delete takes the number of a breakpoint{wrong}; {there}")
+        raise BadArgument(f"delete takes the number of a breakpoint{wrong}; {there}")
     if int(rest) not in hands.breaks:
-        raise InvalidInput(f"there is no breakpoint {int(rest)}; {there}")
+        raise NoSuchName(f"there is no breakpoint {int(rest)}; {there}")
     del hands.breaks[int(rest)]
     return breaks(hands, "")
 
@@ -158,7 +158,7 @@ def script(hands: DebugSession, rest: str) -> CommandResult:
     file, line = named_place(rest, hands.program) or ("", 0)
     last = text_of(hands.program, file).removesuffix("\n").count("\n") + 1
     if not 1 <= line <= last:
-        raise InvalidInput(f"list takes a line from 1 to {last}, not {quoted(rest)}")
+        raise BadArgument(f"list takes a line from 1 to {last}, not {quoted(rest)}")
     return CommandResult(source=hands.source((file, line), WIDE))
 
 
@@ -170,10 +170,10 @@ def look(hands: DebugSession, rest: str) -> CommandResult:
 def picture(hands: DebugSession, rest: str) -> CommandResult:
     """Write the last picture to a file that is not there yet."""
     if not rest:
-        raise InvalidInput("picture takes the name of a file to write")
+        raise BadArgument("picture takes the name of a file to write")
     path = _file(rest)
     if path.exists():
-        raise InvalidInput(f"{path} already exists; nothing was written")
+        raise CannotWrite(f"{path} already exists; nothing was written")
     name = write_picture(hands.runner, path)
     return CommandResult(file=str(path), said=f"{name}, in {path}")
 
@@ -207,7 +207,7 @@ def abort(hands: DebugSession, _: str) -> CommandResult:
 
 def _check_called(hands: DebugSession, word: str) -> None:
     if hands.runner.call is None:
-        raise InvalidInput(f"`{word}` answers a call of the operator, and there is none")
+        raise Refused(f"`{word}` answers a call of the operator, and there is none")
 
 
 # -- keeping and leaving --------------------------------------------------------------------------------
@@ -222,7 +222,7 @@ def checkpoint(hands: DebugSession, rest: str) -> CommandResult:
         return CommandResult(file=str(path), said=f"saved to {path}")
     kept = hands.keep(hands.runner.checkpoint())
     if kept is None:
-        raise InvalidInput("this run has no folder to keep checkpoints in: `checkpoint FILE` writes one")
+        raise Refused("this run has no folder to keep checkpoints in: `checkpoint FILE` writes one")
     return CommandResult(file=str(kept), said=f"saved to {kept}")
 
 
@@ -232,7 +232,7 @@ def _file(name: str) -> Path:
         path = Path(name).expanduser()
         path.exists()
     except (OSError, RuntimeError, ValueError):  # too long a name, nobody's home, a NUL
-        raise InvalidInput(f"{quoted(name)} cannot be a file name") from None
+        raise BadArgument(f"{quoted(name)} cannot be a file name") from None
     return path
 
 

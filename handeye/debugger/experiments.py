@@ -5,7 +5,7 @@ import re
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.debugger.breakpoints import meant
 from handeye.runs.runner import Runner
 from handeye.runs.system import Settable
@@ -25,9 +25,9 @@ def experiment(runner: Runner, text: str) -> None:
     settable = settables.get(kind.casefold())
     if settable is None:
         known = " or ".join(f"`set {name} {each.usage}`" for name, each in settables.items())
-        raise InvalidInput(f"an experiment is {known}" if known else "nothing can be set in this run")
+        raise BadArgument(f"an experiment is {known}" if known else "nothing can be set in this run")
     if runner.trouble is not None:
-        raise InvalidInput("no experiment is possible here; go back first")
+        raise Refused("no experiment is possible here; go back first")
     name, numbers = _read(rest, settable, kind.casefold())
     values = tuple(number * unit for number, unit in zip(numbers, settable.units, strict=False))
     runner.experiment(kind.casefold(), name, values + settable.present(name)[len(values) :])
@@ -37,7 +37,7 @@ def _read(text: str, settable: Settable, kind: str) -> tuple[str, list[float]]:
     """The name and the numbers, brackets and commas left out."""
     name, *words = re.sub(r"[\[\](),]", " ", text).split() or [""]
     if not name or len(words) not in (settable.fewest, len(settable.units)):
-        raise InvalidInput(f"write an experiment as `set {kind} {settable.usage}`")
+        raise BadArgument(f"write an experiment as `set {kind} {settable.usage}`")
     numbers = [_number(word) for word in words]
     return _known(name, settable), numbers
 
@@ -48,7 +48,7 @@ def _number(word: str) -> float:
     except ValueError:
         value = math.nan
     if not abs(value) <= FARTHEST:
-        raise InvalidInput(f"{quoted(word)} is not a number from {-FARTHEST:g} to {FARTHEST:g}")
+        raise BadArgument(f"{quoted(word)} is not a number from {-FARTHEST:g} to {FARTHEST:g}")
     return value
 
 
@@ -57,4 +57,4 @@ def _known(name: str, settable: Settable) -> str:
     for choice in (name, name.upper()):
         if choice in settable.names:
             return choice
-    raise InvalidInput(f"the program has no {settable.noun} {quoted(name)}{meant(name, settable.names)}")
+    raise NoSuchName(f"the program has no {settable.noun} {quoted(name)}{meant(name, settable.names)}")

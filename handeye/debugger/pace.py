@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.execution.servo_period import ServoPeriod
 from handeye.runs.observer import Observer
 
@@ -64,7 +64,7 @@ def factor(text: str) -> float | None:
         return None
     number = re.fullmatch(r"([0-9]{1,3}(?:\.[0-9]{1,6})?|\.[0-9]{1,6})x?", text.casefold())
     if number is None or not SLOWEST <= float(number[1]) <= FASTEST:
-        raise InvalidInput(
+        raise BadArgument(
             f"pace takes `1x`, `4x`, another number from {SLOWEST:g}x to {FASTEST:g}x, or `{FREE}`, not {quoted(text)}"
         )
     return float(number[1])

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final, Literal
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.debugger.breakpoints import breakpoint
 from handeye.debugger.choices import choices
 from handeye.debugger.listing import SourceLine, excerpt
@@ -102,7 +102,7 @@ class DebugSession:
         """
         refusal = self.at_its_end()
         if refusal is not None:
-            raise InvalidInput(refusal)
+            raise Refused(refusal)
         return self._go(stops, steps)
 
     def have_undone(self, left: int, *, halts: bool = False) -> Pause:
@@ -115,7 +115,7 @@ class DebugSession:
             InvalidInput: so much was not executed, or the cell cannot go on.
         """
         if self.runner.trouble is not None:
-            raise InvalidInput(self.at_its_end() or "")
+            raise Refused(self.at_its_end() or "")
         self.runner.have_undone(left, halts=halts)
         return self._go([Undone()], None)
 
@@ -138,9 +138,9 @@ class DebugSession:
             InvalidInput: it does not go on.
         """
         if self.going is None:
-            raise InvalidInput("the run pauses already")
+            raise Refused("the run pauses already")
         if self.going == "back":
-            raise InvalidInput("the run goes back, and pauses where that ends")
+            raise Refused("the run goes back, and pauses where that ends")
         self._pause_asked = True
 
     @contextmanager
@@ -187,7 +187,7 @@ class DebugSession:
         except Halted:
             self.runner.undo()
             done = self.runner.position
-            raise InvalidInput(
+            raise Refused(
                 f"stopped by the panic button on the way back to {position} steps done; {done} are done"
             ) from None
 

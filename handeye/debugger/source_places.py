@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.runs.system import Listing
 
 Place = tuple[str, int]
@@ -35,5 +35,5 @@ def named_place(text: str, program: Listing) -> Place | None:
         return "", line
     if not found:
         known = ", ".join(map(quoted, program.required)) or "none"
-        raise InvalidInput(f"the script requires no file {quoted(file)}; it requires: {known}")
+        raise NoSuchName(f"the script requires no file {quoted(file)}; it requires: {known}")
     return (file if file in found else found[0]), line

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import msgspec
 
-from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.core.errors import HandeyeError, Refused
 from handeye.debugger.command_table import MEANWHILE, find
 from handeye.debugger.formatting import as_json, as_text
 from handeye.debugger.live import Ear, Live, LiveJson, LiveText
@@ -81,7 +81,7 @@ class Stepper:
         try:
             command, rest = find(line)
             if not command.meanwhile:
-                raise InvalidInput(
+                raise Refused(
                     f"`{command.name}` was not carried out: while the run goes, only {MEANWHILE} can be said"
                 )
             told = command.act(self.hands, rest)

@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, NoSuchName, Refused
 from handeye.core.files import write_whole
 from handeye.core.pose import Array, Pose, hand_angles, yaw
 from handeye.core.record import Vector3
@@ -68,7 +68,7 @@ def write_picture(runner: Runner, file: Path) -> str:
     """
     last = _picture(runner)
     if last is None:
-        raise InvalidInput("the program has taken no picture yet")
+        raise Refused("the program has taken no picture yet")
     write_whole(file, annotated_png(context_of(runner.system), last.name))
     return last.name
 
@@ -77,7 +77,7 @@ def _topic(what: str, topics: Collection[str]) -> str:
     found = [name for name in topics if name.startswith(what.casefold())]
     if what.casefold() not in topics and len(found) != 1:
         near = meant(what, topics) or f"; there are {', '.join(topics)}"
-        raise InvalidInput(f"there is no {quoted(what)} to show{near}")
+        raise NoSuchName(f"there is no {quoted(what)} to show{near}")
     return found[0]
 
 
@@ -176,7 +176,7 @@ def _kept(runner: Runner, name: str, folder: Path) -> PictureShown:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+        raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
     file = folder / f"{name.lower()}.png"
     write_picture(runner, file)
     return PictureShown(name=name, file=str(file))

@@ -11,7 +11,7 @@ from handeye.al.instructions import EXPLAINED
 from handeye.al.operand_help import origin, part, takes
 from handeye.core.codes import CODES
 from handeye.core.diagnostics import WIDTH, Diagnostic, quoted, render, suggestion
-from handeye.core.errors import ERRORS, InvalidInput
+from handeye.core.errors import ERRORS, NoSuchName
 from handeye.core.source import Source
 from handeye.editor.checking import planning
 from handeye.editor.document import Document
@@ -45,7 +45,7 @@ def explanation(word: str) -> str:
     near = suggestion(word, {*CODES, *EXPLAINED, *map(str, ERRORS)}) or suggestion(
         word, [code for code in CODES if word.lower() in code]
     )
-    raise InvalidInput(
+    raise NoSuchName(
         f"there is no code, error number or instruction {quoted(word)}"
         + (f"; {near}" if near else "; `handeye explain` lists the codes")
     )

@@ -10,7 +10,7 @@ from handeye.al.includes import key_of, own_key, required_by
 from handeye.al.instructions import INSTRUCTIONS
 from handeye.al.word_groups import OPERAND_WORDS
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.source import Span
 from handeye.editor.document import Document
 from handeye.editor.occurrences import LABEL, MACRO, PARAMETER, PARK, PART, POSITION, Occurrence, same
@@ -65,13 +65,13 @@ def renamable(document: Document, offset: int) -> Occurrence:
     """
     name = document.name_at(offset)
     if name is None:
-        raise InvalidInput("there is no name here")
+        raise Refused("there is no name here")
     places = [occurrence for occurrence, _ in _all(document, name)]
     if any(place.fixed for place in places) or (name.kind, name.name) == (POSITION, PARK):
-        raise InvalidInput(f"{quoted(name.name)} is a word of the language")
+        raise Refused(f"{quoted(name.name)} is a word of the language")
     if not any(place.makes for place in places):
         where = "in the taught file" if _is_taught(document, name) else "anywhere"
-        raise InvalidInput(f"the definition of {name.kind} {quoted(name.name)} is not found {where}")
+        raise Refused(f"the definition of {name.kind} {quoted(name.name)} is not found {where}")
     return name
 
 
@@ -83,20 +83,20 @@ def rename(document: Document, offset: int, new: str) -> list[Edit]:
     """
     name = renamable(document, offset)
     if _NAME.fullmatch(new) is None:
-        raise InvalidInput(
+        raise BadArgument(
             f"{quoted(new)} is not a name: names consist of letters, digits and `_`, and do not start with a digit"
         )
     if (
         name.kind in (MACRO, LABEL, PARAMETER) and new.upper() in (*INSTRUCTIONS, "DEFINE")
     ) or new.upper() in OPERAND_WORDS:
-        raise InvalidInput(f"{quoted(new)} is a word of the language")
+        raise BadArgument(f"{quoted(new)} is a word of the language")
     if name.kind == PARAMETER and new in AXES:
-        raise InvalidInput(f"{quoted(new)} is an axis of the table")
+        raise BadArgument(f"{quoted(new)} is an axis of the table")
     others = [*document.names, *document.taught_names, *(o for _, o in document.required_names)]
     if new != name.name and any(_meets(other, name, new) for other in others):
-        raise InvalidInput(f"there is a {name.kind} {quoted(new)} already")
+        raise Refused(f"there is a {name.kind} {quoted(new)} already")
     if new != name.name and (macro := _hidden(others, name, new)):
-        raise InvalidInput(f"in macro {quoted(macro)} {quoted(new)} stands for something else")
+        raise Refused(f"in macro {quoted(macro)} {quoted(new)} stands for something else")
     return [Edit(span=f.span, text=new, taught=f.taught, file=f.file) for _, f in _all(document, name)]
 
 

@@ -15,7 +15,7 @@ from handeye.arm.ik import IKResult
 from handeye.arm.kinematics import forward
 from handeye.arm.model import ArmModel
 from handeye.arm.trajectory import Trajectory, move
-from handeye.core.errors import HandeyeError
+from handeye.core.errors import CalibrationFailed
 from handeye.core.pose import hand
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH
@@ -32,10 +32,6 @@ from handeye.vision.live import repeated
 
 FEWEST: Final = 8
 """Sightings with each lens below which the set-up is called a failure."""
-
-
-class CalibrationFailed(HandeyeError):
-    """The lamp was not seen often enough."""
 
 
 def calibrate_camera(

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.ports.workcell import Workcell
 from handeye.program.operation import Device
 from handeye.program.program import Program
@@ -22,4 +22,4 @@ def check_devices(program: Program, cell: Workcell) -> None:
         needed = step.needs
         if needed is not None and devices[needed] is None:
             called = _CALLED.get(needed, needed)
-            raise InvalidInput(f"line {step.place} needs a {called}, which this cell does not have")
+            raise Refused(f"line {step.place} needs a {called}, which this cell does not have")

@@ -17,7 +17,7 @@ from handeye.arm.dynamics import gravity, mass_matrix
 from handeye.arm.model import ArmModel, constants
 from handeye.arm.samples import Samples
 from handeye.arm.weighing import PLAUSIBLE, mass_factors
-from handeye.core.errors import HandeyeError
+from handeye.core.errors import FrictionUnknown
 from handeye.core.pose import Array
 from handeye.execution.drive import ArmDrive
 from handeye.execution.servo_period import ServoPeriod
@@ -33,10 +33,6 @@ MOST: Final = 1.8
 """Times the friction of its data that a joint may rub with. Chosen between sound joints and drives that give half of
 what they are told. Measured: at most 1.61 in sixty worlds; at most 1.87 in eighty with twice the errors, of which
 one goes beyond; 1.4 to 2.3 at half a drive."""
-
-
-class FrictionUnknown(HandeyeError):
-    """The arm did not move as it must for its friction to be measured, or has links of a weight that cannot be."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 
 from handeye.arm.model import ArmModel
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Refused
 from handeye.core.mutable_records import MutableRecord, put_back
 from handeye.core.pose import Array
 from handeye.core.record import Record
@@ -57,7 +57,7 @@ class SearchState(MutableRecord, kw_only=True):
         """
         found = self.place(pattern, self.count)
         if found is None:
-            raise InvalidInput(f"the search has no place {self.count}, to which it has come")
+            raise Refused(f"the search has no place {self.count}, to which it has come")
         return found
 
     def place(self, pattern: SearchPattern, number: int) -> tuple[float, float] | None:
@@ -210,9 +210,9 @@ def check_fits(state: ExecutionState, plan: Plan, arm: ArmModel) -> None:
             vectors and pictures are of another size, or a number in it is not finite.
     """
     if not _finite(state):
-        raise InvalidInput("the state of the run holds a value that is not a finite number")
+        raise BadFile("the state of the run holds a value that is not a finite number")
     if not (_fits_program(state, plan) and _fits_sizes(state, arm)):
-        raise InvalidInput("the state of the run does not fit this plan")
+        raise BadFile("the state of the run does not fit this plan")
 
 
 def _fits_program(state: ExecutionState, plan: Plan) -> bool:

@@ -7,7 +7,7 @@ builtin data of a plan of its version and returns that of the next; it knows no 
 from collections.abc import Callable
 from typing import Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.planfile.plan import VERSION
 from handeye.planfile.version_1 import Data, to_version_2
 
@@ -30,5 +30,5 @@ def migrated(data: Data, version: int, name: str) -> Data:
         try:
             data = MIGRATIONS[number](data) | {"version": number + 1}
         except (LookupError, TypeError, ValueError, AttributeError):
-            raise InvalidInput(f"{name} is not a sound plan of format version {number}") from None
+            raise BadFile(f"{name} is not a sound plan of format version {number}") from None
     return data

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole, write_over
 from handeye.planfile.migrations import migrated, oldest
 from handeye.planfile.plan import VERSION, Plan
@@ -62,16 +62,14 @@ def decode(text: str | bytes, name: str) -> Plan:
     try:
         head = msgspec.json.decode(text)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InvalidInput(f"{name} is not a plan, or is cut short: {error}") from None
+        raise BadFile(f"{name} is not a plan, or is cut short: {error}") from None
     if not isinstance(head, dict) or head.get("format") != "handeye plan":
-        raise InvalidInput(f'{name} is not a plan: it does not say "format": "handeye plan"')
+        raise BadFile(f'{name} is not a plan: it does not say "format": "handeye plan"')
     version = head.get("version")
     if not isinstance(version, int) or version < oldest():
-        raise InvalidInput(f"{name} does not say which version of the plan format it has")
+        raise BadFile(f"{name} does not say which version of the plan format it has")
     if version > VERSION:
-        raise InvalidInput(
-            f"{name} has plan format version {version}; this handeye reads up to version {VERSION}"
-        )
+        raise BadFile(f"{name} has plan format version {version}; this handeye reads up to version {VERSION}")
     try:
         plan = (
             msgspec.json.decode(text, type=Plan)
@@ -79,9 +77,9 @@ def decode(text: str | bytes, name: str) -> Plan:
             else msgspec.convert(migrated(head, version, name), Plan, str_keys=True)
         )
     except msgspec.DecodeError as error:
-        raise InvalidInput(f"{name} is not a sound plan: {error}") from None
+        raise BadFile(f"{name} is not a sound plan: {error}") from None
     for fault in faults(plan):
-        raise InvalidInput(f"{name}: {fault}")
+        raise BadFile(f"{name}: {fault}")
     return plan
 
 
@@ -93,7 +91,7 @@ def read_plan(path: Path) -> Plan:
     """
     data = read_whole(path)
     if not data.lstrip().startswith((b"{", b"[")):
-        raise InvalidInput(f"{path} is not a plan; is it a script? `handeye plan {path}` makes the plan")
+        raise BadFile(f"{path} is not a plan; is it a script? `handeye plan {path}` makes the plan")
     return decode(data, str(path))
 
 

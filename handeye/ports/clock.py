@@ -4,7 +4,7 @@ import math
 from abc import ABC, abstractmethod
 from typing import Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 LONGEST: Final = 86400.0
 """s that may pass at once: a day, far longer than any job."""
@@ -41,13 +41,13 @@ def whole_steps(seconds: float, step: float) -> int:
         InvalidInput: not a whole number of them, or not one, or longer than `LONGEST`.
     """
     if not (math.isfinite(seconds) and seconds > 0):
-        raise InvalidInput(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
+        raise BadArgument(f"time cannot pass by {seconds:g} s; the shortest period is {step:{_DIGITS}} s")
     if seconds > LONGEST:
-        raise InvalidInput(f"time cannot pass by {seconds:g} s at once; the longest period is {LONGEST:g} s")
+        raise BadArgument(f"time cannot pass by {seconds:g} s at once; the longest period is {LONGEST:g} s")
     steps = round(seconds / step)
     if steps < 1 or abs(seconds / step - steps) > _ROUNDING:
         low = max(1, int(seconds / step))
-        raise InvalidInput(
+        raise BadArgument(
             f"a period of {seconds:{_DIGITS}} s is not a whole number of physics steps of {step:{_DIGITS}} s; "
             f"use {low * step:{_DIGITS}} or {(low + 1) * step:{_DIGITS}}"
         )

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from handeye.core.diagnostics import nearest, quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 
 _NUMBER: Final = re.compile(r"[0-9]{1,9}")
 
@@ -18,11 +18,11 @@ def stage_index(text: str, stages: Sequence[str]) -> int:
     """
     if _NUMBER.fullmatch(text.strip()):
         if not 1 <= int(text) <= len(stages):
-            raise InvalidInput(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
+            raise NoSuchName(f"there is no stage {int(text)}; the program has stages 1 to {len(stages)}")
         return int(text) - 1
     found = stage_called(text, stages)
     if found is None:
-        raise InvalidInput(f"there is no stage {quoted(text.strip())}{_meant(text, stages)}")
+        raise NoSuchName(f"there is no stage {quoted(text.strip())}{_meant(text, stages)}")
     return found
 
 
@@ -40,7 +40,7 @@ def stage_called(text: str, stages: Sequence[str]) -> int | None:
         found = [number for number, name in enumerate(names) if fits(name, wanted)]
         if len(found) > 1:
             several = ", ".join(f"{number + 1} {quoted(stages[number])}" for number in found)
-            raise InvalidInput(f"{len(found)} stages {how} {quoted(text.strip())}: {several}")
+            raise BadArgument(f"{len(found)} stages {how} {quoted(text.strip())}: {several}")
         if found:
             return found[0]
     return None

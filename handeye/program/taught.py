@@ -28,7 +28,7 @@ from typing import Final
 import msgspec
 
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.source import Source, read_source
 from handeye.program.program import Fixture, Held, Part, Position
 from handeye.program.taught_tables import (
@@ -83,16 +83,16 @@ def read_taught(source: Source) -> Taught:
         tables = msgspec.convert(tomllib.loads(source.text), _File)
         return _taught(tables)
     except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"{path} is not TOML: {_spoilt(error)}") from None
+        raise BadFile(f"{path} is not TOML: {_spoilt(error)}") from None
     except RecursionError:
-        raise InvalidInput(f"{path} is not TOML: nested too deeply") from None
+        raise BadFile(f"{path} is not TOML: nested too deeply") from None
     except msgspec.ValidationError as error:
-        raise InvalidInput(f"{path}: {unfit(error)}") from None
+        raise BadFile(f"{path}: {unfit(error)}") from None
     except ValueError:  # of a whole number that Python does not read
-        raise InvalidInput(f"{path}: a number has too many digits") from None
+        raise BadFile(f"{path}: a number has too many digits") from None
     except UnfitEntry as fault:
         line = _line(source, fault)
-        raise InvalidInput(f"{path}{'' if line is None else f':{line}'}: {fault.key}: {fault}") from None
+        raise BadFile(f"{path}{'' if line is None else f':{line}'}: {fault.key}: {fault}") from None
 
 
 def _taught(tables: _File) -> Taught:

@@ -9,7 +9,7 @@ import re
 import tomllib
 from typing import Any, Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.units import DEGREE, INCH
 from handeye.program.program import Position
 
@@ -39,7 +39,7 @@ def with_position(text: str, name: str, position: Position) -> str:
     except tomllib.TOMLDecodeError:
         after = None
     if after != wanted:
-        raise InvalidInput(
+        raise Refused(
             f"{name} cannot be added without changing more of the file; add it yourself: {_line(name, position)}"
         )
     return edited

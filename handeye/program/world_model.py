@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.core.mutable_records import MutableRecord
 from handeye.core.pose import Pose, hand, hand_angles, inverse, planar
 from handeye.program.program import Part, Position, Program
@@ -46,7 +46,7 @@ class WorldModel:
     def measure(self, part: str, X_WP: Pose) -> None:
         """A part has been seen or felt at this pose."""
         if part not in self.parts:
-            raise InvalidInput(f"no part {part}; there are {', '.join(self.parts)}")
+            raise NoSuchName(f"no part {part}; there are {', '.join(self.parts)}")
         self.state.measured[part] = X_WP
 
     def part(self, name: str) -> Pose:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import check_place, write_over
 from handeye.core.folders import check_folder, write_folder
 from handeye.core.record import Record
@@ -94,5 +94,5 @@ def export(path: Path, shown: Shown, *, part: str | None, overwrite: bool) -> Ex
     if path.suffix == GLB.ending:
         return export_glb(path, shown, part=WHOLE if part is None else part)
     if part is not None:
-        raise InvalidInput(f"a part goes into a file whose name ends in {GLB.ending}, not into {path}")
+        raise BadArgument(f"a part goes into a file whose name ends in {GLB.ending}, not into {path}")
     return export_mjcf(path, shown, overwrite=overwrite)

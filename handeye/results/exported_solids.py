@@ -8,7 +8,7 @@ from typing import Final
 from handeye.cell.gltf import glb
 from handeye.cell.solid_scene import SolidScene, Weighed
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.core.files import Kind
 from handeye.core.plain_text import counted
 from handeye.results.exported_scene import told
@@ -45,7 +45,7 @@ def exported_solids(exhibit: Exhibit, part: str) -> ExportedSolids:
     parts = {**exported.parts, WHOLE: None}
     if part not in parts:
         near = suggestion(part, parts) or f"there are {', '.join(map(quoted, parts))}"
-        raise InvalidInput(f"there is no part {quoted(part)} to export; {near}")
+        raise NoSuchName(f"there is no part {quoted(part)} to export; {near}")
     scene = SolidScene.of(exported.spec, parts[part])
     return ExportedSolids(
         file=glb(scene, told(exhibit)),

@@ -5,7 +5,7 @@ from math import isfinite
 
 from handeye.cell.truth import Truth
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.judge.finding import Finding, Findings
 from handeye.runs.advance import Pause
 from handeye.runs.runner import Runner
@@ -60,7 +60,7 @@ def checked_findings(referee: str, findings: object) -> Findings:
     if not isinstance(findings, Mapping) or not all(
         isinstance(name, str) and isinstance(each, Finding) for name, each in findings.items()
     ):
-        raise InvalidInput(f"the referee `{referee}` must give findings by their names, not {findings!r}")
+        raise BadArgument(f"the referee `{referee}` must give findings by their names, not {findings!r}")
     return findings
 
 
@@ -73,9 +73,9 @@ def checked_limits(limits: Limits) -> dict[str, float]:
     checked: dict[str, float] = {}
     for name, limit in limits.items():
         if not isinstance(name, str):
-            raise InvalidInput(f"limits are given by the names of findings, not by {name!r}")
+            raise BadArgument(f"limits are given by the names of findings, not by {name!r}")
         if isinstance(limit, bool) or not isinstance(limit, (int, float)) or not isfinite(limit):
-            raise InvalidInput(f"the limit of {name} must be a number, not {limit!r}")
+            raise BadArgument(f"the limit of {name} must be a number, not {limit!r}")
         checked[name] = float(limit)
     return checked
 
@@ -100,6 +100,6 @@ def limited(findings: Findings, limits: Limits) -> Findings:
     for name, limit in limits.items():
         if name not in found:
             near = suggestion(name, found) or f"there are {', '.join(map(quoted, found))}"
-            raise InvalidInput(f"the referee has no finding {quoted(name)}; {near}")
+            raise NoSuchName(f"the referee has no finding {quoted(name)}; {near}")
         found[name] = found[name].limited(limit)
     return found

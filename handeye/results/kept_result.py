@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
 from handeye.results.result import Result
 from handeye.tasks import DEFAULT
@@ -34,7 +34,7 @@ def read_result(path: Path) -> tuple[Result, tuple[str, ...]]:
         missing = _bring_up_to_date(written) if isinstance(written, dict) else ()
         return msgspec.convert(written, Result), missing
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InvalidInput(f"{path} is not the result of a run: {error}") from None
+        raise BadFile(f"{path} is not the result of a run: {error}") from None
 
 
 def _bring_up_to_date(result: dict[str, Any]) -> tuple[str, ...]:

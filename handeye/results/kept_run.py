@@ -7,7 +7,7 @@ from pathlib import Path
 from msgspec import UNSET
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.files import read_whole
 from handeye.execution.state import ExecutionState
 from handeye.planfile.store import written_digest
@@ -63,10 +63,10 @@ def kept_run(path: Path) -> KeptRun:
             f"{path / RESULT} is of another run: of {quoted(result.program)} in the world of {result.world}"
         )
     if not (path / EVENTS).exists() and not (path / PLAN).exists():
-        raise InvalidInput(f"{path} is not the folder of a run: it has no {PLAN}")
+        raise BadFile(f"{path} is not the folder of a run: it has no {PLAN}")
     events = effective(read_events(path / EVENTS, growing=True)) if (path / EVENTS).exists() else []
     if not events:
-        raise InvalidInput(f"the run in {path} has not begun")
+        raise BadFile(f"the run in {path} has not begun")
     return _so_far(path, events, faults)
 
 
@@ -109,11 +109,11 @@ def _so_far(path: Path, events: Sequence[AnyEvent], faults: Sequence[str]) -> Ke
     """A run that has left no result, by its events; `faults` are known already."""
     begun, last = events[0], events[-1]
     if not isinstance(begun, RunStarted):
-        raise InvalidInput(f"{path / EVENTS} is an event list without the start of a run")
+        raise BadFile(f"{path / EVENTS} is an event list without the start of a run")
     listing = _listing(path, begun)
     stages = {event.stage for event in events if isinstance(event, StageStarted | StageFinished)}
     if not stages <= set(listing.stages):
-        raise InvalidInput(f"{path / EVENTS} tells of stages that the plan beside it lacks")
+        raise BadFile(f"{path / EVENTS} tells of stages that the plan beside it lacks")
     host, unread = _host(path)
     checkpoint, damaged = CheckpointStore(path / CHECKPOINTS).newest()
     state = None if checkpoint is None or checkpoint.snapshot is None else checkpoint.snapshot.state
@@ -152,7 +152,7 @@ def _listing(path: Path, begun: RunStarted) -> Listing:
     kind, data = system_kind(begun.system), read_whole(path / PLAN)
     plan = kind.decode(data, str(path / PLAN))
     if written_digest(kind.encode(plan)) != begun.plan:
-        raise InvalidInput(f"{path / PLAN} is not the plan that was carried out")
+        raise BadFile(f"{path / PLAN} is not the plan that was carried out")
     return kind.listing(plan)
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from handeye.cell.photograph import photograph_png
 from handeye.cell.posed import as_it_stands
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, CannotWrite
 from handeye.core.files import write_whole
 from handeye.execution.context import ExecutionContext
 from handeye.execution.state import Found
@@ -53,7 +53,7 @@ def _annotated(run: ExecutionContext, name: str) -> NDArray[np.uint8]:
     try:
         return annotate(run.state.shots[name].picture, found.marks())
     except ValueError:
-        raise InvalidInput(f"the findings in picture {name} cannot be drawn") from None
+        raise BadFile(f"the findings in picture {name} cannot be drawn") from None
 
 
 def keep_pictures(folder: Path, runner: Runner) -> None:
@@ -65,7 +65,7 @@ def keep_pictures(folder: Path, runner: Runner) -> None:
     try:
         folder.mkdir(exist_ok=True)  # an empty folder is easily lost on the way to another computer
     except OSError as error:
-        raise InvalidInput(f"{folder} cannot be made: {error.strerror}") from None
+        raise CannotWrite(f"{folder} cannot be made: {error.strerror}") from None
     for name in runner.system.state.shots if isinstance(runner.system, ProgramSystem) else ():
         write_whole(folder / f"{name.lower()}.png", annotated_png(context_of(runner.system), name))
     if runner.cell.renderer.method == "opengl" and runner.task.photographs:

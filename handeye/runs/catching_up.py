@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.program.events import AnyEvent, StepFinished
 from handeye.runs.runner import Runner
 from handeye.runs.snapshot import Checkpoint
@@ -38,7 +38,7 @@ def caught_up(checkpoint: Checkpoint, events: Sequence[AnyEvent], name: str) -> 
     runner = Runner(checkpoint)
     runner.repeat(happened)
     if runner.events[: len(happened)] != list(happened):
-        raise InvalidInput(
+        raise Refused(
             f"what {name} did since its newest checkpoint comes out otherwise here: `handeye resume {name}` goes on "
             "from that checkpoint"
         )

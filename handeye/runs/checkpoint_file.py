@@ -14,7 +14,7 @@ import msgspec
 from msgspec import UNSET, UnsetType
 
 from handeye.cell.state import CellState
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.files import Kind, read_whole, write_whole
 from handeye.core.packed import decoded, encoded, packed, sealed, unpacked
 from handeye.core.record import Record
@@ -134,7 +134,7 @@ def decode(data: bytes, name: str) -> Checkpoint:
     try:
         body = unpacked(rest, _Body, LARGEST)
     except ValueError as error:
-        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
     kind = system_kind(head.system)
     plan = kind.decode(body.plan.encode(), f"the plan in {name}")
     setup = Setup(
@@ -151,12 +151,12 @@ def decode(data: bytes, name: str) -> Checkpoint:
     try:
         kind.check(setup)
     except InvalidInput as error:
-        raise InvalidInput(f"{name} cannot be used: {error}") from None
+        raise BadFile(f"{name} cannot be used: {error}") from None
     if body.snapshot is not None and (
         body.snapshot.happened != len(body.events)
         or not isinstance(next(iter(body.events), None), RunStarted)
     ):
-        raise InvalidInput(f"{name} is not a sound checkpoint: it does not hold all that has happened")
+        raise BadFile(f"{name} is not a sound checkpoint: it does not hold all that has happened")
     checkpoint = Checkpoint(
         setup=setup,
         snapshot=None if body.snapshot is None else _in_memory(body.snapshot, kind, name),
@@ -165,10 +165,10 @@ def decode(data: bytes, name: str) -> Checkpoint:
     listing = kind.listing(plan)
     begun = {event.stage for event in body.events if isinstance(event, StageStarted | StageFinished)}
     if not begun <= set(listing.stages):
-        raise InvalidInput(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
+        raise BadFile(f"{name} is not a sound checkpoint: it has stages that its plan lacks")
     told = (head.program, head.plan, head.position, head.touched)
     if told != (listing.name, digest_of(setup), checkpoint.position, checkpoint.touched):
-        raise InvalidInput(f"{name} is not a sound checkpoint: its head does not match its content")
+        raise BadFile(f"{name} is not a sound checkpoint: its head does not match its content")
     return checkpoint
 
 
@@ -190,7 +190,7 @@ def _in_memory(kept: _Snapshot, kind: SystemKind, name: str) -> Snapshot:
     try:
         state = decoded(kept.state, kind.state)
     except ValueError as error:
-        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None
     return Snapshot(
         position=kept.position,
         happened=kept.happened,
@@ -242,20 +242,20 @@ def _opened(data: bytes, name: str) -> tuple[Head, bytes]:
     first, _, rest = data.partition(b"\n")
     words = first.decode("ascii", errors="replace").split(" ")
     if len(words) != 3 or words[0] != MAGIC or not re.fullmatch(r"[1-9][0-9]{0,8}", words[1]):
-        raise InvalidInput(f"{name} is not a checkpoint of handeye")
+        raise BadFile(f"{name} is not a checkpoint of handeye")
     if int(words[1]) < VERSION:
-        raise InvalidInput(
+        raise BadFile(
             f"{name} was saved by an older handeye, in checkpoint format version {words[1]}; this one reads version "
             f"{VERSION}: start the run again, or resume it there"
         )
     if int(words[1]) > VERSION:
-        raise InvalidInput(
+        raise BadFile(
             f"{name} has checkpoint format version {words[1]}; this handeye reads up to version {VERSION}"
         )
     if words[2] != hashlib.sha256(rest).hexdigest():
-        raise InvalidInput(f"{name} is damaged or cut short: its checksum is wrong")
+        raise BadFile(f"{name} is damaged or cut short: its checksum is wrong")
     line, _, body = rest.partition(b"\n")
     try:
         return msgspec.json.decode(line, type=Head), body
     except msgspec.DecodeError as error:
-        raise InvalidInput(f"{name} is not a sound checkpoint: {error}") from None
+        raise BadFile(f"{name} is not a sound checkpoint: {error}") from None

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, CannotWrite, InvalidInput
 from handeye.core.files import write_whole
 from handeye.runs.checkpoint_file import (
     ENDING,
@@ -70,14 +70,14 @@ class CheckpointStore:
         """
         for path, head in self.heads():
             if (head.system, head.plan) != (setup.system, digest_of(setup)):
-                raise InvalidInput(f"{path} is of another plan ({head.program}, {head.plan})")
+                raise BadFile(f"{path} is of another plan ({head.program}, {head.plan})")
             if (head.world, head.camera) != (setup.world, setup.camera):
-                raise InvalidInput(
+                raise BadFile(
                     f"{path} is of another run ({head.world}, camera {head.camera}) than this "
                     f"({setup.world}, camera {setup.camera}); choose another folder"
                 )
             if deciding(head.replaced or {}) != deciding(setup.replaced):
-                raise InvalidInput(
+                raise BadFile(
                     f"{path} is of a run with other parts ({named(head.replaced or {})}) than this "
                     f"({named(setup.replaced)}); choose another folder"
                 )
@@ -90,9 +90,9 @@ class CheckpointStore:
         """
         self.check(setup)
         for fault in self.damaged():
-            raise InvalidInput(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
+            raise CannotWrite(f"{self.folder} holds an unreadable file ({fault}); choose another folder")
         if any(head.touched for path, head in self.heads() if _position(path) >= 0):
-            raise InvalidInput(
+            raise CannotWrite(
                 f"{self.folder} is of a run with interventions by people, which would be lost; choose another folder"
             )
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Literal
 
 from handeye.cell.truth import Truth
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Refused
 from handeye.core.variation import WorldSpec
 from handeye.runs.checkpoint_file import read_checkpoint
 from handeye.runs.folder import open_again
@@ -65,16 +65,16 @@ def present(runner: Runner) -> Exhibit:
         InvalidInput: its system acts on no cell.
     """
     if runner.system.cell is None:
-        raise InvalidInput("the run is of a system that acts on no cell")
+        raise Refused("the run is of a system that acts on no cell")
     return _shown(runner.checkpoint(), runner.cell.truth)
 
 
 def _exhibit(path: Path, checkpoint: Checkpoint) -> Exhibit:
     setup, snapshot = checkpoint.setup, checkpoint.snapshot
     if snapshot is None:
-        raise InvalidInput(f"the run in {path} has not begun")
+        raise BadFile(f"the run in {path} has not begun")
     if snapshot.cell is None:
-        raise InvalidInput(f"the run in {path} is of a system that acts on no cell")
+        raise Refused(f"the run in {path} is of a system that acts on no cell")
     cell = task(setup.task).cell(setup.world, "ray")
     cell.restore(snapshot.cell)
     return _shown(checkpoint, cell.truth)

@@ -12,7 +12,7 @@ from typing import Final
 import msgspec
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, CannotWrite, InvalidInput
 from handeye.core.files import read_whole, write_whole
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.vision_actions import just_found
@@ -47,7 +47,7 @@ _OUTCOMES: Final = (RESULT, REPORT, VIDEO, JOB, TAUGHT)
 """What tells of how a run has ended."""
 
 
-class HoldsRun(InvalidInput):
+class HoldsRun(CannotWrite):
     """A folder holds a run, which would be lost."""
 
     def __init__(self, path: Path) -> None:
@@ -87,7 +87,7 @@ class RunFolder(Observer):
             InvalidInput: the folder cannot be written to.
         """
         if (self.path / RESULT).is_dir():  # it would be found out when the run is over
-            raise InvalidInput(f"{self.path / RESULT} cannot be written: it is a folder")
+            raise CannotWrite(f"{self.path / RESULT} cannot be written: it is a folder")
         self._runner, self._meter = runner, meter or Meter(before=self.spent)
         self._journal = Journal(self.path / EVENTS, start.events, again=again)
         if not again:
@@ -187,7 +187,7 @@ class RunFolder(Observer):
             InvalidInput: the trace was broken off, so that nothing may happen after it.
         """
         if self._recorder is not None and self._recorder.broken:
-            raise InvalidInput(
+            raise CannotWrite(
                 f"the trace in {self.path} was cut off; make room, then `handeye resume {self.path}` continues "
                 "from the last checkpoint"
             )
@@ -232,9 +232,9 @@ def open_new(path: Path, start: Checkpoint, *, overwrite: bool = False) -> RunFo
         for place in inner:
             place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvalidInput(f"{path} cannot be made: {error.strerror}") from None
+        raise CannotWrite(f"{path} cannot be made: {error.strerror}") from None
     if not all(os.access(place, os.W_OK) for place in (path, *inner)):
-        raise InvalidInput(f"{path} cannot be written to")
+        raise CannotWrite(f"{path} cannot be written to")
     folder = RunFolder(path, made)
     if not _holds_run(path):
         folder.begin(start)
@@ -250,11 +250,11 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
     folder = RunFolder(path, [])
     if not folder.kept.folder.is_dir():
         if any(CheckpointStore(path).heads()):
-            raise InvalidInput(f"{path} is a folder of checkpoints, not of a run; name one of them")
-        raise InvalidInput(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
+            raise BadFile(f"{path} is a folder of checkpoints, not of a run; name one of them")
+        raise BadFile(f"{path} is not the folder of a run: it has no {CHECKPOINTS}")
     checkpoint, faults = folder.kept.newest()
     if checkpoint is None:
-        raise InvalidInput(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")
+        raise BadFile(faults[0] if faults else f"there is no checkpoint in {folder.kept.folder}")
     _check_plan(path, checkpoint.setup)
     try:
         folder.spent = read_host_seconds(path / HOST)
@@ -266,7 +266,7 @@ def open_again(path: Path) -> tuple[RunFolder, Checkpoint, list[str]]:
 def _check_plan(path: Path, setup: Setup) -> None:
     beside = path / PLAN
     if beside.exists() and _digest(beside, setup) != digest_of(setup):
-        raise InvalidInput(f"the runs in {path} are of another plan than this one, by {beside}")
+        raise BadFile(f"the runs in {path} are of another plan than this one, by {beside}")
 
 
 def _digest(beside: Path, setup: Setup) -> str:
@@ -296,6 +296,6 @@ def _refuse_others(path: Path) -> None:
         sorted(inside.name for inside in path.iterdir() if inside.name not in ours) if path.is_dir() else []
     )
     if others:
-        raise InvalidInput(
+        raise CannotWrite(
             f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
         )

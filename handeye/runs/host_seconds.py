@@ -8,7 +8,7 @@ from pathlib import Path
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import read_whole, write_whole
 from handeye.core.host_time import HostTimer
 from handeye.core.record import Record
@@ -65,9 +65,9 @@ def read_host_seconds(path: Path) -> HostSeconds | None:
     try:
         found = msgspec.json.decode(read_whole(path, _LARGEST), type=HostSeconds)
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{path} is no record of seconds: {error}") from None
+        raise BadFile(f"{path} is no record of seconds: {error}") from None
     if min(msgspec.structs.astuple(found)) < 0:
-        raise InvalidInput(f"{path} is no record of seconds: one is negative")
+        raise BadFile(f"{path} is no record of seconds: one is negative")
     return found
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final, Literal, Protocol
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.core.record import Record
 from handeye.execution.servo import Halted
 from handeye.program.events import (
@@ -149,7 +149,7 @@ def parse_policy(text: str, stages: Sequence[str]) -> Operator | None:
         return UnwindOnce(stage_index(stage, stages))
     times = re.fullmatch(r"retry:([1-9][0-9]{0,5})", text)
     if times is None:
-        raise InvalidInput(
+        raise BadArgument(
             f"--on-stop takes abort, ask, retry:N with N from 1 up, unwind or unwind:STAGE, not {quoted(text)}"
         )
     return Retry(int(times[1]))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from handeye.cell.rendering import RendererMaker
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.touch.spiral import SearchPattern
 
 NEEDED: Final = ("search", "camera")
@@ -40,13 +40,13 @@ class Parts:
         for part in NEEDED:
             was, now = begun.get(part), here.get(part)
             if was is not None and now is None:
-                raise InvalidInput(
+                raise Refused(
                     f"the run has a {part} of its own, `{was}`, which is code and is kept in no file; "
                     f"from Python, `handeye.begin` takes it as {part}=..."
                 )
             if was != now:
                 before = "handeye's own" if was is None else f"`{was}`"
-                raise InvalidInput(f"the run was begun with {before} as its {part}; `{now}` is another")
+                raise Refused(f"the run was begun with {before} as its {part}; `{now}` is another")
 
 
 def deciding(names: dict[str, str]) -> dict[str, str]:

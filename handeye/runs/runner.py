@@ -10,7 +10,7 @@ from typing import Final
 
 from handeye.cell.kept import KeptCell
 from handeye.cell.simulated import SimulationError
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile, Refused
 from handeye.core.mutable_records import copied
 from handeye.core.plain_text import counted
 from handeye.execution.servo import Halted
@@ -150,7 +150,7 @@ class Runner:
             InvalidInput: the system acts on none.
         """
         if self.system.cell is None:
-            raise InvalidInput(f"the system {self.setup.system} acts on no cell")
+            raise Refused(f"the system {self.setup.system} acts on no cell")
         return self.system.cell
 
     @property
@@ -291,7 +291,7 @@ class Runner:
             InvalidInput: no such position, or no state at it or before it is left.
         """
         if not 0 <= position <= self.position:
-            raise InvalidInput(f"cannot go back to {position} steps done")
+            raise BadArgument(f"cannot go back to {position} steps done")
         near = self._nearest(position, kept)
         again = self.events[: self._happened(position)]
         while self.history and self.history[-1].position > near.position:
@@ -310,7 +310,7 @@ class Runner:
             if snapshot is not None and (near is None or snapshot.position > near.position):
                 near = snapshot
         if near is None:
-            raise InvalidInput(reach(self.history[0].position))
+            raise Refused(reach(self.history[0].position))
         return near
 
     def _happened(self, position: int) -> int:
@@ -370,7 +370,7 @@ class Runner:
     def _put(self, snapshot: Snapshot) -> None:
         cell = self.system.cell
         if (cell is None) != (snapshot.cell is None):
-            raise InvalidInput("the state is of another system: one has a cell, the other has none")
+            raise BadFile("the state is of another system: one has a cell, the other has none")
         if cell is not None and snapshot.cell is not None:
             cell.restore(snapshot.cell)
         self.system.restore(snapshot.state)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from handeye.al import AL, sewn
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import beside
 from handeye.core.resources import plans
 from handeye.core.source import Source, read_source
@@ -33,7 +33,7 @@ def default_script(work: Task | None = None) -> Path:
     """
     work = work or task()
     if work.script is None:
-        raise InvalidInput(f"the task {quoted(work.name)} comes with no script; name one")
+        raise BadArgument(f"the task {quoted(work.name)} comes with no script; name one")
     return plans() / work.script
 
 

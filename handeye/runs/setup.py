@@ -2,7 +2,7 @@
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.record import Record
 from handeye.core.variation import WorldSpec
 from handeye.planfile.plan import Plan
@@ -39,5 +39,5 @@ def plan_of(setup: Setup) -> Plan:
         InvalidInput: another system carries the run out.
     """
     if not isinstance(setup.plan, Plan):
-        raise InvalidInput(f"this is a run of the system {setup.system}, which has no plan of motions")
+        raise Refused(f"this is a run of the system {setup.system}, which has no plan of motions")
     return setup.plan

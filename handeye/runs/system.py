@@ -11,7 +11,7 @@ import msgspec
 import numpy as np
 
 from handeye.cell.kept import KeptCell
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.record import Record
 from handeye.execution.servo_period import ServoPeriod
 from handeye.execution.stopwatch import Stopwatch
@@ -182,7 +182,7 @@ class System(Protocol):
         Raises:
             InvalidInput: so much was not executed, or this system cannot undo anything.
         """
-        raise InvalidInput("this system cannot undo what it did")
+        raise Refused("this system cannot undo what it did")
 
     def finish(self) -> bool:
         """Close the account of the run; True when the program came to its end."""

@@ -4,7 +4,7 @@ from functools import lru_cache
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.core.record import Record
 from handeye.planfile.store import written_digest
 from handeye.runs.setup import Setup
@@ -27,7 +27,7 @@ def system_kind(name: str) -> SystemKind:
         InvalidInput: there is none.
     """
     if name not in _KINDS:
-        raise InvalidInput(f"there is no system {quoted(name)} here; there are {', '.join(_KINDS)}")
+        raise NoSuchName(f"there is no system {quoted(name)} here; there are {', '.join(_KINDS)}")
     return _KINDS[name]
 
 

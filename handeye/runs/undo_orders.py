@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from msgspec.structs import replace
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.mutable_records import copied
 from handeye.execution.undo.done import Undoing
 from handeye.program.events import StepStarted, UndoEnded, UndoOrdered
@@ -23,7 +23,7 @@ def stage_began(executed: Sequence[ExecutedStep], listing: Listing, stage: int) 
     steps = listing.steps
     found = [n for n, done in enumerate(executed) if done.enters and steps[done.step].stage == stage]
     if not found:
-        raise InvalidInput(f"the stage {quoted(listing.stages[stage])} has left nothing to undo")
+        raise Refused(f"the stage {quoted(listing.stages[stage])} has left nothing to undo")
     return found[-1]
 
 
@@ -39,7 +39,7 @@ def to_be_undone(checkpoint: Checkpoint, name: str, stage: int | None = None) ->
     """
     snapshot, kind, plan = checkpoint.snapshot, kind_of(checkpoint.setup), checkpoint.setup.plan
     if snapshot is None:
-        raise InvalidInput(f"{name} is no run of a program that has begun: there is nothing to undo")
+        raise Refused(f"{name} is no run of a program that has begun: there is nothing to undo")
     state = copied(snapshot.state)
     executed = kind.executed(plan, state)
     _check_whole(checkpoint, executed, name)
@@ -59,10 +59,10 @@ def _check_whole(checkpoint: Checkpoint, done: Sequence[ExecutedStep], name: str
     """Raises InvalidInput unless a run has left a record of its first step, or is at its beginning."""
     first = next((event for event in checkpoint.events if isinstance(event, StepStarted)), None)
     if first is None:
-        raise InvalidInput(f"nothing was done in {name}: there is nothing to undo")
+        raise Refused(f"nothing was done in {name}: there is nothing to undo")
     if not done and any(isinstance(event, UndoEnded) for event in checkpoint.events):
-        raise InvalidInput(f"{name} is undone already")
+        raise Refused(f"{name} is undone already")
     if not done or done[0].step != first.step:
-        raise InvalidInput(
+        raise Refused(
             f"{name} has no record of how to undo its first steps: an older handeye carried them out"
         )

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.program.events import (
     AnyEvent,
     PanicStopped,
@@ -57,7 +57,7 @@ def difference(trace: Trace, folder: Path) -> str | None:
     """
     trace.check_repeatable()
     if trace.thinned:
-        raise InvalidInput(f"{trace.name} is thinned: verify the whole trace, which it was made from")
+        raise Refused(f"{trace.name} is thinned: verify the whole trace, which it was made from")
     wanted = trace.events[: settled(trace.events)]
     start = Checkpoint(setup=setup_of(trace))
     keeping = open_new(folder, start)

@@ -7,7 +7,7 @@ import numpy as np
 
 from handeye.arm import robots
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName, Refused
 from handeye.tasks.interface import AnyTask, Task
 
 DEFAULT: Final = "water_pump"
@@ -34,18 +34,18 @@ def register(task: Task) -> None:
             arm, has the name.
     """
     if not isinstance(task, Task):
-        raise InvalidInput(f"a task is an object of a class that is derived from handeye.Task, not {task!r}")
+        raise BadArgument(f"a task is an object of a class that is derived from handeye.Task, not {task!r}")
     name = getattr(task, "name", None)
     if not isinstance(name, str) or not name.strip():
-        raise InvalidInput(f"a task needs a name, which is a text; {name!r} is none")
+        raise BadArgument(f"a task needs a name, which is a text; {name!r} is none")
     joints = len(task.arm.joints)
     if np.shape(task.park) != (joints,):
-        raise InvalidInput(
+        raise BadArgument(
             f"the task {quoted(name)} parks its arm at a position of shape {np.shape(task.park)}; "
             f"the {task.arm.name} arm has {joints} joints"
         )
     if task.name in {*_BUILT_IN, *_TAUGHT} or _REGISTERED.get(task.name, task) is not task:
-        raise InvalidInput(f"there is a task called {quoted(task.name)} already")
+        raise BadArgument(f"there is a task called {quoted(task.name)} already")
     robots.register(task.arm)
     _REGISTERED[task.name] = task
 
@@ -66,14 +66,14 @@ def task(name: str = DEFAULT) -> Task:
         InvalidInput: there is none such.
     """
     if not isinstance(name, str):
-        raise InvalidInput(f"a task is given by its name, not {name!r}")
+        raise BadArgument(f"a task is given by its name, not {name!r}")
     if name in _TAUGHT:
-        raise InvalidInput(f"the task {quoted(name)} is done by a taught program, not by a planned one")
+        raise Refused(f"the task {quoted(name)} is done by a taught program, not by a planned one")
     found = known(name)
     if found is None:
         names = {*_BUILT_IN, *_REGISTERED}
         near = suggestion(name, names) or f"there are {', '.join(map(quoted, sorted(names)))}"
-        raise InvalidInput(f"no task is called {quoted(name)}; {near}{_ELSEWHERE}")
+        raise NoSuchName(f"no task is called {quoted(name)}; {near}{_ELSEWHERE}")
     return found
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from handeye.arm.model import ArmModel, digest
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.faults import Catalogue
 from handeye.core.pose import Array
 from handeye.core.units import INCHES, Measures
@@ -205,7 +205,7 @@ class Task(AnyTask):
             InvalidInput: this task predicts nothing, not this program or not without these senses, or there is no
                 such world.
         """
-        raise InvalidInput(f"the task {quoted(self.name)} predicts nothing")
+        raise Refused(f"the task {quoted(self.name)} predicts nothing")
 
     def disturbances(self) -> tuple[Disturbance, ...]:
         """What can be changed before its work is undone; by default nothing."""
@@ -224,7 +224,7 @@ class Task(AnyTask):
         Raises:
             InvalidInput: this task exports none.
         """
-        raise InvalidInput(f"the task {quoted(self.name)} exports no scene")
+        raise Refused(f"the task {quoted(self.name)} exports no scene")
 
     def check_arm(self, plan: Plan) -> None:
         """See that a plan was made for the arm of this task.
@@ -233,11 +233,9 @@ class Task(AnyTask):
             InvalidInput: it was made for another one.
         """
         if (plan.arm, plan.arm_digest) != (self.arm.name, digest(self.arm)):
-            raise InvalidInput(
-                f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again"
-            )
+            raise Refused(f"the plan was made for another arm ({plan.arm}, {plan.arm_digest}); plan it again")
         joints = len(self.arm.joints)
         if plan.joint_counts not in ((), (joints,)):
-            raise InvalidInput(
+            raise Refused(
                 f"the plan has positions of {plan.joint_counts[0]} joints; the {self.arm.name} arm has {joints}"
             )

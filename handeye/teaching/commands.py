@@ -12,7 +12,7 @@ from handeye.al.includes import read_script
 from handeye.al.instructions import EXPLAINED, INSTRUCTIONS
 from handeye.al.parser import parse
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.core.errors import BadArgument, CannotWrite, HandeyeError, NoSuchName, Refused
 from handeye.core.files import beside, write_whole
 from handeye.debugger.command import Command, check_bare, rows
 from handeye.debugger.views import show
@@ -55,9 +55,7 @@ def _do(repl: Repl, rest: str) -> Answer:
     """Carry out what is collected, or a function, macro or program now."""
     if not rest:
         if not any(map(str.strip, repl.functions)):
-            raise InvalidInput(
-                "nothing is collected; type functions, or `DO OPEN 3` to carry one out at once"
-            )
+            raise Refused("nothing is collected; type functions, or `DO OPEN 3` to carry one out at once")
         return repl.carry_out(repl.typed("\n".join(repl.functions)))
     definitions = lasting(repl.functions)
     name = rest.split(";")[0].strip()
@@ -69,7 +67,7 @@ def _do(repl: Repl, rest: str) -> Answer:
     if not file.is_file():
         known = suggestion(name, [*INSTRUCTIONS, *macros, *_programs(repl.folder)])
         help = f"; {known}" if known is not None else ""
-        raise InvalidInput(f"there is no instruction, macro or program {quoted(name)}{help}")
+        raise BadArgument(f"there is no instruction, macro or program {quoted(name)}{help}")
     return repl.carry_out(read_script(file))
 
 
@@ -84,7 +82,7 @@ def _list(repl: Repl, _: str) -> Answer:
 
 def _drop(repl: Repl, _: str) -> Answer:
     if not repl.functions:
-        raise InvalidInput("nothing is collected")
+        raise Refused("nothing is collected")
     return answer(repl.workplace, LineResult(said=f"dropped: {repl.functions.pop().strip()}"))
 
 
@@ -95,10 +93,10 @@ def _clear(repl: Repl, _: str) -> Answer:
 
 def _write(repl: Repl, rest: str) -> Answer:
     if not rest:
-        raise InvalidInput("`WRITE` takes the name of a file")
+        raise BadArgument("`WRITE` takes the name of a file")
     path = beside(Path(rest), ".al")
     if path.exists():
-        raise InvalidInput(f"{path} already exists; nothing was written")
+        raise CannotWrite(f"{path} already exists; nothing was written")
     write_whole(path, ("\n".join(repl.functions) + "\n").encode())
     return answer(repl.workplace, LineResult(file=str(path), said=f"written to {path}"))
 
@@ -126,7 +124,7 @@ def _help(repl: Repl, rest: str) -> Answer:
         definition = EXPLAINED.get(rest.upper())
         if definition is None:
             known = suggestion(rest, EXPLAINED)
-            raise InvalidInput(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
+            raise NoSuchName(f"there is no instruction {quoted(rest)}" + (f"; {known}" if known else ""))
         return answer(repl.workplace, LineResult(said=f"{definition.usage}: {definition.help}"))
     lines = (
         "A line is a function of the arm language, which is collected, or one of",

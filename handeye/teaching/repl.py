@@ -8,7 +8,7 @@ import msgspec
 
 from handeye.al.includes import sewn
 from handeye.core.diagnostics import has_errors
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.source import Source, read_source
 from handeye.program.events import Choice
 from handeye.teaching.answers import Answer
@@ -43,7 +43,7 @@ class Repl:
         if not line.strip() and not is_open(self.functions):
             return answer(self.workplace)
         if len(self.functions) >= MOST:
-            raise InvalidInput(f"at most {MOST} lines; write a script for more")
+            raise Refused(f"at most {MOST} lines; write a script for more")
         lines = [*self.functions, line]
         checked = self.workplace.plan(self.typed("\n".join(lines)))
         found = mistakes(checked, len(lines))

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import HandeyeError, InvalidInput
+from handeye.core.errors import BadArgument, HandeyeError, NoSuchName, Refused
 from handeye.core.pose import Array
 from handeye.core.record import Vector3
 from handeye.core.units import DEGREE, INCH, OUNCE_FORCE
@@ -55,7 +55,7 @@ class TeachSession:
         lesson = TEACH_COMMANDS.get(word)
         if lesson is None:
             known = suggestion(word, [*TEACH_COMMANDS, "quit"])
-            raise InvalidInput(f"there is no command {quoted(word)}; " + (known or "`help` lists them"))
+            raise NoSuchName(f"there is no command {quoted(word)}; " + (known or "`help` lists them"))
         return lesson.act(self.teacher, rest)
 
     def _quit(self) -> Answer:
@@ -64,7 +64,7 @@ class TeachSession:
         self.warned = True
         if self.over:
             return answer(self.teacher.workplace)
-        raise InvalidInput(f"not saved: {', '.join(unsaved)}; `save` them, or `quit` again")
+        raise Refused(f"not saved: {', '.join(unsaved)}; `save` them, or `quit` again")
 
 
 # -- moving ---------------------------------------------------------------------------------------------
@@ -111,9 +111,9 @@ def _float(teacher: Teacher, words: list[str]) -> Answer:
 def _push(teacher: Teacher, words: list[str]) -> Answer:
     axis, force, seconds = _exactly(words, 3, "push x 5 2")
     if not 0 < _number(seconds) <= LONGEST:
-        raise InvalidInput(f"a push takes up to {LONGEST:g} s, not {quoted(seconds)}")
+        raise BadArgument(f"a push takes up to {LONGEST:g} s, not {quoted(seconds)}")
     if abs(_number(force)) > 200:
-        raise InvalidInput(f"a push has up to 200 oz, not {quoted(force)}")
+        raise BadArgument(f"a push has up to 200 oz, not {quoted(force)}")
     teacher.push(_along(axis, _number(force) * OUNCE_FORCE), _number(seconds))
     told = _where(teacher).said.show
     return answer(
@@ -128,10 +128,10 @@ def _here(teacher: Teacher, words: list[str]) -> Answer:
     again = bool(words) and words[-1].lower() == "again"
     words = words[:-1] if again else words
     if len(words) not in (1, 3) or (len(words) == 3 and words[1].lower() != "of"):
-        raise InvalidInput("name a position with `here NAME`, `here NAME of PART`, `here NAME again`")
+        raise BadArgument("name a position with `here NAME`, `here NAME of PART`, `here NAME again`")
     name, part = words[0], words[2] if len(words) == 3 else None
     if not NAME.fullmatch(name):
-        raise InvalidInput(f"{quoted(name)} is not a name: letters, digits and _, no digit first")
+        raise BadArgument(f"{quoted(name)} is not a name: letters, digits and _, no digit first")
     if again and part is None and name in teacher.workplace.taught.positions:
         part = teacher.workplace.taught.positions[name].of
     return answer(
@@ -187,19 +187,19 @@ def _help(teacher: Teacher, _: list[str]) -> Answer:
 
 def _exactly(words: list[str], count: int, example: str) -> list[str]:
     if len(words) != count:
-        raise InvalidInput(f"write it like `{example}`")
+        raise BadArgument(f"write it like `{example}`")
     return words
 
 
 def _number(word: str) -> float:
     if not re.fullmatch(r"[+-]?(\d{1,4}\.?\d{0,6}|\.\d{1,6})", word, re.ASCII):
-        raise InvalidInput(f"{quoted(word)} is not a number")
+        raise BadArgument(f"{quoted(word)} is not a number")
     return float(word)
 
 
 def _along(axis: str, size: float) -> Vector3:
     if axis.lower() not in AXES:
-        raise InvalidInput(f"{quoted(axis)} is not an axis; there are x, y and z")
+        raise BadArgument(f"{quoted(axis)} is not an axis; there are x, y and z")
     x, y, z = (size if axis.lower() == name else 0.0 for name in AXES)
     return x, y, z
 

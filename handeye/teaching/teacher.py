@@ -14,7 +14,7 @@ from handeye.arm.line import pivot
 from handeye.arm.samples import Samples
 from handeye.cell.pushing import pushed
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, NoSuchName, Refused
 from handeye.core.files import write_whole
 from handeye.core.record import Vector3
 from handeye.core.source import Source, read_source
@@ -109,7 +109,7 @@ class Teacher:
 
     def _follow(self, samples: Samples | IKResult) -> None:
         if isinstance(samples, IKResult):
-            raise InvalidInput(samples.message(self.workplace.run.arm))
+            raise Refused(samples.message(self.workplace.run.arm))
         self.afloat = False
         self._let(lambda: self.workplace.run.drive.follow(samples))
 
@@ -125,7 +125,7 @@ class Teacher:
             InvalidInput: the arm does not float.
         """
         if not self.afloat:
-            raise InvalidInput("the arm is held and cannot be pushed; `float` releases its brakes")
+            raise Refused("the arm is held and cannot be pushed; `float` releases its brakes")
         self._let(lambda: self._pushed(force, seconds))
 
     def _pushed(self, force: Vector3, seconds: float) -> None:
@@ -144,10 +144,10 @@ class Teacher:
             outcome = act()
         except Halted:
             self._brake()
-            raise InvalidInput("stopped by the panic button; the brakes are set") from None
+            raise Refused("stopped by the panic button; the brakes are set") from None
         if outcome is not None and outcome.error is not None:
             self._brake()
-            raise InvalidInput(f"{error_sentence(outcome.error, outcome.cause)}; the brakes are set")
+            raise Refused(f"{error_sentence(outcome.error, outcome.cause)}; the brakes are set")
 
     def _brake(self) -> None:
         self.afloat = False
@@ -165,9 +165,9 @@ class Teacher:
         taught = self.workplace.taught
         if part is not None and part not in taught.parts:
             known = ", ".join(taught.parts) or "none"
-            raise InvalidInput(f"there is no part {quoted(part)}; there are {known}")
+            raise NoSuchName(f"there is no part {quoted(part)}; there are {known}")
         if name in taught.positions and not again:
-            raise InvalidInput(f"{name} is already taught; `here {name} again` replaces it")
+            raise Refused(f"{name} is already taught; `here {name} again` replaces it")
         run = self.workplace.run
         position = run.world.seen_from(part, run.drive.hand())
         text = with_position(self.text, name, position)
@@ -186,7 +186,7 @@ class Teacher:
         if names:
             now = read_source(self.file).text if self.file.exists() else ""
             if now != self.saved:
-                raise InvalidInput(
+                raise CannotWrite(
                     f"{self.file} has changed meanwhile, and nothing was written; `list` shows what to add"
                 )
             write_whole(self.file, self.text.encode())
@@ -202,7 +202,7 @@ class Teacher:
             InvalidInput: there is none.
         """
         if not self._before:
-            raise InvalidInput("there is nothing to undo")
+            raise Refused("there is nothing to undo")
         before = self._before.pop()
         if before is None:
             self.workplace.back()

@@ -6,7 +6,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.mutable_records import copied
 from handeye.core.pose import Array
 from handeye.core.source import Source
@@ -74,7 +74,7 @@ class Workplace:
         start = Checkpoint(setup=setup)
         self.runner = Runner(start, halt=halt, observers=observers, calibrate=calibrate)
         if self.runner.trouble is not None:
-            raise InvalidInput(self.runner.trouble)
+            raise Refused(self.runner.trouble)
         self.begun = beginning(self.runner.events)
         """The cell's clock when the first run began, s."""
         self.before: list[Checkpoint] = []
@@ -154,7 +154,7 @@ class Workplace:
             InvalidInput: it looks, and the camera was not set up.
         """
         if self.run.state.calibration is None and plan.program.written("picture"):
-            raise InvalidInput("the camera is not set up; begin with --look for a plan that takes pictures")
+            raise Refused("the camera is not set up; begin with --look for a plan that takes pictures")
         self.mark()
         here = self.checkpoint()
         assert here.snapshot is not None
@@ -186,7 +186,7 @@ class Workplace:
             InvalidInput: nobody has called.
         """
         if self.runner.call is None:
-            raise InvalidInput(f"`{choice}` answers a call of the operator, and there is none")
+            raise Refused(f"`{choice}` answers a call of the operator, and there is none")
         self.runner.answer(choice)
         return self._go()
 
@@ -207,7 +207,7 @@ class Workplace:
             InvalidInput: none has been.
         """
         if not self.before:
-            raise InvalidInput("there is nothing to undo")
+            raise Refused("there is nothing to undo")
         self.runner = self._runner(self.before.pop())
 
 

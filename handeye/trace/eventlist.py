@@ -5,7 +5,7 @@ from pathlib import Path
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import read_whole
 from handeye.program.events import AnyEvent, WentBack
 from handeye.trace.events_read import read_event
@@ -26,11 +26,11 @@ def read_events(path: Path, *, growing: bool = False) -> list[AnyEvent]:
     events = []
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         if not line.endswith(b"\n"):
-            raise InvalidInput(f"line {number} of {path} is cut short")
+            raise BadFile(f"line {number} of {path} is cut short")
         try:
             events.append(read_event(line))
         except (msgspec.DecodeError, UnicodeDecodeError) as error:
-            raise InvalidInput(f"line {number} of {path} is not an event: {error}") from None
+            raise BadFile(f"line {number} of {path} is not an event: {error}") from None
     return events
 
 

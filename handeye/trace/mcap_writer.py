@@ -11,7 +11,7 @@ import msgspec
 from mcap.writer import Writer
 from zstandard import compress
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite
 from handeye.core.versions import HANDEYE
 from handeye.program.events import RunStarted
 from handeye.trace.channels import (
@@ -175,7 +175,7 @@ class GrowingFile:
             yield
         except OSError as error:
             self.broken = True
-            raise InvalidInput(f"{self.file} cannot be written: {error.strerror}") from None
+            raise CannotWrite(f"{self.file} cannot be written: {error.strerror}") from None
         except BaseException:  # Ctrl-C in the middle of a chunk: what is there may be half of it
             self.broken = True
             raise

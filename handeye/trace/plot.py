@@ -6,7 +6,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCHES, Measures
 from handeye.program import events as happened
@@ -84,7 +84,7 @@ def plot(trace: Trace, stage: str | None = None) -> Plot:
     begin, end = trace.covers if stage is None else _covers(trace, stage)
     rows = Span(begin, end).rows(trace.times)
     if rows.start == rows.stop:
-        raise InvalidInput(f"{trace.name} holds no motion there to be drawn")
+        raise Refused(f"{trace.name} holds no motion there to be drawn")
     return Plot(
         title=f"{trace.head.program}, {trace.head.world}",
         begin=trace.elapsed(begin),

@@ -8,7 +8,7 @@ from typing import Final
 import msgspec
 from mcap.writer import MCAP0_MAGIC
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole
 from handeye.planfile.store import written_digest
 from handeye.program.events import RunStarted
@@ -42,13 +42,13 @@ def read_trace(path: Path, *, lenient: bool = False) -> Trace:
             if message.topic == EVENTS:
                 events.append(read_event(message.data))
     except Unsound as error:
-        raise InvalidInput(f"{path} {error}") from None
+        raise BadFile(f"{path} {error}") from None
     except (msgspec.DecodeError, UnicodeDecodeError) as error:
-        raise InvalidInput(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
+        raise BadFile(f"{path}: event {len(events) + 1} cannot be understood: {error}") from None
     if not events or not isinstance(events[0], RunStarted):
-        raise InvalidInput(f"{path} is a trace without the start of a run")
+        raise BadFile(f"{path} is a trace without the start of a run")
     if written_digest(plan) != events[0].plan:
-        raise InvalidInput(f"the plan in {path} is not the one that was carried out")
+        raise BadFile(f"the plan in {path} is not the one that was carried out")
     return Trace(
         name=str(path),
         version=version,
@@ -79,15 +79,15 @@ def _identify(path: Path, data: bytes) -> tuple[bytes, int, bool]:
         Unsound: it cannot be read so far.
     """
     if not is_mcap(data):
-        raise InvalidInput(f"{path} is not a trace: it is not an MCAP file")
+        raise BadFile(f"{path} is not a trace: it is not an MCAP file")
     start = front(data)
     if start.metadata.get("format") != FORMAT:
-        raise InvalidInput(f"{path} is not a trace of this program: it does not say “{FORMAT}”")
+        raise BadFile(f"{path} is not a trace of this program: it does not say “{FORMAT}”")
     version = start.metadata.get("version", "")
     if not re.fullmatch(r"[1-9][0-9]{0,8}", version):
-        raise InvalidInput(f"{path} does not say which version of the trace format it has")
+        raise BadFile(f"{path} does not say which version of the trace format it has")
     if int(version) > VERSION:
-        raise InvalidInput(
+        raise BadFile(
             f"{path} has trace format version {version}; this handeye reads up to version {VERSION}"
         )
     if start.plan is None:

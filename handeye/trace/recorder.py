@@ -6,7 +6,7 @@ from pathlib import Path
 
 from google.protobuf.message import DecodeError
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite
 from handeye.core.files import read_whole
 from handeye.execution.servo_period import ServoPeriod
 from handeye.ports.camera import Picture
@@ -216,7 +216,7 @@ class Recorder:
             file.move(part(self._path))
         except (DecodeError, KeyError, ValueError):  # frames or channels that there are not in this scene
             self._abandon(file)
-            raise InvalidInput(f"the trace at {self._path} is of another scene; move it away") from None
+            raise CannotWrite(f"the trace at {self._path} is of another scene; move it away") from None
         except BaseException:
             self._abandon(file)
             raise

@@ -6,7 +6,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName, Refused
 from handeye.core.plain_text import counted
 
 Values = NDArray[np.float64] | NDArray[np.int64] | tuple[str, ...]
@@ -54,7 +54,7 @@ class Table:
             return replace(self, columns=tuple(replace(c, values=c.values[which]) for c in self.columns))
         found = {column.name: column.values for column in self.columns}
         if which not in found:
-            raise InvalidInput(
+            raise NoSuchName(
                 f"there is no column {which!r} in the table {self.name}; there are {', '.join(found)}"
             )
         return found[which]
@@ -68,9 +68,7 @@ class Table:
         try:
             import pandas
         except ImportError:
-            raise InvalidInput(
-                "to_pandas() needs pandas, which is not installed: `pip install pandas`"
-            ) from None
+            raise Refused("to_pandas() needs pandas, which is not installed: `pip install pandas`") from None
         return pandas.DataFrame({column.name: column.values for column in self.columns})
 
     def __repr__(self) -> str:

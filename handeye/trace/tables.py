@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName
 from handeye.core.pose import Array
 from handeye.core.units import INCHES
 from handeye.program.events import AnyEvent, StageStarted, StepStarted
@@ -29,7 +29,7 @@ def table(trace: Trace, name: str) -> Table:
         InvalidInput: there is none such; or as `tables`.
     """
     if name not in _TABLES:
-        raise InvalidInput(f"there is no table {name!r}; there are {', '.join(_TABLES)}")
+        raise NoSuchName(f"there is no table {name!r}; there are {', '.join(_TABLES)}")
     return _TABLES[name](trace)
 
 

@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.trace.channels import EVENTS, FRAMES, HAND, JOINTS, SCENE, VERSION
 from handeye.trace.events_read import read_event
 from handeye.trace.mcap_writer import GrowingFile
@@ -49,13 +49,13 @@ def write_thinned(trace: Trace, path: Path) -> int:
 
 def _check(trace: Trace) -> None:
     if trace.thinned:
-        raise InvalidInput(f"{trace.name} is thinned already")
+        raise Refused(f"{trace.name} is thinned already")
     if trace.version < VERSION:
-        raise InvalidInput(
+        raise Refused(
             f"{trace.name} was recorded by an older handeye: what the hand felt is reckoned from all its periods"
         )
     if not len(trace.times):
-        raise InvalidInput(f"{trace.name} holds no motion to be thinned")
+        raise Refused(f"{trace.name} holds no motion to be thinned")
 
 
 def _messages(trace: Trace, kept: frozenset[int]) -> Iterator[RawMessage]:

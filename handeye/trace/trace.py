@@ -17,7 +17,7 @@ import numpy as np
 from google.protobuf.message import DecodeError
 from numpy.typing import NDArray
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, BadFile, CannotWrite, Refused
 from handeye.core.plain_text import one_line
 from handeye.core.pose import Array
 from handeye.program.events import AnyEvent, RunStarted
@@ -144,7 +144,7 @@ class Trace:
         spans = [step.span for step in done_steps(self.events) if step.started.place == str(line)]
         if not spans:
             said = f"line {line} of {self.head.program} was not carried out in {self.name}"
-            raise InvalidInput(f"{said}{self._line_below(str(line))}")
+            raise BadArgument(f"{said}{self._line_below(str(line))}")
         return self._forces.within(spans)
 
     def _line_below(self, place: str) -> str:
@@ -175,10 +175,10 @@ class Trace:
             InvalidInput: it is no time, it is outside what was recorded, or nothing was recorded between the events.
         """
         if not isinstance(time, (int, float, np.number)):
-            raise InvalidInput(f"a time is a number of seconds, not {time!r}")
+            raise BadArgument(f"a time is a number of seconds, not {time!r}")
         begin, end = self.covers
         if not begin - SHOWN <= time <= end + SHOWN:
-            raise InvalidInput(
+            raise BadArgument(
                 f"{self.name} covers {begin:.2f} to {end:.2f} s of the cell's clock; {time:g} s is outside"
             )
         return self._replay.seek(time)
@@ -241,7 +241,7 @@ class Trace:
                 speed; or it cannot be written there.
         """
         from handeye.api.arguments import given_file
-        from handeye.core.folders import Taken
+        from handeye.core.errors import Taken
         from handeye.video.making import make_video
         from handeye.video.wanted import Wanted
 
@@ -253,7 +253,7 @@ class Trace:
         try:
             return make_video(self, file, wanted, overwrite=overwrite)
         except Taken:
-            raise InvalidInput(f"{file} is there already; overwrite=True replaces it") from None
+            raise CannotWrite(f"{file} is there already; overwrite=True replaces it") from None
 
     @cached_property
     def scene(self) -> Any:
@@ -322,7 +322,7 @@ class Trace:
             InvalidInput: nothing was recorded between the events.
         """
         if not len(self.times):
-            raise InvalidInput(f"{self.name} holds no motion to be shown")
+            raise Refused(f"{self.name} holds no motion to be shown")
         return self.begins, max(float(self.times[-1]), self.events[-1].time)
 
     def elapsed(self, clock: float) -> float:
@@ -336,7 +336,7 @@ class Trace:
             InvalidInput: an older handeye recorded it.
         """
         if self.version < REPEATABLE:
-            raise InvalidInput(
+            raise Refused(
                 f"{self.name} was recorded by an older handeye, whose cell this one cannot build again: `trace show` "
                 "and `trace stats` read it; for the rest, run the plan again"
             )
@@ -355,4 +355,4 @@ class Trace:
             return make(hand_out())
         except (DecodeError, msgspec.DecodeError, KeyError, ValueError):
             what = " and ".join(f"{m.topic} at {self.elapsed(m.time / 1e9):.3f} s" for m in handed)
-            raise InvalidInput(f"{self.name}: the message on {what} cannot be understood") from None
+            raise BadFile(f"{self.name}: the message on {what} cannot be understood") from None

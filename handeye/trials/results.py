@@ -12,7 +12,7 @@ from handeye.api.html import heading, inked, page, table
 from handeye.api.parts import limits_of, parts_of, referee_of
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.variation import WorldSpec, checked_seed
 from handeye.results.judging import Limits, Referee
 from handeye.results.result import Check, Result
@@ -93,7 +93,7 @@ def assemble_in(
 ) -> Results:
     """Results of a script in some worlds; see `handeye.trials.assemble_each`."""
     if isinstance(worlds, str) or not isinstance(worlds, Iterable):
-        raise InvalidInput(f"worlds are seeds or worlds one after the other, not {worlds!r}")
+        raise BadArgument(f"worlds are seeds or worlds one after the other, not {worlds!r}")
     specs = [_spec(world) for world in worlds]
     record = plan(default_script() if script is None else script, taught=taught).record
     parts, umpire, limits = parts_of(search, camera), referee_of(referee), limits_of(referee)
@@ -101,7 +101,7 @@ def assemble_in(
         trial = partial(run_plan, record, camera=camera, limits=limits, parts=parts, umpire=umpire)
         return Results(tuple(trial(world=spec).result for spec in specs))
     if search is not None or umpire is not None:
-        raise InvalidInput("code in the place of a part takes one process: leave jobs=... out")
+        raise BadArgument("code in the place of a part takes one process: leave jobs=... out")
     found = list(assemble_many(record, specs, camera=camera, jobs=jobs, limits=limits))
     return Results(tuple(sorted(found, key=lambda result: specs.index(result.world))))
 
@@ -136,5 +136,5 @@ def _spec(world: int | World) -> WorldSpec:
     if isinstance(world, World):
         return world.spec
     if isinstance(world, (str, bytes)):
-        raise InvalidInput(f"a world is a seed or a handeye.World, not {world!r}")
+        raise BadArgument(f"a world is a seed or a handeye.World, not {world!r}")
     return WorldSpec(seed=checked_seed(world))

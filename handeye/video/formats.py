@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.files import Kind
 from handeye.video.frames import Frames
 from handeye.video.webm import webm
@@ -34,11 +34,11 @@ class Format:
             InvalidInput: there cannot.
         """
         if self.even and (width % 2 or height % 2):
-            raise InvalidInput(
+            raise BadArgument(
                 f"a {self.kind.name} of {width} x {height} cannot be made; both sides must be even"
             )
         if self.largest is not None and frames * width * height * 3 > self.largest:
-            raise InvalidInput(
+            raise BadArgument(
                 f"{frames} frames of {width} x {height} are too many for a {self.kind.name}, "
                 "which is made in memory; make a .webm, or a shorter or smaller one"
             )
@@ -55,8 +55,8 @@ def format_of(path: Path) -> Format:
         return FORMATS[ending]
     why = next((reason for endings, reason in REFUSED.items() if ending in endings), None)
     if why is None:
-        raise InvalidInput(f"{path}: the name of a video ends in {' or '.join(FORMATS)}")
-    raise InvalidInput(f"{path}: {why}; make a {' or a '.join(FORMATS)}")
+        raise BadArgument(f"{path}: the name of a video ends in {' or '.join(FORMATS)}")
+    raise BadArgument(f"{path}: {why}; make a {' or a '.join(FORMATS)}")
 
 
 FORMATS: Final = {

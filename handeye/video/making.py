@@ -10,9 +10,8 @@ import numpy as np
 
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import posed
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Taken
 from handeye.core.files import check_place, write_over
-from handeye.core.folders import Taken
 from handeye.report.facts.scene import check_scene
 from handeye.report.facts.seen import SeenPicture
 from handeye.report.recorded import Recorded
@@ -96,4 +95,4 @@ def _marked(seen: SeenPicture) -> Photograph:
     try:
         return annotate(seen.picture, seen.marks, scale=1)[:, :, ::-1]
     except ValueError:
-        raise InvalidInput(f"the findings in picture {seen.name} cannot be drawn") from None
+        raise BadFile(f"the findings in picture {seen.name} cannot be drawn") from None

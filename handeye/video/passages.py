@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.program.events import CameraBusy
 from handeye.report.facts.seen import SeenPicture, seen_pictures
@@ -59,7 +59,7 @@ def passages(trace: Trace, span: Span, *, looks: bool) -> tuple[Passage, ...]:
         if end in pictures:
             found.append(Passage(begin=end, end=end, stage=stage, looked_at=pictures[end]))
     if not found:
-        raise InvalidInput(f"{trace.name} has no motion in what the video is to show")
+        raise Refused(f"{trace.name} has no motion in what the video is to show")
     return tuple(found)
 
 

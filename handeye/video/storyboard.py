@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from handeye.core.diagnostics import quoted, visible
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.program.stage_names import stage_index
 from handeye.report.facts.seen import SeenPicture
@@ -95,7 +95,7 @@ def _span(trace: Trace, wanted: Wanted) -> Span:
         None if given is None else stage_index(str(given), program) for given in (wanted.first, wanted.last)
     )
     if first is not None and last is not None and last < first:
-        raise InvalidInput(f"stage {quoted(program[last])} comes before {quoted(program[first])}")
+        raise BadArgument(f"stage {quoted(program[last])} comes before {quoted(program[first])}")
     if first is not None:
         begin = max(begin, _recorded(trace, program[first])[0].begin)
     if last is not None:
@@ -113,7 +113,7 @@ def _recorded(trace: Trace, name: str) -> list[Stage]:
     found = [stage for stage in stages if stage.name == name]
     if not found:
         there = ", ".join(map(quoted, dict.fromkeys(stage.name for stage in stages)))
-        raise InvalidInput(f"{trace.name} does not show stage {quoted(name)}, but {there or 'none'}")
+        raise BadArgument(f"{trace.name} does not show stage {quoted(name)}, but {there or 'none'}")
     return found
 
 
@@ -135,7 +135,7 @@ def _paced(shown: tuple[Passage, ...], wanted: Wanted) -> tuple[Array, int]:
         return within(shown, (periods - held) / RATE), held
     lasts = at_speed(shown, wanted.speed)
     if lasts.sum() > LONGEST:
-        raise InvalidInput(
+        raise BadArgument(
             f"at {wanted.speed:g} times the speed of the run the video would take {lasts.sum():.0f} s; "
             f"it may take {LONGEST:g} s"
         )

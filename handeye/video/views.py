@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.cell.photograph import Near
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName, Refused
 from handeye.core.pose import Array
 from handeye.program.events import StepFinished
 from handeye.trace.stages import Stage
@@ -47,7 +47,7 @@ def views(trace: Trace, camera: str, stages: Sequence[int], rate: float) -> list
     if camera == FOLLOW:
         return list(_follow(trace, _side(cameras), stages, rate))
     if camera not in cameras:
-        raise InvalidInput(f"no camera {camera}; there are {', '.join([ORBIT, FOLLOW, *cameras])}")
+        raise NoSuchName(f"no camera {camera}; there are {', '.join([ORBIT, FOLLOW, *cameras])}")
     return [camera] * len(stages)
 
 
@@ -58,7 +58,7 @@ def _side(cameras: Sequence[str]) -> str:
         InvalidInput: the scene has none.
     """
     if not cameras:
-        raise InvalidInput("the scene has no camera, so that nobody knows from which side to look")
+        raise Refused("the scene has no camera, so that nobody knows from which side to look")
     return _SIDE if _SIDE in cameras else cameras[0]
 
 

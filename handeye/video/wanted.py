@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from handeye.cell.photograph import LARGEST, SMALLEST
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.whole_numbers import whole
 
 SECONDS: Final = 14.0
@@ -44,20 +44,20 @@ class Wanted:
     def __post_init__(self) -> None:
         sides = [whole(side) for side in (self.width, self.height)]
         if not all(side is not None and SMALLEST <= side <= LARGEST for side in sides):
-            raise InvalidInput(
+            raise BadArgument(
                 f"a video of {self.width} x {self.height} cannot be made; a side has {SMALLEST} to {LARGEST} points"
             )
         if self.seconds is not None and self.speed is not None:
-            raise InvalidInput("a video has a length or a speed; the other follows")
+            raise BadArgument("a video has a length or a speed; the other follows")
         if self.seconds is not None and not (_is_number(self.seconds) and 0 < self.seconds <= LONGEST):
-            raise InvalidInput(f"a video takes up to {LONGEST:g} s, and not {self.seconds} s")
+            raise BadArgument(f"a video takes up to {LONGEST:g} s, and not {self.seconds} s")
         if self.speed is not None and not (_is_number(self.speed) and self.speed > 0):
-            raise InvalidInput(f"a video is some times as fast as the run, and not {self.speed} times")
+            raise BadArgument(f"a video is some times as fast as the run, and not {self.speed} times")
         for stage in (self.first, self.last):
             if isinstance(stage, bool) or not isinstance(stage, str | int | None):
-                raise InvalidInput(f"a stage is given by its number or its name, not {stage!r}")
+                raise BadArgument(f"a stage is given by its number or its name, not {stage!r}")
         if not isinstance(self.camera, str):
-            raise InvalidInput(f"a camera is given by its name, not {self.camera!r}")
+            raise BadArgument(f"a camera is given by its name, not {self.camera!r}")
 
 
 def _is_number(given: object) -> bool:

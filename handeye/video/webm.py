@@ -10,7 +10,7 @@ from typing import Final
 
 import cv2
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.video.frames import RATE, Frames, bgr
 
 _TRACK: Final = re.compile(rb"\x73\xc5\x88(.{8})", re.DOTALL)
@@ -46,7 +46,7 @@ def _writer(path: Path, width: int, height: int) -> cv2.VideoWriter:
             str(path), cv2.CAP_FFMPEG, cv2.VideoWriter.fourcc(*"VP80"), RATE, (width, height)
         )
     if not writer.isOpened():
-        raise InvalidInput("the OpenCV of this machine writes no WebM; make a .webp")
+        raise Refused("the OpenCV of this machine writes no WebM; make a .webp")
     return writer
 
 

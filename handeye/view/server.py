@@ -20,7 +20,7 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.view.access import HOST, LIVE, NOTHING, Access
 from handeye.view.link import Link
 from handeye.view.moment import Newest
@@ -244,7 +244,7 @@ def _taken(port: int) -> socket.socket:
     except (OSError, OverflowError) as error:
         taken.close()
         why = error.strerror if isinstance(error, OSError) else "it is no number from 0 to 65535"
-        raise InvalidInput(f"port {port} cannot be had: {why}") from None
+        raise Refused(f"port {port} cannot be had: {why}") from None
     return taken
 
 

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.causes import NoHoles, NoOutline, OutsidePicture, SightCause
@@ -93,7 +93,7 @@ def locate_general(picture: Picture, view: View, part: Part) -> GeneralLocation 
         InvalidInput: the program does not say enough of the part.
     """
     if part.region is None or part.outline is None:
-        raise InvalidInput("vision needs the region and the outline of a part")
+        raise BadArgument("vision needs the region and the outline of a part")
     fits, scan = fitting(view, part), Scan(picture)
     for shrink in SHRINK:
         scan.open()
@@ -131,7 +131,7 @@ def locate_specific(
         InvalidInput: the program does not give two holes of the part.
     """
     if len(part.holes) < 2:
-        raise InvalidInput("a part can be located only by two holes; the program gives fewer")
+        raise BadArgument("a part can be located only by two holes; the program gives fewer")
     scan = Scan(picture)
     box = close_box(view, general)
     if box is None:

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.units import DEGREE, INCH
 from handeye.vision.camera_model import CameraModel, View
@@ -63,11 +63,11 @@ def calibrate(sightings: Sequence[Sighting], drawing: CameraModel) -> Calibratio
     for focal_length in used:
         count = sum(drawing.lens(s.lens).focal_length == focal_length for s in sightings)
         if count < FEWEST:
-            raise InvalidInput(
+            raise BadArgument(
                 f"{count} sightings with the {focal_length * 1000:.0f} mm lens; at least {FEWEST} are needed"
             )
     if not used:
-        raise InvalidInput("no sightings to calibrate the camera with")
+        raise BadArgument("no sightings to calibrate the camera with")
     start = np.zeros(6 + 3 * len(drawing.lenses))
 
     def residuals(x: Array) -> Array:

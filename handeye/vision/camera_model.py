@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array, Pose, pose
 from handeye.ports.camera import COLUMNS, RASTER, ROWS
 
@@ -75,7 +75,7 @@ class CameraModel:
             if math.isclose(lens.focal_length, focal_length, rel_tol=1e-6):
                 return lens
         known = " and ".join(f"{lens.focal_length * 1000:.0f} mm" for lens in self.lenses)
-        raise InvalidInput(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
+        raise BadArgument(f"no lens of {focal_length * 1000:.0f} mm in the turret; it has {known}")
 
     def view(self, focal_length: float, pan: float, tilt: float) -> "View":
         """View with that lens at these pot readings (rad).

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.pose import Array
 from handeye.core.units import INCH
 from handeye.ports.camera import Picture
@@ -92,7 +92,7 @@ def inspect(
         InvalidInput: the program does not give two holes of the part.
     """
     if len(part.holes) < 2:
-        raise InvalidInput("a gasket can be inspected only by two holes; the program gives fewer of the part")
+        raise BadArgument("a gasket can be inspected only by two holes; the program gives fewer of the part")
     new, old = Scan(difference(before, after)), Scan(before)
     places = _as_seen(old, view, part, hole_places(part, pose)[:2])
     expected = tuple((float(u), float(v)) for u, v in view.project(places))

@@ -10,7 +10,7 @@ from typing import Final
 import cv2
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.units import INCH
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.program.causes import OutsidePicture, PartAstray
@@ -42,7 +42,7 @@ def match(
         InvalidInput: the program does not give the outline of the part.
     """
     if part.outline is None:
-        raise InvalidInput(
+        raise BadArgument(
             "pictures of a part can be matched only by its outline; the program does not give it"
         )
     x, y, yaw = pose

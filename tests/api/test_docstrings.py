@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import handeye
+from handeye.core import errors
 
 pytestmark = pytest.mark.slow
 
@@ -15,7 +16,8 @@ OBJECTS = [
     for name in handeye.__all__
     if inspect.isclass(getattr(handeye, name)) or inspect.isfunction(getattr(handeye, name))
 ]
-PLAIN = {"Comparison", "HandeyeError", "InvalidInput", "Result", "Task", "Trace"}
+ERRORS = {name for name, cls in vars(errors).items() if inspect.isclass(cls)}
+PLAIN = {*ERRORS, "Comparison", "Result", "Task", "Trace"}
 """Names whose examples are those of what makes them."""
 FINDER = doctest.DocTestFinder()
 

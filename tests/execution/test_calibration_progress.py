@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from fakes import FakeArm, FakeCamera, FakeCell
 
+from handeye.core.errors import CalibrationFailed
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec
-from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
+from handeye.execution.camera_calibration import calibrate_camera
 from handeye.execution.state import DriveState
 from handeye.ports.camera import COLUMNS, ROWS, Picture
 from handeye.tasks import task

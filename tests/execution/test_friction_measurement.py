@@ -12,9 +12,10 @@ from robots import ROBOTS
 from handeye.arm.friction import felt_friction
 from handeye.arm.model import ArmModel
 from handeye.arm.robots.stanford import STANFORD
+from handeye.core.errors import FrictionUnknown
 from handeye.core.faults import Fault
 from handeye.core.variation import WorldSpec
-from handeye.execution.friction_measurement import FrictionUnknown, at_rest, measure_joints
+from handeye.execution.friction_measurement import at_rest, measure_joints
 from handeye.execution.servo import Halted
 from handeye.execution.state import DriveState
 from handeye.tasks import task

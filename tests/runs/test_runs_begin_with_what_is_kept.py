@@ -9,8 +9,8 @@ import pytest
 from block_task import BLOCK
 from short_runs import plan_of
 
+from handeye.core.errors import CalibrationFailed
 from handeye.core.variation import WorldSpec
-from handeye.execution.camera_calibration import CalibrationFailed
 from handeye.ports.camera import WIDE, Renderer
 from handeye.results.cautions import cautions
 from handeye.runs.advance import advance

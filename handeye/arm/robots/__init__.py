@@ -5,7 +5,7 @@ from typing import Final
 from handeye.arm.model import ArmModel, same_arm
 from handeye.arm.robots.stanford import STANFORD
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 
 _ROBOTS: Final = {STANFORD.name: STANFORD}
 
@@ -22,8 +22,8 @@ def register(arm: ArmModel) -> None:
         InvalidInput: it is no arm, has no name, or another arm has it.
     """
     if not isinstance(arm, ArmModel):
-        raise InvalidInput(f"an arm is an ArmModel, not {arm!r}")
+        raise BadArgument(f"an arm is an ArmModel, not {arm!r}")
     if not arm.name:
-        raise InvalidInput("an arm needs a name")
+        raise BadArgument("an arm needs a name")
     if not same_arm(_ROBOTS.setdefault(arm.name, arm), arm):
-        raise InvalidInput(f"there is an arm called {quoted(arm.name)} already")
+        raise BadArgument(f"there is an arm called {quoted(arm.name)} already")

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from handeye.arm.kinematics import forward
 from handeye.core import errors
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.execution.context import ExecutionContext
 from handeye.execution.servo_loop import Outcome
@@ -55,7 +55,7 @@ def order(state: ExecutionState, undoing: Undoing) -> None:
         InvalidInput: no more is left than what is to be left.
     """
     if undoing.left >= len(state.done):
-        raise InvalidInput("there is nothing to undo")
+        raise Refused("there is nothing to undo")
     if not state.grasping:
         state.held = None
     elif state.held is None:

@@ -1,7 +1,7 @@
 """Whether a run was made in the scene that its task has here."""
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.report.recorded import Recorded
 
 
@@ -16,4 +16,4 @@ def check_scene(run: Recorded) -> None:
     for begin in run.trace.times[:1]:
         for name in run.trace.at(float(begin)).poses:
             if name not in there:
-                raise InvalidInput(f"{run.trace.name} is of another scene: here there is no {quoted(name)}")
+                raise BadFile(f"{run.trace.name} is of another scene: here there is no {quoted(name)}")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from google.protobuf.message import DecodeError
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.ports.camera import Picture
 from handeye.program.events import ErrorRaised, PartInspected, PartMatched, PartSeen, PictureTaken
 from handeye.report.recorded import Recorded
@@ -71,7 +71,7 @@ def _marks(run: Recorded) -> dict[int, tuple[Mark, ...]]:
             read_annotations(message.data) for message in run.trace.messages if message.topic == ANNOTATIONS
         )
     except DecodeError:
-        raise InvalidInput(f"{run.trace.name}: marks on a picture cannot be understood") from None
+        raise BadFile(f"{run.trace.name}: marks on a picture cannot be understood") from None
 
 
 def _findings(run: Recorded) -> dict[float, list[Finding]]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import msgspec
 from msgspec import UNSET
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.report.recorded import Recorded
 from handeye.trace.channels import HAND, nanoseconds
 from handeye.trace.hand_message import Axes, HandMessage, read_hand
@@ -36,7 +36,7 @@ def senses_at(run: Recorded, seconds: float) -> Senses | None:
     try:
         return _senses(read_hand(told[-1].data))
     except msgspec.DecodeError:
-        raise InvalidInput(f"{run.trace.name}: a message about the hand cannot be understood") from None
+        raise BadFile(f"{run.trace.name}: a message about the hand cannot be understood") from None
 
 
 def _senses(message: HandMessage) -> Senses:

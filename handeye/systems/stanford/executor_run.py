@@ -9,15 +9,23 @@ from msgspec import UNSET
 
 from handeye.cell.simulated import SimulatedCell, SimulationError
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import (
+    BadArgument,
+    BadFile,
+    CalibrationFailed,
+    FrictionUnknown,
+    InvalidInput,
+    NoSuchName,
+    Refused,
+)
 from handeye.core.plain_text import counted
 from handeye.core.units import DEGREE, INCH
 from handeye.core.versions import versions
-from handeye.execution.camera_calibration import CalibrationFailed, calibrate_camera
+from handeye.execution.camera_calibration import calibrate_camera
 from handeye.execution.context import ExecutionContext
 from handeye.execution.devices import check_devices
 from handeye.execution.executor import Executor
-from handeye.execution.friction_measurement import FrictionUnknown, measure_joints
+from handeye.execution.friction_measurement import measure_joints
 from handeye.execution.state import ExecutionState
 from handeye.execution.undo.done import Done, Undoing
 from handeye.execution.undo.undoing import order
@@ -176,7 +184,7 @@ class ProgramSystem(System):
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, ExecutionState):
-            raise InvalidInput("what the run remembers is not of the executor of programs")
+            raise BadFile("what the run remembers is not of the executor of programs")
         self.run.restore(state)
         self._take_calibration()
 
@@ -250,11 +258,11 @@ class ProgramSystem(System):
         elif what == "position" and len(value) == 6:
             known = self.plan.program.positions
             if name not in known:
-                raise InvalidInput(f"no position {name}; there are {', '.join(known)}")
+                raise NoSuchName(f"no position {name}; there are {', '.join(known)}")
             x, y, z, o, a, t = value
             self.state.world.moved[name] = Position(at=(x, y, z, o, a, t), of=known[name].of)
         else:
-            raise InvalidInput(f"{what} {name} cannot be set to {len(value)} numbers")
+            raise BadArgument(f"{what} {name} cannot be set to {len(value)} numbers")
 
     def _saved_names(self) -> set[str]:
         """The differences that the program saves or restores."""
@@ -274,7 +282,7 @@ def context_of(system: System) -> ExecutionContext:
         InvalidInput: another system carries the run out.
     """
     if not isinstance(system, ProgramSystem):
-        raise InvalidInput("this is no run of a plan of motions: another system carries it out")
+        raise Refused("this is no run of a plan of motions: another system carries it out")
     return system.run
 
 
@@ -285,7 +293,7 @@ def cell_of(system: System) -> SimulatedCell:
         InvalidInput: another system carries the run out.
     """
     if not isinstance(system, ProgramSystem):
-        raise InvalidInput("this is no run of a plan of motions: another system drives its cell")
+        raise Refused("this is no run of a plan of motions: another system drives its cell")
     return system.cell
 
 
@@ -303,7 +311,7 @@ def check(setup: Setup) -> None:
     stages = len(plan.program.stages)
     late = next((fault for fault in world.faults if (fault.stage or 0) > stages), None)
     if late is not None:
-        raise InvalidInput(
+        raise BadArgument(
             f"the fault {quoted(late.name)} sets in with stage {late.stage}; the program has {counted(stages, 'stage')}"
         )
 

@@ -13,7 +13,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import CannotWrite, InvalidInput
 from handeye.core.files import read_whole, write_whole
 from handeye.core.packed import packed, sealed, unpacked
 from handeye.core.record import Record
@@ -78,7 +78,7 @@ class KeptCalibrations:
         try:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError as error:
-            raise InvalidInput(f"{self.folder} cannot be made: {error.strerror}") from None
+            raise CannotWrite(f"{self.folder} cannot be made: {error.strerror}") from None
         rest = conditions.line + b"\n" + packed(preparation)
         write_whole(_place(self.folder, conditions), sealed(MAGIC, VERSION, rest))
         self._trim()

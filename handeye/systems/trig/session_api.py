@@ -5,7 +5,7 @@ from typing import Final, get_args
 from handeye.api.html import frame, page
 from handeye.cell.photograph import Photograph, check_size
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName, Refused
 from handeye.systems.trig.jobs.benches import ArmName, SeenTable, new_session
 from handeye.systems.trig.language.full_display import full_display
 from handeye.systems.trig.language.partial_display import partial_display
@@ -42,7 +42,7 @@ class TrigSession:
             InvalidInput: there is no such arm.
         """
         if arm not in get_args(ArmName):
-            raise InvalidInput(f"there is no arm {quoted(str(arm))}; `none` and `purbrick` can be taught")
+            raise NoSuchName(f"there is no arm {quoted(str(arm))}; `none` and `purbrick` can be taught")
         self._session = new_session(arm)
 
     def type(self, text: str) -> tuple[str, ...]:
@@ -74,7 +74,7 @@ class TrigSession:
         """
         table = self._session.table
         if not isinstance(table, SeenTable):
-            raise InvalidInput("nobody can see an arm that is imagined; TrigSession('purbrick') has one")
+            raise Refused("nobody can see an arm that is imagined; TrigSession('purbrick') has one")
         check_size(width, height)
         return table.photograph(width, height)
 

@@ -48,7 +48,7 @@ class BaseTrial(Trial[BaseAttempt]):
     """Find the base: first where a world has it, then at fresh poses on the belt."""
 
     def attempts(self, world: WorldSpec, number: int, *, camera: str, known: Known) -> Iterator[BaseAttempt]:
-        from handeye.execution.camera_calibration import CalibrationFailed
+        from handeye.core.errors import CalibrationFailed
         from handeye.tasks.water_pump.calibrations import known_camera
         from handeye.tasks.water_pump.still_pump import StillPump, locate, pump_base, put_base
         from handeye.vision.base import Failure

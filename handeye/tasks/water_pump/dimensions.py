@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.resources import scenes
 from handeye.core.units import DEGREE, INCH
 
@@ -47,7 +47,7 @@ class Dimensions:
         """
         values = self.all(name)
         if len(values) != 1:
-            raise InvalidInput(f"the dimension `{name}` is a list of {len(values)} figures")
+            raise BadFile(f"the dimension `{name}` is a list of {len(values)} figures")
         return values[0]
 
     def all(self, name: str) -> tuple[float, ...]:
@@ -59,7 +59,7 @@ class Dimensions:
         try:
             return self.figures[name].values
         except KeyError:
-            raise InvalidInput(f"the scene has no dimension `{name}`") from None
+            raise BadFile(f"the scene has no dimension `{name}`") from None
 
 
 def parse(text: str) -> Dimensions:
@@ -71,7 +71,7 @@ def parse(text: str) -> Dimensions:
     try:
         tree = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InvalidInput(f"the dimensions cannot be read: {error}") from error
+        raise BadFile(f"the dimensions cannot be read: {error}") from error
     figures: dict[str, Figure] = {}
     _collect(tree, "", figures)
     return Dimensions(figures=figures)
@@ -87,7 +87,7 @@ def _collect(table: dict[str, Any], prefix: str, figures: dict[str, Figure]) -> 
     for key, entry in table.items():
         name = prefix + key
         if not isinstance(entry, dict):
-            raise InvalidInput(f"the dimension `{name}` needs value, unit and source")
+            raise BadFile(f"the dimension `{name}` needs value, unit and source")
         if "value" in entry:
             figures[name] = _figure(name, entry)
         else:
@@ -97,10 +97,10 @@ def _collect(table: dict[str, Any], prefix: str, figures: dict[str, Figure]) -> 
 def _figure(name: str, entry: dict[str, Any]) -> Figure:
     value, unit, source = entry["value"], entry.get("unit"), entry.get("source")
     if unit not in UNITS:
-        raise InvalidInput(f"the dimension `{name}` has the unit {unit!r}; known are {', '.join(UNITS)}")
+        raise BadFile(f"the dimension `{name}` has the unit {unit!r}; known are {', '.join(UNITS)}")
     if not isinstance(source, str) or not source:
-        raise InvalidInput(f"the dimension `{name}` has no source")
+        raise BadFile(f"the dimension `{name}` has no source")
     values = value if isinstance(value, list) else [value]
     if not values or not all(isinstance(v, int | float) and not isinstance(v, bool) for v in values):
-        raise InvalidInput(f"the value of the dimension `{name}` is not a number or a list of numbers")
+        raise BadFile(f"the value of the dimension `{name}` is not a number or a list of numbers")
     return Figure(values=tuple(float(v) * UNITS[unit] for v in values), unit=unit, source=source)

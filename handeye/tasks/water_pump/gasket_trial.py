@@ -47,7 +47,7 @@ class GasketTrial(Trial[GasketAttempt]):
     def attempts(
         self, world: WorldSpec, number: int, *, camera: str, known: Known
     ) -> Iterator[GasketAttempt]:
-        from handeye.execution.camera_calibration import CalibrationFailed
+        from handeye.core.errors import CalibrationFailed
         from handeye.ports.camera import CLOSE_UP
         from handeye.tasks.water_pump.calibrations import known_camera
         from handeye.tasks.water_pump.still_pump import StillPump, look, pump_base, put_base

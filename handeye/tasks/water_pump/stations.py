@@ -6,7 +6,7 @@ it, worlds place it with an error of its own, and the planner keeps every motion
 
 from enum import StrEnum
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.obb import Box
 from handeye.program.program import Fixture
 from handeye.tasks.water_pump.dimensions import dimensions
@@ -44,7 +44,7 @@ def _boxes(figure: str) -> tuple[Box, ...]:
     except ValueError:
         boxes = ()
     if not boxes or not all(low < high for b in boxes for low, high in zip(b[:3], b[3:], strict=True)):
-        raise InvalidInput(
+        raise BadFile(
             f"the dimension `{figure}` is no list of boxes: x, y and z of a low corner and of a high one, for each"
         )
     return boxes

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 from typing import NamedTuple
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.record import Record
 from handeye.results.result import Result
 from handeye.trials.batch.folder import Head
@@ -59,9 +59,9 @@ def paired(names: Sequence[str], batches: Sequence[Batch]) -> tuple[Paired, ...]
     drawing = batches[0][0].world.drawing
     for name, (head, _) in zip(names, batches, strict=True):
         if head.work:
-            raise InvalidInput(f"{name} holds trials of another kind: those that assemble are compared")
+            raise Refused(f"{name} holds trials of another kind: those that assemble are compared")
         if head.world.drawing != drawing:
-            raise InvalidInput(f"{name} was carried out by another version, whose seeds were other worlds")
+            raise Refused(f"{name} was carried out by another version, whose seeds were other worlds")
     first, *others = (_outcomes(rows) for _, rows in batches)
     return tuple(beside(name, first, other) for name, other in zip(names[1:], others, strict=True))
 
@@ -82,9 +82,7 @@ def beside(name: str, first: Mapping[int, Outcome], other: Mapping[int, Outcome]
     """
     pairs = [(first[seed], this) for seed, this in other.items() if seed in first]
     if not pairs:
-        raise InvalidInput(
-            f"{name} has no seed in common with the first batch; they are compared pair by pair"
-        )
+        raise Refused(f"{name} has no seed in common with the first batch; they are compared pair by pair")
     right = [(one.verdict == "assembled", this.verdict == "assembled") for one, this in pairs]
     only_first, only_this = right.count((True, False)), right.count((False, True))
     counts = [this.verdict for _, this in pairs]

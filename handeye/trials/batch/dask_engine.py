@@ -4,7 +4,7 @@ from collections.abc import Generator, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any, Final
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.extras import MissingExtra
 from handeye.core.versions import code_digest
 from handeye.trials.batch.engines import Engine
@@ -63,7 +63,7 @@ def _tried(trial: Trial, code: str, job: Job) -> Row:
         InvalidInput: the worker has another handeye than whoever asks.
     """
     if code_digest() != code:
-        raise InvalidInput("a worker has another handeye than this computer; install the same on all")
+        raise Refused("a worker has another handeye than this computer; install the same on all")
     return trial(job)
 
 
@@ -76,7 +76,7 @@ def _client(count: int, scheduler: str | None) -> Iterator[Any]:
         try:
             client = Client(address, timeout="10s", set_as_default=False)
         except (OSError, ValueError, TimeoutError):
-            raise InvalidInput(f"no scheduler of dask answers at {address}") from None
+            raise Refused(f"no scheduler of dask answers at {address}") from None
         yield closing.enter_context(client)
 
 

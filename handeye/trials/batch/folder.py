@@ -6,7 +6,7 @@ from typing import Final, Literal, TypeVar
 import msgspec
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, CannotWrite
 from handeye.core.files import read_whole
 from handeye.core.line_file import LineFile
 from handeye.core.plain_text import counted
@@ -71,7 +71,7 @@ class BatchFolder:
         try:
             path.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise InvalidInput(f"{path} cannot be written: {error.strerror}") from None
+            raise CannotWrite(f"{path} cannot be written: {error.strerror}") from None
         self._file = LineFile(path / TRIALS, "another command")
         self.rows: dict[int, Row] = {}
         """Trials that have ended, by their numbers."""
@@ -111,15 +111,13 @@ def read_batch(path: Path) -> tuple[Head, tuple[Row, ...]]:
     """
     file = path / TRIALS
     if not file.is_file():
-        raise InvalidInput(f"{path} holds no batch of trials: {quoted(TRIALS)} is not in it")
+        raise BadFile(f"{path} holds no batch of trials: {quoted(TRIALS)} is not in it")
     first, *lines = read_whole(file).split(b"\n")[:-1] or [b""]  # a line that was cut short has no end
     head = _decoded(first, Head, file, 1)
     rows = [_decoded(line, Row, file, number) for number, line in enumerate(lines, 2)]
     for number, row in enumerate(rows, 2):
         if row.seed != head.world.seed + row.trial:
-            raise InvalidInput(
-                f"{file}, line {number}, has the seed {row.seed}, which trial {row.trial} has not"
-            )
+            raise BadFile(f"{file}, line {number}, has the seed {row.seed}, which trial {row.trial} has not")
     return head, tuple(sorted({row.trial: row for row in rows}.values(), key=lambda row: row.trial))
 
 
@@ -127,9 +125,7 @@ def _decoded(line: bytes, kind: type[R], file: Path, number: int) -> R:
     try:
         return msgspec.json.decode(line, type=kind)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InvalidInput(
-            f"{file}, line {number}, is of no batch that this handeye reads: {error}"
-        ) from None
+        raise BadFile(f"{file}, line {number}, is of no batch that this handeye reads: {error}") from None
 
 
 def read_plan_of(path: Path, head: Head) -> Plan:
@@ -140,7 +136,7 @@ def read_plan_of(path: Path, head: Head) -> Plan:
     """
     plan = read_plan(path / PLAN)
     if plan_digest(plan) != head.plan:
-        raise InvalidInput(f"{path / PLAN} is not the plan of the batch in {path}")
+        raise BadFile(f"{path / PLAN} is not the plan of the batch in {path}")
     return plan
 
 
@@ -149,7 +145,7 @@ def _same_batch(path: Path, head: Head) -> tuple[Row, ...]:
     begun, rows = read_batch(path)
     differs = head.differs(begun)
     if differs:
-        raise InvalidInput(
+        raise CannotWrite(
             f"{path} holds {counted(len(rows), 'trial')} of another batch, which differs in "
             f"{', '.join(differs)}; choose another folder"
         )
@@ -167,9 +163,9 @@ def _check(path: Path, head: Head) -> None:
     if (path / TRIALS).exists():
         return
     if not path.is_dir():
-        raise InvalidInput(f"{path} is not a folder")
+        raise CannotWrite(f"{path} is not a folder")
     others = sorted(place.name for place in path.iterdir())
     if others:
-        raise InvalidInput(
+        raise CannotWrite(
             f"{path} holds other things ({quoted(others[0])}); choose a new folder, or an empty one"
         )

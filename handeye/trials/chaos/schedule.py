@@ -11,7 +11,7 @@ from typing import Annotated, Final, Literal, get_args
 import msgspec
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.fault_options import by_number, faults
 from handeye.core.faults import Catalogue, Fault, FaultKind
 from handeye.core.record import Record
@@ -85,7 +85,7 @@ class Schedule(Record, frozen=True, kw_only=True):
         found = faults(catalogue, self.faults, by_number)
         for fault in found:
             if fault.stage is None:
-                raise InvalidInput(f"the fault {quoted(fault.name)} sets in with no stage; write @STAGE")
+                raise BadArgument(f"the fault {quoted(fault.name)} sets in with no stage; write @STAGE")
         return found
 
 
@@ -101,7 +101,7 @@ def parse_schedule(text: str) -> Schedule:
         " ".join(f"{name}={value}" for name, value in words.items()) != " ".join(text.split())
         or {*words} - known
     ):
-        raise InvalidInput(
+        raise BadArgument(
             f"{quoted(text)} is no schedule: write words such as seed=3 start=41 faults=lamp.dead@4"
         )
     lists = {name: tuple(words[name].split(",")) for name in ("faults", "answers") if name in words}
@@ -110,7 +110,7 @@ def parse_schedule(text: str) -> Schedule:
     try:
         made = msgspec.convert({**words, **lists, **numbers, "breaks": breaks}, Schedule)
     except msgspec.ValidationError as error:
-        raise InvalidInput(f"{quoted(text)} is no schedule: {error}") from None
+        raise BadArgument(f"{quoted(text)} is no schedule: {error}") from None
     checked_seed(made.seed)
     return made
 
@@ -118,7 +118,7 @@ def parse_schedule(text: str) -> Schedule:
 def _break(word: str) -> dict[str, object]:
     kind, _, after = word.partition(":")
     if kind not in get_args(BreakKind) or not after.isdigit():
-        raise InvalidInput(
+        raise BadArgument(
             f"{quoted(word)} is no interruption: write {', '.join(get_args(BreakKind))} with :N behind it"
         )
     return {"kind": kind, "after": int(after)}

@@ -7,7 +7,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.faults import Fault
 from handeye.core.files import write_whole
 from handeye.core.variation import WorldSpec
@@ -45,7 +45,7 @@ class SoundRun:
         """
         found = self.store.at_or_before(position)
         if found is None or found.snapshot is None:
-            raise InvalidInput(f"a schedule cannot begin with {position} steps done: there is no such state")
+            raise Refused(f"a schedule cannot begin with {position} steps done: there is no such state")
         return found
 
 

@@ -10,7 +10,7 @@ from handeye.api.arguments import given_count, given_names
 from handeye.api.plans import FileName, Planned, plan
 from handeye.api.worlds import World
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import NoSuchName, Refused
 from handeye.core.plain_text import counted
 from handeye.core.pose import Array
 from handeye.core.variation import WorldSpec, checked_seed
@@ -69,7 +69,7 @@ def predict_from(
     """Predict worlds from a first one on; see `handeye.trials.predict`."""
     spec = first.spec if isinstance(first, World) else WorldSpec(seed=checked_seed(first))
     if spec.faults:
-        raise InvalidInput("faults are not predicted: only errors, with which every world is drawn")
+        raise Refused("faults are not predicted: only errors, with which every world is drawn")
     count = given_count(n, "n")
     checked_seed(spec.seed + count - 1)
     senses = tuple(_sense(name) for name in given_names(lacking, "`lacking`"))
@@ -80,5 +80,5 @@ def predict_from(
 
 def _sense(name: str) -> Sense:
     if name not in _SENSES:
-        raise InvalidInput(f"there is no sense {quoted(name)}; there are {', '.join(_SENSES)}")
+        raise NoSuchName(f"there is no sense {quoted(name)}; there are {', '.join(_SENSES)}")
     return _SENSES[name]

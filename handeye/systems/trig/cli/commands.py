@@ -9,7 +9,7 @@ from cyclopts import App, Parameter
 
 from handeye.cli.common import Json, WholeNumber, complain, note, put_json, say, screen
 from handeye.cli.panic_button import PanicButton
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.core.extras import MissingExtra
 from handeye.systems.trig.cli.jobs import bucket, palletise
 
@@ -118,7 +118,7 @@ def show(
     from handeye.systems.trig.language.symbols import symbols_for
 
     if width and not 20 <= width <= 1000:
-        raise InvalidInput(f"a display is 20 to 1000 characters wide, not {width}")
+        raise BadArgument(f"a display is 20 to 1000 characters wide, not {width}")
     with PanicButton() as panic:
         program = opened("none", file, panic).program
     symbols, wide = symbols_for(sys.stdout.encoding), width or screen.width

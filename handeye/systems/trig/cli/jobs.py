@@ -12,7 +12,7 @@ from rich.status import Status
 from handeye.cli.common import Json, WholeNumber, complain, note, notes, put_json, say
 from handeye.cli.panic_button import PanicButton
 from handeye.cli.videos import drawing
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, CannotWrite, InvalidInput
 from handeye.core.host_time import HostTimer
 from handeye.core.plain_text import counted
 from handeye.core.variation import checked_seed
@@ -86,7 +86,7 @@ def palletise(
     from handeye.systems.trig.jobs.benches import MOST_BLOCKS
 
     if not 0 <= blocks <= MOST_BLOCKS:
-        raise InvalidInput(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
+        raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
     return _work("palletise", checked_seed(seed), blocks, kept, json=json)
 
 
@@ -199,7 +199,7 @@ def _check_apart(kept: KeptOptions) -> None:
     if kept.out is None or kept.video is None:
         return
     if kept.video.absolute().is_relative_to(kept.out.absolute()):
-        raise InvalidInput(f"{kept.video} lies in the folder of --out, which is that of a run; name another")
+        raise CannotWrite(f"{kept.video} lies in the folder of --out, which is that of a run; name another")
 
 
 def _tell(done: "JobReport") -> None:

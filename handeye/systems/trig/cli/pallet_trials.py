@@ -6,7 +6,7 @@ from cyclopts import Parameter
 
 from handeye.cli.common import Json, WholeNumber, positive, put_json, say
 from handeye.cli.tally import Tally
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.plain_text import counted as words
 from handeye.core.variation import checked_seed
 
@@ -41,7 +41,7 @@ def pallet_trials(
     for count, what in ((n, "trial"), (workers, "process")):
         positive(count, what)
     if not 0 <= blocks <= MOST_BLOCKS:
-        raise InvalidInput(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
+        raise BadArgument(f"a stack of 0 to {MOST_BLOCKS} blocks can be palletised, not of {blocks}")
     found: list[JobReport] = []
     try:
         ended = trials(n, seed=checked_seed(seed), blocks=blocks, interrupt=interrupt, workers=workers)

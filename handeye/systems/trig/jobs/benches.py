@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Literal
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.record import Record
 from handeye.systems.trig.language.tabletop import Tabletop
 
@@ -90,9 +90,9 @@ def read_taught_plan(data: bytes, name: str) -> TaughtPlan:
     try:
         plan = msgspec.json.decode(data, type=TaughtPlan)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InvalidInput(f"{name} is not sound: {error}") from None
+        raise BadFile(f"{name} is not sound: {error}") from None
     if len(plan.script) > _LONGEST:
-        raise InvalidInput(f"{name} is not sound: its script has more than {_LONGEST} characters")
+        raise BadFile(f"{name} is not sound: its script has more than {_LONGEST} characters")
     return plan
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.core.units import MILLIMETRES
 from handeye.core.variation import Variation, WorldSpec
@@ -103,9 +103,7 @@ class Bucket(_BlocksTask):
         stood = stands(truth.data, seen.blocks)
         blocks = [*stood.poses.values()]
         if len(blocks) != _DROPPED:
-            raise InvalidInput(
-                f"the referee looks at {_DROPPED} blocks, and the script has laid {len(blocks)}"
-            )
+            raise Refused(f"the referee looks at {_DROPPED} blocks, and the script has laid {len(blocks)}")
         place: Array = np.array(seen.place("BLOCK")[:2])
         dropped = judge_dropped(blocks[0], BUCKET, place, blocks[1])
         return {**dropped, "hand": _ends_at(seen, stood, "CENTER")}

@@ -8,7 +8,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from handeye.cell.mechanism import Mechanism
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Refused
 from handeye.core.pose import Array, Pose, pose
 from handeye.core.record import Record
 from handeye.systems.trig.jobs.machine import SPECS
@@ -58,7 +58,7 @@ class Began(Stood, frozen=True, kw_only=True):
         """
         found = self.taught.get(name)
         if found is None:
-            raise InvalidInput(f"the referee looks for the position {name}, which the script does not teach")
+            raise Refused(f"the referee looks for the position {name}, which the script does not teach")
         return found
 
 
@@ -88,7 +88,7 @@ class Witness(Mechanism[Began]):
         turned = state.turned or state
         alike = {*turned.blocks} == {*state.blocks}
         if not (alike and state.sound and turned.sound and np.isfinite([*state.taught.values()]).all()):
-            raise InvalidInput("what was seen before the program was run is no place")
+            raise BadFile("what was seen before the program was run is no place")
 
     def restore(self, state: Began) -> None:
         self.began = state

@@ -1,6 +1,6 @@
 """Commands that change steps, or delete them."""
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.systems.trig.language.deletion import delete_below, delete_step, prune
 from handeye.systems.trig.language.given import Given, read_branch
 from handeye.systems.trig.language.node import NONE, TOP, Node
@@ -12,12 +12,12 @@ def rename(session: Session, given: Given) -> None:
     """CN: give the active step a name."""
     node, name = active_step(session), given.step or ""
     if node.type == "loop":
-        raise InvalidInput("a loop step shows where it goes back to, and has no name of its own")
+        raise Refused("a loop step shows where it goes back to, and has no name of its own")
     other = session.program.graph.named(name)
     if other is not None and other is not node:
-        raise InvalidInput(f"another step is called {name}; GOTO {name} shows which")
+        raise BadArgument(f"another step is called {name}; GOTO {name} shows which")
     if name.startswith("*"):
-        raise InvalidInput("that is the name of the top; a step has a name such as GET-BLOCK")
+        raise BadArgument("that is the name of the top; a step has a name such as GET-BLOCK")
     node.name = name
     session.program.changed = True
 
@@ -27,9 +27,9 @@ def change_position(session: Session, given: Given) -> None:
     node = active_step(session)
     position = session.position(given.position)
     if node.position is None:
-        raise InvalidInput("the active step has no position to change: it is not a move, and saves none")
+        raise Refused("the active step has no position to change: it is not a move, and saves none")
     if node.type == "savpos" and position.relative:
-        raise InvalidInput(f"{given.position} is relative; SAVPOS saves an absolute place")
+        raise Refused(f"{given.position} is relative; SAVPOS saves an absolute place")
     node.position, node.negate = given.position, False
     session.program.changed = True
 
@@ -70,14 +70,14 @@ def unlink(session: Session, given: Given) -> None:
     entry = graph.entry(target.id)
     branches = [branch for branch, son in enumerate(node.sons) if son == entry]
     if not branches:
-        raise InvalidInput(f"the active step does not lead to {target.name}")
+        raise Refused(f"the active step does not lead to {target.name}")
     if len(graph.edges_into(entry)) == 1:
-        raise InvalidInput(f"nothing else leads to {target.name}; `DA {target.name}` deletes it")
+        raise Refused(f"nothing else leads to {target.name}; `DA {target.name}` deletes it")
     branch = branches[0] if len(branches) == 1 and given.branch is None else session.branch(given.branch)
     if branch not in branches:
-        raise InvalidInput(f"that branch does not lead to {target.name}")
+        raise Refused(f"that branch does not lead to {target.name}")
     if not _reached_otherwise(program, node, branch, entry):
-        raise InvalidInput(
+        raise Refused(
             f"{target.name} can be reached from the top by this step only; `DA {target.name}` deletes it"
         )
     above = program.above(node.id)
@@ -110,7 +110,7 @@ def active_step(session: Session) -> Node:
     """
     if session.program.cursor == TOP:
         empty = session.program.first == NONE
-        raise InvalidInput(
+        raise Refused(
             "the program is empty; M teaches its first step"
             if empty
             else "the top is no step; N goes to the first"
@@ -121,14 +121,14 @@ def active_step(session: Session) -> Node:
 def _guarded(session: Session, what: str) -> Node:
     node = active_step(session)
     if node.type != "guarded":
-        raise InvalidInput(f"the active step is not guarded, and has no {what}; MG adds one that is")
+        raise Refused(f"the active step is not guarded, and has no {what}; MG adds one that is")
     return node
 
 
 def _named_or_active(session: Session, given: Given) -> Node:
     node = active_step(session) if given.step is None else session.step(given.step)
     if node.id == TOP:
-        raise InvalidInput("the top cannot be deleted; FLUSH erases the program")
+        raise Refused("the top cannot be deleted; FLUSH erases the program")
     return node
 
 

@@ -1,6 +1,6 @@
 """Commands that move the cursor, and commands that run the program."""
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.core.plain_text import counted
 from handeye.systems.trig.language.given import Given
 from handeye.systems.trig.language.node import NONE, TOP
@@ -55,14 +55,14 @@ def goto(session: Session, given: Given) -> None:
 def run(session: Session, given: Given) -> None:
     """RUN: the whole program, or so many steps, or so many backwards."""
     if given.count == 0:
-        raise InvalidInput(
+        raise BadArgument(
             "RUN 0 would do nothing; RUN 1 executes the active step, RUN -1 undoes the last one"
         )
     if given.count is not None and given.count < 0:
         session.desk.tell(told_run(session.runner.back(-given.count), back=True))
         return
     if session.program.first == NONE:
-        raise InvalidInput("the program is empty; M teaches its first step")
+        raise Refused("the program is empty; M teaches its first step")
     ran = session.runner.run() if given.count is None else session.runner.forward(given.count)
     session.desk.tell(told_run(ran))
 
@@ -87,5 +87,5 @@ def told_run(ran: Ran, *, back: bool = False) -> str:
 def _distance(given: Given) -> int:
     count = 1 if given.count is None else given.count
     if not 0 < count <= _FARTHEST:
-        raise InvalidInput(f"N and P go 1 to {_FARTHEST} steps; N goes down, P goes up")
+        raise BadArgument(f"N and P go 1 to {_FARTHEST} steps; N goes down, P goes up")
     return count

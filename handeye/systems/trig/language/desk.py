@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Final, Literal, TypeVar
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, InvalidInput
 from handeye.systems.trig.language.place import AXES, SIZES
 
 Read = TypeVar("Read")
@@ -87,7 +87,7 @@ def number(word: str) -> float:
         InvalidInput: it is none.
     """
     if not _NUMBER.fullmatch(word):
-        raise InvalidInput(f"{quoted(word)} is not a number")
+        raise BadArgument(f"{quoted(word)} is not a number")
     return float(word)
 
 
@@ -99,7 +99,7 @@ def yes(word: str) -> bool:
     """
     answer = word.strip().rstrip(".!").casefold()
     if answer not in ("y", "yes", "n", "no"):
-        raise InvalidInput(f"{quoted(word.strip())} is no answer; type Yes or No")
+        raise BadArgument(f"{quoted(word.strip())} is no answer; type Yes or No")
     return answer[0] == "y"
 
 
@@ -117,7 +117,7 @@ def buttons(line: str) -> list[Button]:
             found.append(_jog(word, words))
             continue
         if words:
-            raise InvalidInput(
+            raise BadArgument(
                 f"{word} ends what is done with the teach box; {quoted(words[0])} comes too late"
             )
         found.append(ENDS[word])
@@ -127,13 +127,13 @@ def buttons(line: str) -> list[Button]:
 def _jog(word: str, words: deque[str]) -> Jog:
     """How one axis moves."""
     if word not in AXES:
-        raise InvalidInput(
+        raise BadArgument(
             f"{quoted(word)} is nothing on the teach box; write `X -30`, `Z BY 12`, `RECORD` or `KILL`"
         )
     by = bool(words) and words[0] == "BY"
     if by:
         words.popleft()
     if not words:
-        raise InvalidInput(f"{word} moves where? `{word} 30` is a place, `{word} BY 30` a way")
+        raise BadArgument(f"{word} moves where? `{word} 30` is a place, `{word} BY 30` a way")
     axis = AXES.index(word)
     return Jog(axis, number(words.popleft()) * SIZES[axis], by)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.systems.trig.language.change_commands import ask_if_unsaved
 from handeye.systems.trig.language.given import Given
 from handeye.systems.trig.language.session import Session
@@ -14,7 +14,7 @@ def write(session: Session, given: Given) -> None:
     _check_files(session)
     file = session.file if given.file is None else trig_file(Path(given.file))
     if file is None:
-        raise InvalidInput("no file has been read or written yet; W takes a name")
+        raise Refused("no file has been read or written yet; W takes a name")
     write_program(file, session.program)
     session.file, session.program.changed = file, False
     session.desk.tell(f"written to {file}")
@@ -43,4 +43,4 @@ def leave(session: Session, given: Given) -> None:
 def _check_files(session: Session) -> None:
     """Raises InvalidInput if nothing that is typed may touch a file."""
     if not session.files:
-        raise InvalidInput("the script of a job reads and writes no files")
+        raise Refused("the script of a job reads and writes no files")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.record import Vector3
 from handeye.core.units import OUNCE_FORCE
 from handeye.systems.trig.language.desk import number
@@ -49,9 +49,9 @@ def read_given(usage: str, takes: tuple[Kind, ...], needs: int, rest: str) -> Gi
     given = Given()
     words = [rest] if takes and takes[0] in ("file", "vector") and rest else rest.split()
     if len(words) < needs:
-        raise InvalidInput(f"`{usage}` needs {_NOUNS[takes[len(words)]]}")
+        raise BadArgument(f"`{usage}` needs {_NOUNS[takes[len(words)]]}")
     if len(words) > len(takes):
-        raise InvalidInput(f"`{usage}` has no use for {quoted(words[len(takes)])}")
+        raise BadArgument(f"`{usage}` has no use for {quoted(words[len(takes)])}")
     for kind, word in zip(takes, words, strict=False):
         _READ[kind](given, word)
     return given
@@ -65,7 +65,7 @@ def read_branch(word: str) -> int:
     """
     branch = BRANCHES.get(word.strip().rstrip(".").upper())
     if branch is None:
-        raise InvalidInput(f"{quoted(word.strip())} is no branch; type n (normal) or g (guarded)")
+        raise BadArgument(f"{quoted(word.strip())} is no branch; type n (normal) or g (guarded)")
     return branch
 
 
@@ -77,7 +77,7 @@ def read_threshold(word: str) -> float:
     """
     ounces = number(word.strip())
     if ounces < 0:
-        raise InvalidInput(f"a threshold is not less than 0 oz, as {quoted(word.strip())} is")
+        raise BadArgument(f"a threshold is not less than 0 oz, as {quoted(word.strip())} is")
     return ounces * OUNCE_FORCE
 
 
@@ -89,16 +89,16 @@ def read_vector(text: str) -> Vector3:
     """
     found = _VECTOR.fullmatch(text.strip())
     if found is None:
-        raise InvalidInput(f"{quoted(text.strip())} is no force vector; write it like (0 0 1)")
+        raise BadArgument(f"{quoted(text.strip())} is no force vector; write it like (0 0 1)")
     x, y, z = map(number, found.groups())
     if (x, y, z) == (0, 0, 0):
-        raise InvalidInput("the force vector (0 0 0) heeds no force; (0 0 1) heeds one upwards")
+        raise BadArgument("the force vector (0 0 0) heeds no force; (0 0 1) heeds one upwards")
     return x, y, z
 
 
 def _position(given: Given, word: str) -> None:
     if word.startswith("-"):
-        raise InvalidInput(f"a minus has no meaning here: give {quoted(word[1:])} without it")
+        raise BadArgument(f"a minus has no meaning here: give {quoted(word[1:])} without it")
     given.position = name_of(word)
 
 
@@ -117,9 +117,9 @@ def _branch(given: Given, word: str) -> None:
 
 def _count(given: Given, word: str) -> None:
     if not re.fullmatch(r"[+-]?\d+", word, re.ASCII):
-        raise InvalidInput(f"{quoted(word)} is not a whole number")
+        raise BadArgument(f"{quoted(word)} is not a whole number")
     if len(word) > 10 or abs(int(word)) > MOST:
-        raise InvalidInput(f"{quoted(word)} is more than {MOST}")
+        raise BadArgument(f"{quoted(word)} is more than {MOST}")
     given.count = int(word)
 
 

@@ -3,7 +3,7 @@
 from typing import Final
 
 from handeye.core.diagnostics import nearest, quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, NoSuchName
 from handeye.systems.trig.language.command_table import COMMANDS, SYNONYMS, TABLE, TrigCommand
 from handeye.systems.trig.language.desk import ENDS, Withdrawn
 from handeye.systems.trig.language.given import read_given
@@ -60,9 +60,9 @@ def command_of(word: str) -> TrigCommand:
     if command is not None:
         return command
     if upper in (*AXES, *ENDS):
-        raise InvalidInput(f"{upper} is on the teach box, which is heard while M or FREE waits for it")
+        raise BadArgument(f"{upper} is on the teach box, which is heard while M or FREE waits for it")
     near = nearest(upper, [*COMMANDS, *SYNONYMS], max(1, len(upper) // 3)) if len(upper) > 1 else None
-    raise InvalidInput(
+    raise NoSuchName(
         f"there is no command {quoted(word)}; " + (f"did you mean {near}?" if near else "HELP lists them")
     )
 

@@ -4,7 +4,7 @@ The partner is a bloop. Where several loops go back to one step, the nearest loo
 above it, whichever was made first.
 """
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.systems.trig.language.graph import Graph
 from handeye.systems.trig.language.node import Node
 
@@ -16,7 +16,7 @@ def insert_loop(graph: Graph, after: int, branch: int, target: int, wanted: int)
         InvalidInput: that step does not stand above the loop.
     """
     if after not in graph.distances(target):
-        raise InvalidInput(
+        raise Refused(
             f"{graph[target].name} does not stand above the active step, and a loop goes back: `L` leads on to it"
         )
     loop, bloop = graph.new("loop"), graph.new("bloop")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.systems.trig.language.place import Place
 
 LONGEST: Final = 40
@@ -40,9 +40,9 @@ def name_of(word: str) -> str:
         InvalidInput: it is none.
     """
     if len(word) > LONGEST:
-        raise InvalidInput(f"{quoted(word)} has {len(word)} characters; a name has {LONGEST} at most")
+        raise BadArgument(f"{quoted(word)} has {len(word)} characters; a name has {LONGEST} at most")
     if not NAME.fullmatch(word.upper()) or not word.isascii():
-        raise InvalidInput(f"{quoted(word)} is not a name: a letter, then letters, digits, `-` and `_`")
+        raise BadArgument(f"{quoted(word)} is not a name: a letter, then letters, digits, `-` and `_`")
     return word.upper()
 
 

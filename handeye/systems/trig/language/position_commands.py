@@ -1,6 +1,6 @@
 """Commands that define positions without a step."""
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.systems.trig.language.given import Given
 from handeye.systems.trig.language.place import Place
 from handeye.systems.trig.language.position import Position
@@ -17,7 +17,7 @@ def here_relative(session: Session, given: Given) -> None:
     """SR: a name for the way from where the last step took the arm to where it is."""
     start = session.program.ended_at
     if start is None:
-        raise InvalidInput("no step has taken the arm anywhere yet; CALPOS and ENDCAL measure any way")
+        raise Refused("no step has taken the arm anywhere yet; CALPOS and ENDCAL measure any way")
     _define(session, given.position or "", session.arm.here().seen_from(start), relative=True)
 
 
@@ -29,7 +29,7 @@ def begin_way(session: Session, given: Given) -> None:
 def end_way(session: Session, given: Given) -> None:
     """ENDCAL: a name for the way from there to where the arm is."""
     if session.origin is None:
-        raise InvalidInput("CALPOS comes first: it remembers where the way begins")
+        raise Refused("CALPOS comes first: it remembers where the way begins")
     _define(session, given.position or "", session.arm.here().seen_from(session.origin), relative=True)
     session.origin = None
 
@@ -51,7 +51,7 @@ def _check_redefinition(session: Session, name: str, relative: bool) -> None:
     """
     was = session.position(name).relative
     if relative and any(node.type == "savpos" for node in session.program.users(name)):
-        raise InvalidInput(f"a SAVPOS step sets {name}, so {name} stays absolute; D deletes the step")
+        raise Refused(f"a SAVPOS step sets {name}, so {name} stays absolute; D deletes the step")
     if not relative:
         check_no_opposite(session, name)
     kinds = {True: "relative", False: "absolute"}

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput
 from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.desk import Button, Desk, Jog, Withdrawn, buttons
 from handeye.systems.trig.language.hearing import hear, stripped
@@ -95,6 +95,6 @@ def type_script(session: Session, script: Script, name: str) -> int:
         try:
             hear(session, line)
         except InvalidInput as error:
-            raise InvalidInput(f"{name}, line {script.number}: {error}") from None
+            raise BadFile(f"{name}, line {script.number}: {error}") from None
         count += not line.startswith("*")
     return count

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from handeye.core.diagnostics import quoted, suggestion
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import InvalidInput, NoSuchName, Refused
 from handeye.core.record import Vector3
 from handeye.systems.trig.language.desk import Desk, Withdrawn, yes
 from handeye.systems.trig.language.given import read_branch, read_threshold, read_vector
@@ -17,7 +17,7 @@ from handeye.systems.trig.language.tabletop import Tabletop
 from handeye.systems.trig.language.teachable import Teachable
 
 
-class Killed(InvalidInput):
+class Killed(Refused):
     """The kill switch of the teach box."""
 
     def __init__(self) -> None:
@@ -55,9 +55,9 @@ class Session:
         """
         found = self.program.positions.get(name or "")
         if found is None:
-            raise InvalidInput(f"there is no position {quoted(name or '')}{self._meant(name or '')}")
+            raise NoSuchName(f"there is no position {quoted(name or '')}{self._meant(name or '')}")
         if negate and not found.relative:
-            raise InvalidInput(f"{name} is an absolute position; only a relative one has an opposite")
+            raise Refused(f"{name} is an absolute position; only a relative one has an opposite")
         return found
 
     def _meant(self, name: str) -> str:
@@ -75,7 +75,7 @@ class Session:
         if found is None:
             known = suggestion(name, (node.name for node in graph.nodes.values() if node.name))
             help = known or "CN names the active step"
-            raise InvalidInput(f"there is no step {quoted(name)}; {help}")
+            raise NoSuchName(f"there is no step {quoted(name)}; {help}")
         return found
 
     # -- asking ----------------------------------------------------------------------------------------
@@ -107,7 +107,7 @@ class Session:
         node = self.program.active if node is None else node
         if node.type != "guarded":
             if given is not None:
-                raise InvalidInput("n and g are branches of a guarded step, and this one is not guarded")
+                raise Refused("n and g are branches of a guarded step, and this one is not guarded")
             return 0
         if given is not None:
             return given
@@ -127,12 +127,10 @@ class Session:
         if branch in active.links:
             target = self.program.graph[self.program.graph.step_at(active.sons[branch])]
             if target.name is None:
-                raise InvalidInput(
+                raise Refused(
                     "a link leads on from here to a step without a name; N and CN name it for DLINK"
                 )
-            raise InvalidInput(
-                f"a link leads on to {target.name} here; `DLINK {target.name}` takes it away first"
-            )
+            raise Refused(f"a link leads on to {target.name} here; `DLINK {target.name}` takes it away first")
         return branch
 
     def taught(self) -> Place:

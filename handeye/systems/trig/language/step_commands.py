@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Literal
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument, Refused
 from handeye.systems.trig.language.deletion import prune
 from handeye.systems.trig.language.given import Given
 from handeye.systems.trig.language.loops import insert_loop
@@ -26,7 +26,7 @@ def move(kind: Literal["absolute", "relative"] | None, *, guarded: bool = False)
         if given.position in session.program.positions:
             _to_known(session, given, kind, node, branch)
         elif given.negate:
-            raise InvalidInput(f"-{given.position} has no opposite yet: {given.position} is not defined")
+            raise Refused(f"-{given.position} has no opposite yet: {given.position} is not defined")
         else:
             relative = session.program.relative_by_default() if kind is None else kind == "relative"
             _to_taught(session, given.position, relative, node, branch)
@@ -38,7 +38,7 @@ def _to_known(session: Session, given: Given, kind: str | None, node: Node, bran
     position = session.position(given.position, negate=given.negate)
     defined = "relative" if position.relative else "absolute"
     if kind not in (None, defined):
-        raise InvalidInput(f"{given.position} is {defined}; M goes there")
+        raise Refused(f"{given.position} is {defined}; M goes there")
     node.position = given.position
     session.confirmed("Move to the predefined location? ")
     if node.type == "guarded":
@@ -96,16 +96,16 @@ def save(session: Session, given: Given) -> None:
 def check_no_opposite(session: Session, name: str) -> None:
     """Raises InvalidInput if a step goes the other way of a position, which is to become absolute."""
     if any(node.negate for node in session.program.users(name)):
-        raise InvalidInput(f"a step goes to -{name}, so {name} stays relative; D deletes the step")
+        raise Refused(f"a step goes to -{name}, so {name} stays relative; D deletes the step")
 
 
 def loop(session: Session, given: Given) -> None:
     """LOOP: go back to a step so many times before going on."""
     target, wanted = session.step(given.step or ""), given.count or 0
     if target.id == TOP:
-        raise InvalidInput(f"a loop goes back to a step; {target_hint(session)}")
+        raise Refused(f"a loop goes back to a step; {target_hint(session)}")
     if wanted < 0:
-        raise InvalidInput(f"a loop goes back 0 times or more, not {wanted}")
+        raise BadArgument(f"a loop goes back 0 times or more, not {wanted}")
     program = session.program
     branch = session.open_branch(None)
     node = insert_loop(program.graph, program.cursor, branch, target.id, wanted)
@@ -126,12 +126,12 @@ def link(session: Session, given: Given) -> None:
     """L: go on at a step that there is already."""
     program, target = session.program, session.step(given.step or "")
     if program.cursor == TOP or target.id == TOP:
-        raise InvalidInput("a link leads from a step to a step, and not to or from the top")
+        raise Refused("a link leads from a step to a step, and not to or from the top")
     branch = session.branch(given.branch)
     entry = program.graph.entry(target.id)
     son = program.active.sons[branch]
     if son == entry:
-        raise InvalidInput(f"the active step leads on to {target.name} already")
+        raise Refused(f"the active step leads on to {target.name} already")
     if son != NONE:
         session.confirmed(f"Another step follows here. Replace it by a link to {target.name}? ")
     above = program.above(program.cursor)

@@ -7,7 +7,7 @@ from typing import Final, TypeVar
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import Kind, read_whole, write_over
 from handeye.core.record import Vector3
 from handeye.core.units import OUNCE_FORCE
@@ -155,9 +155,9 @@ def decoded(content: bytes, name: str) -> TrigProgram:
     try:
         return _program(content)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
-        raise InvalidInput(f"{name} is no TRIG program: it is not JSON, or has been cut short") from None
+        raise BadFile(f"{name} is no TRIG program: it is not JSON, or has been cut short") from None
     except _Fault as fault:
-        raise InvalidInput(f"{name} {fault}") from None
+        raise BadFile(f"{name} {fault}") from None
 
 
 class _Fault(Exception):

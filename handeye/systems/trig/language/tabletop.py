@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from typing import Final
 
 from handeye.core.diagnostics import quoted
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadArgument
 from handeye.core.units import MILLIMETRE
 from handeye.systems.trig.language.desk import number
 
@@ -56,13 +56,13 @@ def arrange(table: Tabletop, line: str) -> str:
         case ["STACK", count, "X", x, "Y", y] if count.isdecimal() and 0 < int(count[:9]) <= MOST:
             table.stack(int(count), _at(x), _at(y))
         case ["STACK", count, "X", _, "Y", _]:
-            raise InvalidInput(f"a stack has 1 to {MOST} blocks, not {quoted(count)}")
+            raise BadArgument(f"a stack has 1 to {MOST} blocks, not {quoted(count)}")
         case ["BUCKET", "X", x, "Y", y]:
             table.bucket(_at(x), _at(y))
         case ["CLEAR"]:
             table.clear()
         case _:
-            raise InvalidInput(f"{quoted(' '.join(words))} cannot be done with a table; {_HELP}")
+            raise BadArgument(f"{quoted(' '.join(words))} cannot be done with a table; {_HELP}")
     return f"blocks on the table: {table.count}"
 
 
@@ -73,5 +73,5 @@ def _at(word: str) -> float:
         InvalidInput: it is no number, or lies beyond the table.
     """
     if abs(number(word)) > FARTHEST:
-        raise InvalidInput(f"a table ends {FARTHEST:g} mm from its middle, before {quoted(word)}")
+        raise BadArgument(f"a table ends {FARTHEST:g} mm from its middle, before {quoted(word)}")
     return number(word) * MILLIMETRE

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.record import Vector3
 from handeye.systems.trig.language.obstacles import Obstacle
 from handeye.systems.trig.language.place import AXES, SIZES, UNITS, Place
@@ -14,7 +14,7 @@ Halted = Callable[[], bool]
 """Asked while the arm moves: whether somebody wants it to stop."""
 
 
-class OutOfTravel(InvalidInput):
+class OutOfTravel(Refused):
     """A place that the arm cannot go to."""
 
     def __init__(self, axis: int, value: float, lower: float, upper: float) -> None:

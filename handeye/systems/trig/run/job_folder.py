@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile
 from handeye.core.files import read_whole, write_whole
 from handeye.results.kept_result import restore_figures
 from handeye.runs.folder import JOB, REPORT, TAUGHT
@@ -50,12 +50,12 @@ def _read_account(path: Path) -> JobReport:
             restore_figures(check)
         done = msgspec.convert(written, JobReport)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise InvalidInput(f"{path} is no account of a job: {error}") from None
+        raise BadFile(f"{path} is no account of a job: {error}") from None
     lying = [
         figure for blocks in done.lying.values() for each in blocks for figure in (*each.at, each.turned)
     ]
     if any(abs(figure) > _FARTHEST for figure in (*lying, *(x for goal in done.goals for x in goal))):
-        raise InvalidInput(f"{path} is no account of a job: a block lies farther away than anything")
+        raise BadFile(f"{path} is no account of a job: a block lies farther away than anything")
     return done
 
 

@@ -12,9 +12,8 @@ from handeye.cell.bench import Bench
 from handeye.cell.opengl import context
 from handeye.cell.photograph import Photograph, Photographer
 from handeye.cell.posed import standing
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused, Taken
 from handeye.core.files import check_place, write_over
-from handeye.core.folders import Taken
 from handeye.core.pose import Array
 from handeye.report.page.figures import clock
 from handeye.systems.trig.jobs.benches import TaughtJob
@@ -87,7 +86,7 @@ class JobVideo:
             InvalidInput: the arm has not moved, or the file cannot be written.
         """
         if not self._moments:
-            raise InvalidInput(f"the arm has not moved: {self._path} was not made")
+            raise Refused(f"the arm has not moved: {self._path} was not made")
         most = int(LASTS * RATE) - _HELD
         rows = np.unique(np.linspace(0, len(self._moments) - 1, most).round().astype(int))
         shown = [self._moments[row] for row in rows.tolist()]

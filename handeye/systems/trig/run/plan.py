@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.systems.trig.jobs.benches import TaughtPlan, new_session, read_taught_plan
 from handeye.systems.trig.language.graph import Graph
 from handeye.systems.trig.language.layout import Cell
@@ -84,7 +84,7 @@ def decode(data: bytes, name: str) -> TaughtPlan:
     try:
         listing(plan)
     except InvalidInput as error:
-        raise InvalidInput(f"{name} is not sound: {error}") from None
+        raise BadFile(f"{name} is not sound: {error}") from None
     return plan
 
 
@@ -100,7 +100,7 @@ def imagined(plan: TaughtPlan) -> TrigProgram:
         nonlocal asked
         asked += 1
         if asked > PATIENCE:
-            raise InvalidInput("what is run in it does not end")
+            raise Refused("what is run in it does not end")
         return False
 
     script = Script(plan.script.splitlines(), halted=ask)

@@ -4,7 +4,7 @@ from typing import Final
 
 import msgspec
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, Refused
 from handeye.core.record import Record
 from handeye.execution.undo.done import Undoing
 from handeye.program.system_state import SystemState
@@ -75,7 +75,7 @@ class TaughtState(SystemState, kw_only=True):
         """
         executed = self.executed(plan)
         if undoing.left >= len(executed):
-            raise InvalidInput("there is nothing to undo")
+            raise Refused("there is nothing to undo")
         self.undoing, self.stopped, self.onward, self.obstacle, self.turn = undoing, None, None, None, None
         self.at = executed[-1].step
 
@@ -118,7 +118,7 @@ class TaughtState(SystemState, kw_only=True):
             or self.arm is None
             or not max(map(abs, (*self.arm.told, self.arm.opening))) < _FARTHEST
         ):
-            raise InvalidInput("the state of the run does not fit this program")
+            raise BadFile("the state of the run does not fit this program")
 
     def put_into(self, program: TrigProgram) -> None:
         """Let a program remember what was taken down."""

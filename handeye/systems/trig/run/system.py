@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 
 from handeye.cell.kept import KeptCell
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import BadFile, InvalidInput, Refused
 from handeye.core.mutable_records import put_back
 from handeye.core.pose import Array
 from handeye.core.record import Vector3
@@ -100,7 +100,7 @@ class TaughtSystem(System):
         session = self.job.session
         session.desk = Script((), halted=self._around.halt)
         if [node.id for node in session.program.graph.steps()] != [step.node for step in self._steps]:
-            raise InvalidInput("the script teaches other steps in this world than elsewhere")
+            raise Refused("the script teaches other steps in this world than elsewhere")
         self._look_on()
         session.program.begin()
         self._to(session.program.graph[TOP].sons[0])
@@ -236,7 +236,7 @@ class TaughtSystem(System):
         """
         state = self._state
         if choice == "skip" and state.undoing is not None:
-            raise InvalidInput(
+            raise Refused(
                 "no step is skipped on the way back, where each begins as the last one ends: "
                 "`proceed` has it undone again, `abort` ends the run"
             )
@@ -274,7 +274,7 @@ class TaughtSystem(System):
 
     def restore(self, state: SystemState) -> None:
         if not isinstance(state, TaughtState):
-            raise InvalidInput("what the run remembers is not of a taught program")
+            raise BadFile("what the run remembers is not of a taught program")
         session = self.job.session
         state.check(session.program, len(self._steps))
         put_back(self._state, state)
@@ -309,7 +309,7 @@ class TaughtSystem(System):
         return {}
 
     def set_value(self, what: str, name: str, value: tuple[float, ...]) -> None:
-        raise InvalidInput(f"{what} {name} cannot be set: nothing can be in a taught program")
+        raise Refused(f"{what} {name} cannot be set: nothing can be in a taught program")
 
     # -- inside ---------------------------------------------------------------------------------------
 
@@ -351,7 +351,7 @@ def plan_of(setup: Setup) -> TaughtPlan:
         InvalidInput: another system carries the run out.
     """
     if not isinstance(setup.plan, TaughtPlan):
-        raise InvalidInput(f"this is a run of the system {setup.system}, which nobody has taught")
+        raise Refused(f"this is a run of the system {setup.system}, which nobody has taught")
     return setup.plan
 
 
@@ -363,9 +363,9 @@ def check(setup: Setup) -> None:
     """
     plan, world = plan_of(setup), setup.world
     if setup.task != plan.job:
-        raise InvalidInput(f"the plan is that of {plan.job}, not of {setup.task}")
+        raise Refused(f"the plan is that of {plan.job}, not of {setup.task}")
     if world != WorldSpec(seed=world.seed):
-        raise InvalidInput(f"worlds of taught jobs are drawn by their seed alone, not as {world}")
+        raise Refused(f"worlds of taught jobs are drawn by their seed alone, not as {world}")
 
 
 TAUGHT: Final = SystemKind(

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from handeye.core.errors import InvalidInput
+from handeye.core.errors import Refused
 from handeye.core.pose import Array
 from handeye.core.units import INCH
 from handeye.core.variation import WorldSpec
@@ -40,14 +40,14 @@ def predict(
             done without.
     """
     if "force" in without:
-        raise InvalidInput(
+        raise Refused(
             "the prediction takes motions to end where they should; what comes without force, it cannot tell"
         )
     assembly = Assembly(worlds=Worlds(world, seeds), program=program, without=frozenset(without))
     lacking = [goal for goal in GOALS if goal not in assembly.ways]
     lacking += ["TOP"] if assembly.ways.keys().isdisjoint({"TOP", "TOPUP"}) else []
     if lacking:
-        raise InvalidInput(f"the prediction is of the pump's program; this one never goes to {lacking[0]}")
+        raise Refused(f"the prediction is of the pump's program; this one never goes to {lacking[0]}")
     grasping.grasp(assembly)
     for pin in pins.PINS:
         pins.insert(assembly, pin)
